@@ -1,0 +1,1 @@
+"""Language data: question and answer grammars, lexicon, rewrites."""

@@ -1,0 +1,1 @@
+"""IGP2-style planner: scene history in, PlanTrace and commands out."""

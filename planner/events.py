@@ -1,0 +1,30 @@
+"""What the car did, as it happened: the events beside the traces."""
+
+from typing import Literal
+
+import msgspec
+
+from planner.trace import Action
+
+SCHEMA = "xavi.event/1"
+
+EventKind = Literal[
+    "action-started",  # the ego begins a macro action; `decision` names the trace that chose it
+    "action-committed",  # it can no longer be taken back: the lane change or turn itself begins
+    "action-ended",
+    "gave-way",  # the ego came to wait for `vehicle` at a junction
+    "arrived",  # the goal is reached
+    "collided",  # with `vehicle`
+    "ended",  # the ride is over for another reason (duration)
+]
+
+
+class Event(msgspec.Struct, frozen=True):
+    """One thing that happened to the ego."""
+
+    kind: EventKind
+    sim_time: float  # [s]
+    action: Action | None = None
+    decision: int | None = None  # running number of the trace in which the action was chosen
+    vehicle: int | None = None
+    schema: str = SCHEMA

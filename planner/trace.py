@@ -1,0 +1,228 @@
+"""PlanTrace: the record of one decision, and the planner's only product.
+
+Everything that explanations rest on stands here: what was seen, what was predicted, every
+rollout of the search, and the plan that followed. SI units, radians anticlockwise from east,
+seconds of simulation time. An absent component is null, never NaN. The trace holds no wall
+time; `trace_id` is the hash of its canonical JSON, so equal decisions have equal names.
+"""
+
+import hashlib
+from typing import Literal
+
+import msgspec
+
+from sim.scene import Point, VehicleState
+
+SCHEMA = "xavi.plan_trace/1"
+MAX_BYTES = 256 * 1024
+SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
+
+Action = Literal[
+    "continue",
+    "change-left",
+    "change-right",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "stop",
+]
+Outcome = Literal["done", "collision", "termination", "dead"]
+Component = Literal[
+    "time",  # [s] to the goal
+    "jerk",  # [m/s3] mean absolute value
+    "angular-acceleration",  # [rad/s2] mean absolute value
+    "curvature",  # [1/m] mean absolute value
+]
+HoldUp = Literal["leader", "right-of-way", "cut-in", "blocked"]
+
+ACTIONS: tuple[Action, ...] = (
+    "continue",
+    "change-left",
+    "change-right",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "stop",
+)
+OUTCOMES: tuple[Outcome, ...] = ("done", "collision", "termination", "dead")
+COMPONENTS: tuple[Component, ...] = ("time", "jerk", "angular-acceleration", "curvature")
+UNITS: dict[Component, str] = {
+    "time": "s",
+    "jerk": "m/s3",
+    "angular-acceleration": "rad/s2",
+    "curvature": "1/m",
+}
+
+
+class Settings(msgspec.Struct, frozen=True):
+    """What the planner was told to do; all budgets are counts."""
+
+    rollouts: int = 100  # drawn by the search
+    min_rollouts: int = 16  # for every applicable first action; the missing ones are forced
+    depth: int = 4  # macro actions in a row
+    horizon: float = 30.0  # [s] a rollout that lasts longer terminates
+    period: float = 1.0  # [s] between decisions
+    recognition: bool = True  # False: goals keep their prior
+    rationality: float = 1.0  # beta in p(track | goal) = exp(beta * reward difference)
+    view_radius: float = 100.0  # [m]
+
+
+class EgoGoal(msgspec.Struct, frozen=True):
+    """Where the passenger wants to go."""
+
+    edge: str
+    position: float  # [m] along the edge
+    lane: int | None  # None: any lane counts
+
+
+class Track(msgspec.Struct, frozen=True):
+    """One vehicle as observed, at 5 Hz; all lists have the same length N >= 1."""
+
+    start: float  # [s] time of the first sample
+    position: tuple[Point, ...]  # [m] [N]
+    heading: tuple[float, ...]  # [rad] [N]
+    speed: tuple[float, ...]  # [m/s] [N]
+
+
+class TrajectoryPrediction(msgspec.Struct, frozen=True):
+    """One way in which a vehicle may reach one goal, from the scene on, at 5 Hz."""
+
+    probability: float  # given the goal
+    actions: tuple[Action, ...]
+    path: tuple[Point, ...]  # [m] [N]
+    speed: tuple[float, ...]  # [m/s] [N]
+
+
+class GoalPrediction(msgspec.Struct, frozen=True):
+    """One goal that a vehicle may have."""
+
+    kind: Action  # the macro action that ends at it: exit-right, continue, stop, ...
+    place: str  # in words: "the exit on the right"
+    edge: str | None  # None for stopping
+    prior: float
+    likelihood: float  # of the observed track, relative to the most rational one
+    probability: float
+    trajectories: tuple[TrajectoryPrediction, ...]
+
+
+class VehiclePrediction(msgspec.Struct, frozen=True):
+    """What one vehicle may do; goal probabilities sum to 1."""
+
+    vehicle: int
+    goals: tuple[GoalPrediction, ...]
+
+
+class Sample(msgspec.Struct, frozen=True):
+    """The goal and trajectory drawn for one vehicle, as indices into its prediction."""
+
+    vehicle: int
+    goal: int
+    trajectory: int
+
+
+class TimedAction(msgspec.Struct, frozen=True):
+    """One macro action of the ego in a rollout."""
+
+    action: Action
+    start: float  # [s] simulation time
+
+
+class HeldUp(msgspec.Struct, frozen=True):
+    """A stretch of a rollout in which another vehicle held the ego up."""
+
+    vehicle: int
+    since: float = msgspec.field(name="from")  # [s] simulation time
+    until: float = msgspec.field(name="to")  # [s]
+    how: HoldUp
+    speed_from: float  # [m/s] that vehicle's speed at the start of the stretch
+    speed_to: float  # [m/s] and its lowest speed within it
+
+
+class Rollout(msgspec.Struct, frozen=True):
+    """One simulation of the search.
+
+    A rollout is a function of its actions and samples, so equal ones are recorded once:
+    the later ones carry `same_as`, the index of the first, and null path and speed.
+    """
+
+    index: int
+    forced: bool  # drawn for a first action that the search visited too rarely
+    samples: tuple[Sample, ...]
+    actions: tuple[TimedAction, ...]
+    path: tuple[Point, ...] | None  # [m] [N] of the ego, at 5 Hz
+    speed: tuple[float, ...] | None  # [m/s] [N]
+    same_as: int | None
+    outcome: Outcome
+    components: dict[Component, float | None]  # all null unless the outcome is done
+    reward: float
+    collided_with: int | None
+    held_up: tuple[HeldUp, ...]
+
+
+class NotApplicable(msgspec.Struct, frozen=True):
+    """Why an action could not be taken at a node of the search."""
+
+    node: tuple[Action, ...]  # actions that lead to the node; () is the root
+    action: Action
+    reason: str  # a clause in words: "there is no lane to the left"
+
+
+class PlannedAction(msgspec.Struct, frozen=True):
+    """One macro action of the chosen plan with its value in the search."""
+
+    action: Action
+    value: float  # mean reward of the unforced rollouts through it
+    visits: int  # unforced rollouts through it
+
+
+class PlanTrace(msgspec.Struct, frozen=True):
+    """The record of one decision."""
+
+    schema: str
+    vehicle: str  # the car's id on the bus
+    sim_time: float  # [s]
+    decision: int  # running number
+    seed: int
+    settings: Settings
+    network: str  # hash of the road network
+    goal: EgoGoal
+    under_way: TimedAction | None  # a macro action that must be finished first
+    history: dict[int, Track]
+    scene: dict[int, VehicleState]
+    predictions: tuple[VehiclePrediction, ...]
+    rollouts: tuple[Rollout, ...]
+    not_applicable: tuple[NotApplicable, ...]
+    plan: tuple[PlannedAction, ...]
+
+    @property
+    def trace_id(self) -> str:
+        """16 hex digits of the SHA-256 of the canonical JSON."""
+        return hashlib.sha256(encode(self)).hexdigest()[:16]
+
+
+class TraceError(ValueError):
+    """A PlanTrace that cannot be read or written."""
+
+
+def encode(trace: PlanTrace) -> bytes:
+    """The canonical JSON of a trace: the same trace gives the same bytes."""
+    return msgspec.json.encode(trace, order="deterministic")
+
+
+def decode(data: bytes) -> PlanTrace:
+    """Read a trace from JSON.
+
+    Raises:
+        TraceError: too large, not JSON, not of this schema, or a field is wrong.
+    """
+    if len(data) > MAX_BYTES:
+        raise TraceError(f"trace of {len(data)} bytes; at most {MAX_BYTES} are accepted")
+    try:
+        trace = msgspec.json.decode(data, type=PlanTrace)
+    except (msgspec.ValidationError, msgspec.DecodeError) as error:
+        raise TraceError(f"not a plan trace: {error}") from error
+    if trace.schema != SCHEMA:
+        raise TraceError(f"trace schema is {trace.schema!r}; this version reads {SCHEMA!r}")
+    return trace

@@ -1,0 +1,1 @@
+"""The world: scenes, road network, SUMO and scenario folders."""

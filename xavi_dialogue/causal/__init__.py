@@ -1,0 +1,1 @@
+"""Exact inference over the Bayesian network of one PlanTrace."""

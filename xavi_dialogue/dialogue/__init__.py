@@ -1,0 +1,1 @@
+"""The sans-I/O dialogue manager: events in, events out."""

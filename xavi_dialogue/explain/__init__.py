@@ -1,0 +1,1 @@
+"""Query and recorded traces in; Explanation, NoExplanation or NeedRollout out."""

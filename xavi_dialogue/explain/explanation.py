@@ -1,0 +1,121 @@
+"""The three things that come of a query: Explanation, NoExplanation, NeedRollout.
+
+No text here: `language.realise` puts these values into words.
+"""
+
+from typing import Literal
+
+import msgspec
+
+from planner.trace import Action, Component, HoldUp, Outcome
+from xavi_dialogue.explain.query import Query
+
+Reason = Literal[
+    "not-understood",
+    "ambiguous",
+    "out-of-scope",
+    "not-an-action",
+    "unknown-vehicle",
+    "did-not-happen",
+    "not-applicable",
+    "no-influence",
+    "too-little-evidence",
+    "effect-too-small",
+    "outside-record",
+    "trace-gap",
+    "planner-unavailable",
+    "timed-out",
+    "busy",
+    "planner-failed",
+]
+
+
+class OutcomeEstimate(msgspec.Struct, frozen=True):
+    """The likeliest outcome of the counterfactual (or of the plan, where there is none)."""
+
+    name: Outcome
+    probability: float
+    collided_with: int | None = None  # the likeliest vehicle, where the outcome is collision
+
+
+class Effect(msgspec.Struct, frozen=True):
+    """How a component would differ: counterfactual minus factual, in natural units."""
+
+    component: Component
+    unit: str
+    delta: float
+    low: float  # weighted 5 % point over distinct samples
+    high: float  # weighted 95 % point
+    n: int  # rollouts behind it, both sides
+    n_distinct: int  # distinct samples behind it
+
+
+class Mechanism(msgspec.Struct, frozen=True):
+    """How the vehicle held the ego up in the rollouts of the counterfactual."""
+
+    how: HoldUp | Literal["collision"]
+    speed_from: float | None  # [m/s] its speed when the hold-up began
+    speed_to: float | None  # [m/s] its lowest speed within it
+    delay: float | None  # [s] mean duration of the hold-up
+    share: float  # weight of the rollouts of the counterfactual in which it occurred
+
+
+class Cause(msgspec.Struct, frozen=True):
+    """A vehicle because of which the counterfactual would have turned out so."""
+
+    vehicle: int
+    actions: tuple[Action, ...]  # what it is expected to do
+    probability: float  # that it does so
+    mechanism: Mechanism | None
+    influence: float | None  # [bit] mutual information with the choice of actions
+    decision_changes: bool | None  # planning again without it; None: not tried
+
+
+class Evidence(msgspec.Struct, frozen=True):
+    """What the explanation rests on."""
+
+    method: Literal["tree", "rollouts"]
+    rollouts: int
+    distinct_samples: int
+    traces: tuple[str, ...]  # trace ids
+
+
+class Activity(msgspec.Struct, frozen=True):
+    """What a vehicle is, was or will be doing: the content of answers to "what"."""
+
+    vehicle: int
+    actions: tuple[Action, ...]  # under way or planned, in order
+    probability: float | None  # of a prediction; None where it is known
+    speed: float | None  # [m/s] at the time asked about
+    trend: Literal["slowing", "steady", "speeding-up", "standing"] | None
+
+
+class Explanation(msgspec.Struct, frozen=True, kw_only=True):
+    """A derived answer. The contract's fields first; the rest serve the wording."""
+
+    factual: tuple[Action, ...]
+    counterfactual: tuple[Action, ...]  # () where the question has none
+    outcome: OutcomeEstimate | None
+    effects: tuple[Effect, ...]  # largest first, relative to each component's scale
+    causes: tuple[Cause, ...]  # most important first
+    evidence: Evidence
+    activity: Activity | None = None  # answers to "what"
+    sim_time: float = 0.0  # [s] when the explained decision was taken, or the moment asked about
+    arrival: float | None = None  # [s] expected time to the goal under the factual plan
+
+
+class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
+    """A refusal with the facts behind it."""
+
+    reason: Reason
+    facts: dict[str, str | float | int | bool | tuple[str, ...] | None] = {}
+    suggestions: tuple[Query, ...] = ()  # what could be asked instead
+
+
+class NeedRollout(msgspec.Struct, frozen=True, kw_only=True):
+    """The record lacks this foil: the app plans again from the trace and asks once more."""
+
+    trace_id: str
+    actions: tuple[Action, ...] = ()  # forced for the ego, in order
+    removed: int | None = None  # a vehicle to plan without
+    rollouts: int = 40

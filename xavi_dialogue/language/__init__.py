@@ -1,0 +1,1 @@
+"""Text to Query, and Explanation to text."""

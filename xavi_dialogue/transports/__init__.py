@@ -1,0 +1,1 @@
+"""Shells: Zenoh, terminal, wire formats."""
