@@ -1,0 +1,42 @@
+# `make help` lists the targets. Options of the program go through ARGS:
+#     make chat ARGS="--scenario s2 --seed 3"
+
+PYTHON ?= python3
+ARGS ?=
+BIN := .venv/bin
+
+export PYTHON
+
+.DEFAULT_GOAL := help
+.PHONY: help chat test lint format schema bench clean runtime develop
+
+help: ## show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+
+chat: runtime ## set up if need be, then ride and talk
+	@$(BIN)/xavi chat $(ARGS)
+
+test: lint ## everything that must hold: lint, types, tests
+	@$(BIN)/python -m pytest $(ARGS)
+
+lint: develop ## ruff and mypy
+	@$(BIN)/python -m ruff check
+	@$(BIN)/python -m ruff format --check
+	@$(BIN)/python -m mypy
+
+format: develop ## put the code in its standard form
+	@$(BIN)/python -m ruff check --fix
+	@$(BIN)/python -m ruff format
+
+schema: develop ## write docs/plan_trace.schema.json anew
+	@$(BIN)/python -m xavi_dialogue.transports.schema > docs/plan_trace.schema.json
+
+bench: runtime ## measure; ARGS="dialogue --json" chooses
+	@$(BIN)/xavi bench $(or $(ARGS),plan)
+
+clean: ## remove the environment and every cache
+	rm -rf .venv .setup.lock build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+runtime develop:
+	@sh scripts/setup.sh $@
