@@ -143,8 +143,8 @@ class HeldUp(msgspec.Struct, frozen=True):
 class Rollout(msgspec.Struct, frozen=True):
     """One simulation of the search.
 
-    A rollout is a function of its actions and samples, so equal ones are recorded once:
-    the later ones carry `same_as`, the index of the first, and null path and speed.
+    Many rollouts drive the very same line at the same speeds. It is recorded once: the later
+    ones carry `same_as`, the index of the first, and null path and speed.
     """
 
     index: int
@@ -173,7 +173,7 @@ class PlannedAction(msgspec.Struct, frozen=True):
     """One macro action of the chosen plan with its value in the search."""
 
     action: Action
-    value: float  # mean reward of the unforced rollouts through it
+    value: float  # of the action in the search, forced rollouts apart
     visits: int  # unforced rollouts through it
 
 
@@ -207,8 +207,11 @@ class TraceError(ValueError):
 
 
 def encode(trace: PlanTrace) -> bytes:
-    """The canonical JSON of a trace: the same trace gives the same bytes."""
-    return msgspec.json.encode(trace, order="deterministic")
+    """The canonical JSON of a trace: the same trace gives the same bytes.
+
+    Vehicles stand in increasing order of their names, as in `Scene`.
+    """
+    return msgspec.json.encode(trace)
 
 
 def decode(data: bytes) -> PlanTrace:

@@ -1,0 +1,110 @@
+"""A* over macro actions: how a vehicle would best reach a goal among the others."""
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from planner.actions import Refusal, Situation, expand
+from planner.forward import Motion
+from planner.obstacles import Obstacle
+from planner.rollout import Leg, Task, take
+from planner.trace import ACTIONS, Action
+
+LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
+DEPTH = 3  # macro actions in a row
+SOLUTIONS = 2
+SLACK = 8.0  # [s] by which a further solution may cost more than the best
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solution:
+    """One way to the goal."""
+
+    cost: float  # [s] of time and lane changes, from the start
+    legs: tuple[Leg, ...]
+
+    @property
+    def actions(self) -> tuple[Action, ...]:
+        """The macro actions, in order."""
+        return tuple(leg.action for leg in self.legs)
+
+
+def ways(
+    task: Task, starts: Sequence[Situation], obstacles: Sequence[Obstacle], wanted: int
+) -> list[Solution]:
+    """The cheapest ways to the task's goal, best first.
+
+    Args:
+        task: frame and goal; its size is that of the vehicle.
+        starts: where it may be, one for each lane that fits.
+        obstacles: the others' motions.
+        wanted: how many ways to look for.
+    """
+    frontier: list[tuple[float, int, float, Situation, tuple[Leg, ...]]] = []
+    count = 0
+    for here in starts:
+        heapq.heappush(frontier, (_remaining(task, here), count, 0.0, here, ()))
+        count += 1
+    found: list[Solution] = []
+    while frontier and len(found) < wanted:
+        estimate, _, cost, here, legs = heapq.heappop(frontier)
+        if found and estimate > found[0].cost + SLACK:
+            break
+        if legs and legs[-1].outcome == "done":
+            found.append(Solution(cost, legs))
+            continue
+        for leg in _expand(task, here, legs, obstacles):
+            changes = sum(_lanes_moved(step, starts, k) for k, step in enumerate((*legs, leg)))
+            time = leg.goal_time if leg.goal_time is not None else leg.end.time - task.start
+            so_far = time + LANE_CHANGE_COST * changes
+            ahead = 0.0 if leg.outcome == "done" else _remaining(task, leg.end)
+            count += 1
+            heapq.heappush(frontier, (so_far + ahead, count, so_far, leg.end, (*legs, leg)))
+    return found
+
+
+def _expand(
+    task: Task, here: Situation, legs: tuple[Leg, ...], obstacles: Sequence[Obstacle]
+) -> list[Leg]:
+    if len(legs) >= DEPTH:
+        return []
+    first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
+    moved = {leg.action for leg in legs} & {"change-left", "change-right"}
+    children = []
+    for action in ACTIONS:
+        if action == "stop" or (moved and action.startswith("change") and action not in moved):
+            continue
+        plan = expand(task.roads, here, action, task.goal, task.view)
+        if isinstance(plan, Refusal):
+            continue
+        leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, obstacles)
+        if leg.outcome in (None, "done"):
+            children.append(leg)
+    return children
+
+
+def _lanes_moved(leg: Leg, starts: Sequence[Situation], index: int) -> float:
+    """By how many lane widths a leg moves sideways; the first one starts from where it is."""
+    moved = 1.0 if leg.action in ("change-left", "change-right") else 0.0
+    if index > 0:
+        return moved
+    aside = starts[0].location.lateral / 3.5
+    side = 1.0 if leg.action == "change-left" else -1.0
+    return abs(moved * side - aside)
+
+
+def _remaining(task: Task, here: Situation) -> float:
+    """A lower bound of the time [s] to the goal: the distance at the highest speed limit."""
+    network = task.roads.network
+    lane = network.lanes[here.location.lane]
+    if lane.edge == task.goal.edge:
+        return max(task.goal.position - here.location.offset, 0.0) / lane.speed_limit
+    link = network.link_via(lane.id)
+    edge = lane.edge if link is None else network.lanes[link.to_lane].edge
+    distance = network.distance_to(task.goal.edge).get(edge)
+    if edge == task.goal.edge:
+        distance = 0.0
+    if distance is None:
+        return 1e6
+    rest = max(lane.length - here.location.offset, 0.0)
+    return (rest + distance + task.goal.position) / task.roads.fastest

@@ -1,0 +1,220 @@
+"""One decision: recognise the others, search, and record it all as a PlanTrace."""
+
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.actions import Situation
+from planner.forward import DT
+from planner.recognise import Belief, Trajectory, recognise
+from planner.rollout import Task
+from planner.search import Root, Search, Simulated
+from planner.trace import (
+    SCHEMA,
+    Component,
+    EgoGoal,
+    GoalPrediction,
+    PlanTrace,
+    Rollout,
+    Settings,
+    TimedAction,
+    Track,
+    TrajectoryPrediction,
+    VehiclePrediction,
+)
+from planner.tracks import Observed
+from planner.trajectory import Array, Roads
+from sim.scene import EGO, Point, VehicleState
+
+DIGITS: dict[Component, int] = {
+    "time": 2,
+    "jerk": 4,
+    "angular-acceleration": 5,
+    "curvature": 6,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What stays the same from decision to decision."""
+
+    roads: Roads
+    goal: EgoGoal
+    settings: Settings
+    seed: int
+    vehicle: str  # the car's id on the bus
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """What is new in every decision."""
+
+    number: int
+    time: float  # [s]
+    scene: Mapping[int, VehicleState]
+    history: Mapping[int, Track]
+    root: Root
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Decision:
+    """A decision, with what the driver needs of it beside the record."""
+
+    trace: PlanTrace
+    beliefs: Mapping[int, Sequence[Belief]]
+
+
+def decide(frame: Frame, moment: Moment) -> Decision:
+    """Decide what to do next."""
+    beliefs = predict(frame, moment)
+    search = prepare(frame, moment, beliefs)
+    search.run()
+    return Decision(record(frame, moment, beliefs, search), beliefs)
+
+
+def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
+    """Recognise the goals of all others in view."""
+    tracks = [
+        observed(vehicle, moment.history[vehicle], moment.scene[vehicle])
+        for vehicle in moment.scene
+    ]
+    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO)
+
+
+def prepare(
+    frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], salt: str = ""
+) -> Search:
+    """A search that has not been run yet; `salt` sets its random numbers apart."""
+    ego = moment.scene[EGO]
+    task = Task(
+        frame.roads,
+        frame.goal,
+        (ego.length, ego.width),
+        moment.time,
+        round(frame.settings.horizon / DT),
+        frame.settings.view_radius,
+    )
+    rng = random.Random(f"{frame.seed}/{moment.number}{salt}")
+    return Search(task, moment.root, beliefs, frame.settings, rng)
+
+
+def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
+    """A recorded track, ready for recognition."""
+    return Observed(
+        vehicle,
+        state.length,
+        state.width,
+        np.array(track.position),
+        np.array(track.heading),
+        np.array(track.speed),
+    )
+
+
+def record(
+    frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], search: Search
+) -> PlanTrace:
+    """The trace of a decision."""
+    under_way = moment.root.under_way
+    return PlanTrace(
+        schema=SCHEMA,
+        vehicle=frame.vehicle,
+        sim_time=moment.time,
+        decision=moment.number,
+        seed=frame.seed,
+        settings=frame.settings,
+        network=frame.roads.network.hash,
+        goal=frame.goal,
+        under_way=None if under_way is None else TimedAction(under_way[0].action, moment.time),
+        history=dict(sorted(moment.history.items())),
+        scene=dict(sorted(moment.scene.items())),
+        predictions=tuple(
+            VehiclePrediction(vehicle, tuple(_goal(belief) for belief in known))
+            for vehicle, known in beliefs.items()
+        ),
+        rollouts=rollouts(search.rollouts, moment.time),
+        not_applicable=search.not_applicable(),
+        plan=search.plan(),
+    )
+
+
+def rollouts(simulated: Sequence[Simulated], start: float) -> tuple[Rollout, ...]:
+    """Record rollouts; a line that was driven before is referred to."""
+    seen: dict[tuple[tuple[Point, ...], tuple[float, ...]], int] = {}
+    found = []
+    for index, one in enumerate(simulated):
+        line = _line(one)
+        first = seen.setdefault(line, index)
+        new = first == index
+        found.append(
+            Rollout(
+                index=index,
+                forced=one.forced,
+                samples=one.samples,
+                actions=tuple(
+                    TimedAction(leg.action, round(start + leg.first * DT, 2)) for leg in one.legs
+                ),
+                path=line[0] if new else None,
+                speed=line[1] if new else None,
+                same_as=None if new else first,
+                outcome=one.outcome,
+                components={
+                    name: None if value is None else round(value, DIGITS[name])
+                    for name, value in one.components.items()
+                },
+                reward=one.reward,
+                collided_with=one.legs[-1].collided_with if one.legs else None,
+                held_up=one.held_up,
+            )
+        )
+    return tuple(found)
+
+
+def _line(one: Simulated) -> tuple[tuple[Point, ...], tuple[float, ...]]:
+    if not one.legs:
+        return (), ()
+    position = np.vstack((one.legs[0].position[:1], *(leg.position[1:] for leg in one.legs)))
+    speed = np.concatenate((one.legs[0].speed[:1], *(leg.speed[1:] for leg in one.legs)))
+    return points(position), numbers(speed)
+
+
+def points(position: Array) -> tuple[Point, ...]:
+    """Positions [m] [N, 2] as the trace records them, to the decimetre."""
+    return tuple((x, y) for x, y in np.round(position, 1).tolist())
+
+
+def numbers(values: Array) -> tuple[float, ...]:
+    """Speeds [m/s] [N] as the trace records them."""
+    return tuple(np.round(values, 1).tolist())
+
+
+def _goal(belief: Belief) -> GoalPrediction:
+    target = belief.goal.target
+    return GoalPrediction(
+        kind=belief.goal.kind,
+        place=belief.goal.place,
+        edge=None if target is None else target.edge,
+        prior=round(belief.goal.prior, 6),
+        likelihood=round(belief.likelihood, 6),
+        probability=round(belief.probability, 6),
+        trajectories=tuple(_trajectory(way) for way in belief.trajectories),
+    )
+
+
+def _trajectory(way: Trajectory) -> TrajectoryPrediction:
+    there = ~np.isnan(way.motion.position[:, 0])
+    return TrajectoryPrediction(
+        probability=round(way.probability, 6),
+        actions=way.actions,
+        path=points(way.motion.position[there]),
+        speed=numbers(way.motion.speed[there]),
+    )
+
+
+def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
+    """Where the ego is, from its pose alone; None off the road."""
+    found = roads.network.locate(ego.position, ego.heading)
+    if not found:
+        return None
+    return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, found[0])

@@ -1,0 +1,261 @@
+"""The driver: from scene to command, deciding anew at least once a second.
+
+Pure: scenes in, commands, traces and events out. What it drives is what it planned.
+"""
+
+import math
+from collections import deque
+from dataclasses import dataclass, replace
+
+from planner.actions import STANDING_TIME, ActionPlan, Refusal, Situation, expand
+from planner.decide import Decision, Frame, Moment, decide, observed, root_at
+from planner.events import Event, EventKind
+from planner.forward import DT, GAP_HORIZON, Hindrance, Lane, Motion, accelerate, advance
+from planner.obstacles import occupancy
+from planner.search import Root
+from planner.trace import Action, EgoGoal, PlanTrace, Settings, Track
+from planner.tracks import aligned, coast
+from planner.trajectory import Roads
+from sim.network import Location, Network
+from sim.scene import EGO, Command, Scene, VehicleState
+
+MEMORY = 10.0  # [s] of history
+CAUTION = 0.05  # probability from which a motion of another vehicle must be given way to
+
+
+class DriverError(Exception):
+    """The car cannot be driven on from here."""
+
+
+@dataclass(frozen=True, slots=True)
+class DriveStep:
+    """What comes of one step."""
+
+    command: Command
+    trace: PlanTrace | None
+    events: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Execution:
+    """The macro action that is being driven."""
+
+    plan: ActionPlan
+    lane: Lane
+    motion: Motion
+    decision: int
+    committed: bool = False
+    standing: float = 0.0  # [s]
+
+    @property
+    def over(self) -> bool:
+        if self.plan.stops:
+            return self.standing >= STANDING_TIME
+        return self.motion.arc >= self.plan.end
+
+
+class Driver:
+    """Drives one car to its goal."""
+
+    def __init__(
+        self, network: Network, goal: EgoGoal, settings: Settings, seed: int, vehicle: str = "car"
+    ) -> None:
+        self._frame = Frame(Roads(network), goal, settings, seed, vehicle)
+        self._history: dict[int, deque[tuple[float, VehicleState]]] = {}
+        self._current: _Execution | None = None
+        self._last: Decision | None = None
+        self._decided = -math.inf
+        self._number = 0
+        self._waiting_for: int | None = None
+        self.finished = False
+
+    def step(self, scene: Scene, dt: float) -> DriveStep:
+        """Drive on for one step.
+
+        Args:
+            scene: what is seen now.
+            dt: [s] length of the step.
+
+        Raises:
+            DriverError: the ego is not on any lane.
+        """
+        events: list[Event] = []
+        self._observe(scene)
+        trace = None
+        due = scene.time - self._decided >= self._frame.settings.period - 1e-6
+        if due or self._current is None:
+            trace = self._decide(scene, events)
+        command = self._drive(scene, dt, events)
+        return DriveStep(command, trace, tuple(events))
+
+    def _observe(self, scene: Scene) -> None:
+        gone = [vehicle for vehicle in self._history if vehicle not in scene.vehicles]
+        for vehicle in gone:
+            del self._history[vehicle]
+        for vehicle, state in scene.vehicles.items():
+            seen = self._history.setdefault(vehicle, deque())
+            seen.append((scene.time, _rounded(state)))
+            while seen[0][0] < scene.time - MEMORY - 1e-6:
+                seen.popleft()
+
+    def _tracks(self, time: float) -> dict[int, Track]:
+        """All histories at 5 Hz, the last sample now."""
+        return {vehicle: _resampled(seen, time) for vehicle, seen in self._history.items()}
+
+    def _decide(self, scene: Scene, events: list[Event]) -> PlanTrace:
+        current = self._current
+        committed = current is not None and current.committed
+        under_way = (current.plan, current.motion) if current is not None and committed else None
+        now = {vehicle: seen[-1][1] for vehicle, seen in self._history.items()}
+        moment = Moment(
+            self._number,
+            round(scene.time, 3),
+            now,
+            self._tracks(scene.time),
+            Root(self._situation(scene), under_way),
+        )
+        decision = decide(self._frame, moment)
+        self._last, self._decided = decision, scene.time
+        self._number += 1
+        if not committed:
+            self._adopt(decision, moment, events)
+        return decision.trace
+
+    def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
+        """Take up the first action of the plan, unless it is being driven already."""
+        plan, current = decision.trace.plan, self._current
+        action: Action = plan[0].action if plan else "stop"
+        if current is not None and current.plan.action == action:
+            self._current = replace(current, decision=moment.number)
+            return
+        frame = self._frame
+        expanded = expand(
+            frame.roads, moment.root.here, action, frame.goal, frame.settings.view_radius
+        )
+        if isinstance(expanded, Refusal):
+            raise DriverError(f"no macro action applies at {moment.time:.1f} s: {expanded.reason}")
+        here = moment.root.here
+        motion = Motion(0.0, here.speed, here.acceleration)
+        if current is not None:
+            events.append(_event("action-ended", moment.time, current))
+        self._current = _Execution(expanded, Lane(expanded.path), motion, moment.number)
+        events.append(_event("action-started", moment.time, self._current))
+
+    def _situation(self, scene: Scene) -> Situation:
+        current = self._current
+        if current is None:
+            here = root_at(self._frame.roads, scene.ego, scene.time)
+            if here is None:
+                raise DriverError(f"the ego is on no lane at {scene.time:.1f} s")
+            return here
+        position, heading = current.plan.path.pose(current.motion.arc)
+        lane, begin = current.plan.path.lane_at(current.motion.arc)
+        location = Location(lane, current.motion.arc - begin, 0.0)
+        motion = current.motion
+        return Situation(scene.time, position, heading, motion.speed, motion.acceleration, location)
+
+    def _drive(self, scene: Scene, dt: float, events: list[Event]) -> Command:
+        current = self._current
+        assert current is not None
+        acceleration, hindrance = self._control(current, scene, dt)
+        motion = advance(current.motion, acceleration, dt)
+        standing = current.standing + dt if motion.speed < 0.1 else 0.0
+        current = replace(current, motion=motion, standing=standing)
+        later = scene.time + dt
+        if not current.committed and motion.arc >= current.plan.commit:
+            current = replace(current, committed=True)
+            events.append(_event("action-committed", later, current))
+        self._note_waiting(hindrance, motion, later, current, events)
+        position, heading = current.plan.path.pose(motion.arc)
+        self._current = self._close(current, later, events)
+        return Command(position, heading, motion.speed)
+
+    def _close(self, current: _Execution, time: float, events: list[Event]) -> _Execution | None:
+        goal = current.plan.goal
+        if goal is not None and current.motion.arc >= goal and not self.finished:
+            self.finished = True
+            events.append(_event("action-ended", time, current))
+            events.append(_event("arrived", time, None))
+        elif current.over and not self.finished:
+            events.append(_event("action-ended", time, current))
+            return None
+        return current
+
+    def _control(
+        self, current: _Execution, scene: Scene, dt: float
+    ) -> tuple[float, Hindrance | None]:
+        """Keep behind what is seen, and give way to what is predicted."""
+        ego = scene.ego
+        size, path = (ego.length, ego.width), current.plan.path
+        seen = []
+        for vehicle, state in scene.vehicles.items():
+            if vehicle != EGO:
+                track = observed(vehicle, _resampled(self._history[vehicle], scene.time), state)
+                coasting = coast(self._frame.roads, track, 2, past=False)
+                other = occupancy(path, coasting, size, 0, 2)
+                if not other.follows(current.motion.arc - ego.length / 2.0, 0):
+                    seen.append(other)
+        crossing = []
+        if current.plan.give_ways and self._last is not None:
+            elapsed = round((scene.time - self._last.trace.sim_time) / DT)
+            for beliefs in self._last.beliefs.values():
+                for belief in beliefs:
+                    for way in belief.trajectories:
+                        if belief.probability * way.probability >= CAUTION:
+                            ahead = aligned(way.motion, -elapsed, GAP_HORIZON + 10)
+                            crossing.append(occupancy(path, ahead, size, 0, GAP_HORIZON))
+        return accelerate(
+            current.plan, current.lane, current.motion, 0, seen, ego.length, dt, crossing
+        )
+
+    def _note_waiting(
+        self,
+        hindrance: Hindrance | None,
+        motion: Motion,
+        time: float,
+        current: _Execution,
+        events: list[Event],
+    ) -> None:
+        """Tell once that the ego gives way to a vehicle."""
+        if hindrance is not None and hindrance.how == "right-of-way":
+            if motion.speed < 2.0 and hindrance.vehicle != self._waiting_for:
+                self._waiting_for = hindrance.vehicle
+                events.append(_event("gave-way", time, current, hindrance.vehicle))
+        elif motion.speed > 3.0:
+            self._waiting_for = None
+
+
+def _event(
+    kind: EventKind, time: float, current: _Execution | None, vehicle: int | None = None
+) -> Event:
+    action = None if current is None else current.plan.action
+    decision = None if current is None else current.decision
+    return Event(kind, round(time, 3), action, decision, vehicle)
+
+
+def _rounded(state: VehicleState) -> VehicleState:
+    """The state as traces record it, so that a trace holds all that a decision used."""
+    return replace(
+        state,
+        position=(round(state.position[0], 2), round(state.position[1], 2)),
+        heading=round(state.heading, 4),
+        speed=round(state.speed, 2),
+        acceleration=round(state.acceleration, 2),
+    )
+
+
+def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
+    """A history at 5 Hz, counted back from now."""
+    states: list[VehicleState] = []
+    start, wanted = time, time
+    for moment, state in reversed(seen):
+        if moment <= wanted + 1e-6:
+            states.append(state)
+            start, wanted = moment, wanted - DT
+    states.reverse()
+    return Track(
+        round(start, 3),
+        tuple(state.position for state in states),
+        tuple(state.heading for state in states),
+        tuple(state.speed for state in states),
+    )

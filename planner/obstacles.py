@@ -1,0 +1,152 @@
+"""Other vehicles as moving obstacles, and the stretch of a path that each occupies in time."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.trace import HoldUp
+from planner.trajectory import Array, Path, relative
+
+SIDE_MARGIN = 0.3  # [m] kept free beside the body
+BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
+CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Obstacle:
+    """A vehicle whose motion is given, sampled in the common time base from step 0 on."""
+
+    vehicle: int
+    length: float  # [m]
+    width: float  # [m]
+    position: Array  # [m] [T, 2] front bumper; NaN where it is out of the network
+    heading: Array  # [rad] [T]
+    speed: Array  # [m/s] [T]
+    links: frozenset[tuple[str, int]]  # (junction, link index) that it drives along
+
+
+class Occupancy:
+    """The stretch of one path that one obstacle occupies at each step."""
+
+    def __init__(self, obstacle: Obstacle, low: Array, high: Array, along: Array) -> None:
+        self.vehicle = obstacle.vehicle
+        self._links = obstacle.links
+        self._speed: list[float] = obstacle.speed.tolist()
+        self._along: list[float] = along.tolist()
+        self._low: list[float] = low.tolist()  # NaN where the path is free of it
+        self._high: list[float] = high.tolist()
+        self._entered = _entry(low)
+        wide_low, wide_high = _widen(low, high)
+        self._wide_low: list[float] = wide_low.tolist()
+        self._wide_high: list[float] = wide_high.tolist()
+
+    def _at(self, step: int) -> int:
+        return min(step, len(self._low) - 1)
+
+    def gap(self, arc: float, step: int, length: float) -> float | None:
+        """Distance [m] from a front at `arc` to the obstacle, if it is ahead on the path."""
+        k = self._at(step)
+        low, high = self._low[k], self._high[k]
+        if low != low or 0.5 * (low + high) < arc - 0.5 * length:
+            return None
+        return low - arc
+
+    def follows(self, centre: float, step: int) -> bool:
+        """Whether it is on the path behind a vehicle whose centre is at an arc [m]."""
+        k = self._at(step)
+        return 0.5 * (self._low[k] + self._high[k]) < centre
+
+    def speed(self, step: int) -> float:
+        """Its speed [m/s]."""
+        return self._speed[self._at(step)]
+
+    def speed_along(self, step: int) -> float:
+        """Its speed [m/s] along the path, never negative."""
+        return max(self._along[self._at(step)], 0.0)
+
+    def manner(self, step: int) -> HoldUp:
+        """How it holds up who comes behind."""
+        k = self._at(step)
+        entered = self._entered[k]
+        if entered > 0 and k - entered <= CUT_IN_MEMORY and self._speed[k] > 0.5:
+            return "cut-in"
+        return "blocked" if self._speed[k] <= 0.5 else "leader"
+
+    def goes_first(self, links: frozenset[tuple[str, int]]) -> bool:
+        """Whether it drives along one of the links."""
+        return not self._links.isdisjoint(links)
+
+    def meets(self, low: float, high: float, step: int) -> bool:
+        """Whether it occupies part of a stretch [m], within the safety time around a step."""
+        k = self._at(step)
+        return self._wide_low[k] < high and self._wide_high[k] > low
+
+
+def occupancy(
+    path: Path, obstacle: Obstacle, size: tuple[float, float], first: int, last: int
+) -> Occupancy:
+    """Project an obstacle onto a path.
+
+    Args:
+        path: the line that is driven.
+        obstacle: the other vehicle.
+        size: length and width [m] of the vehicle that drives along the path.
+        first: step from which the occupancy is needed.
+        last: step up to which it is needed.
+    """
+    total = len(obstacle.speed)
+    low, high, along = np.full(total, np.nan), np.full(total, np.nan), np.zeros(total)
+    start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    window = slice(start, stop)
+    x = obstacle.position[window, 0] - 0.5 * obstacle.length * np.cos(obstacle.heading[window])
+    y = obstacle.position[window, 1] - 0.5 * obstacle.length * np.sin(obstacle.heading[window])
+    # Nearest path point: |p - q|^2 without the term that does not depend on the point.
+    squared = np.einsum("ij,ij->i", path.points, path.points)
+    nearest = np.argmin(squared[None, :] - 2.0 * (np.column_stack((x, y)) @ path.points.T), axis=1)
+    centre, aside = relative(path, nearest, x, y)
+    turned = obstacle.heading[window] - path.heading[nearest]
+    cos, sin = np.cos(turned), np.sin(turned)
+    reach = 0.5 * (obstacle.length * np.abs(cos) + obstacle.width * np.abs(sin))
+    half = 0.5 * (obstacle.length * np.abs(sin) + obstacle.width * np.abs(cos))
+    inside = np.abs(aside) < half + 0.5 * size[1] + SIDE_MARGIN
+    beyond = (nearest == len(path.arc) - 1) & (centre > obstacle.length)
+    inside &= ~beyond
+    arc = path.arc[nearest] + centre
+    low[window] = np.where(inside, arc - reach, np.nan)
+    high[window] = np.where(inside, arc + reach, np.nan)
+    along[window] = obstacle.speed[window] * cos
+    return Occupancy(obstacle, low, high, along)
+
+
+def _entry(low: Array) -> list[int]:
+    """For each step, the step at which the obstacle last came onto the path."""
+    entered, result = 0, []
+    for k, free in enumerate(np.isnan(low).tolist()):
+        if free:
+            entered = k + 1
+        result.append(entered)
+    return result
+
+
+def _widen(low: Array, high: Array) -> tuple[Array, Array]:
+    """The union of the occupied stretches within the safety time around each step."""
+    wide_low, wide_high = low.copy(), high.copy()
+    for shift in _shifts():
+        wide_low = np.fmin(wide_low, _shifted(low, shift))
+        wide_high = np.fmax(wide_high, _shifted(high, shift))
+    return wide_low, wide_high
+
+
+def _shifts() -> Iterable[int]:
+    return (shift for shift in range(-BEFORE, AFTER + 1) if shift)
+
+
+def _shifted(values: Array, shift: int) -> Array:
+    """values[k + shift], NaN beyond either end."""
+    result = np.full(len(values), np.nan)
+    if shift > 0:
+        result[:-shift] = values[shift:]
+    else:
+        result[-shift:] = values[:shift]
+    return result

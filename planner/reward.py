@@ -1,0 +1,54 @@
+"""Reward: from a driven trajectory to its components, and from components to one number."""
+
+import numpy as np
+
+from planner.trace import SAMPLE_PERIOD, Component, Outcome
+from planner.trajectory import Array
+
+#: How much one unit of each component costs, in seconds of travelling time.
+WEIGHTS: dict[Component, float] = {
+    "time": 1.0,  # per s
+    "jerk": 1.0,  # per m/s3
+    "angular-acceleration": 20.0,  # per rad/s2
+    "curvature": 200.0,  # per 1/m
+}
+#: What the other outcomes cost, in the same seconds: more than any drive to the goal.
+PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 100.0, "termination": 100.0}
+
+
+def components(
+    time: float, speed: Array, acceleration: Array, curvature: Array
+) -> dict[Component, float | None]:
+    """The components of a trajectory that reached the goal.
+
+    Args:
+        time: [s] from the decision to the goal.
+        speed: [m/s] [N] at 5 Hz.
+        acceleration: [m/s2] [N]
+        curvature: [1/m] [N] of the path at the samples.
+
+    Returns:
+        Time to the goal [s], and the mean absolute jerk [m/s3], angular acceleration [rad/s2]
+        and curvature [1/m] over the trajectory.
+    """
+    if len(speed) < 2:
+        return {"time": time, "jerk": 0.0, "angular-acceleration": 0.0, "curvature": 0.0}
+    turning = speed * curvature
+    return {
+        "time": time,
+        "jerk": float(np.mean(np.abs(np.diff(acceleration)))) / SAMPLE_PERIOD,
+        "angular-acceleration": float(np.mean(np.abs(np.diff(turning)))) / SAMPLE_PERIOD,
+        "curvature": float(np.mean(np.abs(curvature))),
+    }
+
+
+def absent() -> dict[Component, float | None]:
+    """The components of a rollout that did not reach the goal: none is present."""
+    return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
+
+
+def reward(outcome: Outcome, parts: dict[Component, float | None]) -> float:
+    """The reward of a rollout, in (negative) seconds of travelling time."""
+    if outcome != "done":
+        return -PENALTY[outcome]
+    return -sum(WEIGHTS[name] * value for name, value in parts.items() if value is not None)

@@ -1,0 +1,169 @@
+"""Observed tracks, and how they are carried on: history, coasting, driving on."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.actions import ActionPlan, LaneFollow, Situation, onward
+from planner.forward import DT, Motion, drive
+from planner.obstacles import Obstacle
+from planner.trajectory import Array, Path, Roads
+from sim.network import Location
+from sim.scene import Point
+
+ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observed:
+    """One vehicle as seen so far, at 5 Hz, the last sample now."""
+
+    vehicle: int
+    length: float  # [m]
+    width: float  # [m]
+    position: Array  # [m] [N, 2]
+    heading: Array  # [rad] [N]
+    speed: Array  # [m/s] [N]
+
+    @property
+    def elapsed(self) -> int:
+        """Steps from the first sample to now."""
+        return len(self.speed) - 1
+
+    def situation(self, roads: Roads, sample: int, time: float) -> tuple[Situation, ...]:
+        """Where it may have been at a sample: one entry for each lane that fits."""
+        x, y = float(self.position[sample, 0]), float(self.position[sample, 1])
+        heading, speed = float(self.heading[sample]), float(self.speed[sample])
+        return tuple(
+            Situation(time, (x, y), heading, speed, 0.0, location)
+            for location in lanes_at(roads, (x, y), heading)
+        )
+
+
+def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
+    """The lanes that a pose may belong to: the nearest one; inside a junction, its rivals too."""
+    found = roads.network.locate(position, heading)
+    if not found:
+        return ()
+    nearest = found[0]
+    if not roads.network.lanes[nearest.lane].internal:
+        return (nearest,)
+    return tuple(
+        location
+        for location in found
+        if roads.network.lanes[location.lane].internal
+        and abs(location.lateral) <= abs(nearest.lateral) + ON_CENTRELINE
+    )
+
+
+def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
+    """The links, as (junction, index), that a row of lanes drives along."""
+    links = (roads.network.link_via(lane) for lane in lanes)
+    return frozenset((link.junction, link.index) for link in links if link is not None)
+
+
+def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstacle:
+    """The vehicle as an obstacle that goes on along its lane at its present speed.
+
+    Args:
+        roads: the road network.
+        observed: its track.
+        steps: how many steps from now on.
+        past: whether step 0 is the first sample of the track (else it is now).
+    """
+    now = observed.situation(roads, -1, 0.0)
+    speed = float(observed.speed[-1])
+    arcs: Array = speed * DT * np.arange(1, steps + 1, dtype=np.float64)
+    if now:
+        here = now[0]
+        row = onward(roads, (here.location.lane,), here.location.offset + arcs[-1] + 5.0)
+        path = roads.path(row, here.position, here.heading, 12.0, float(arcs[-1]) + 5.0)
+        position, heading = sample_path(path, arcs)
+        links = links_of(roads, row)
+    else:
+        angle = float(observed.heading[-1])
+        position = observed.position[-1] + arcs[:, None] * np.array([np.cos(angle), np.sin(angle)])
+        heading, links = np.full(steps, angle), frozenset()
+    first = 0 if past else observed.elapsed
+    if past:
+        links |= _links_seen(roads, observed)
+    return Obstacle(
+        observed.vehicle,
+        observed.length,
+        observed.width,
+        np.vstack((observed.position[first:], position)),
+        np.concatenate((observed.heading[first:], heading)),
+        np.concatenate((observed.speed[first:], np.full(steps, speed))),
+        links,
+    )
+
+
+def aligned(obstacle: Obstacle, shift: int, steps: int) -> Obstacle:
+    """The obstacle with its track moved by `shift` steps: absent before, cut to 0 ... steps."""
+    total = steps + 1
+
+    def move(values: Array, empty: float) -> Array:
+        moved = np.full((total, *values.shape[1:]), empty)
+        source = values[max(-shift, 0) :][: total - max(shift, 0)]
+        moved[max(shift, 0) : max(shift, 0) + len(source)] = source
+        return moved
+
+    return Obstacle(
+        obstacle.vehicle,
+        obstacle.length,
+        obstacle.width,
+        move(obstacle.position, np.nan),
+        move(obstacle.heading, 0.0),
+        move(obstacle.speed, 0.0),
+        obstacle.links,
+    )
+
+
+def drive_on(
+    roads: Roads,
+    here: Situation,
+    first: int,
+    obstacles: Sequence[Obstacle],
+    size: tuple[float, float],
+    horizon: int,
+) -> tuple[Array, Array, Array, tuple[str, ...]]:
+    """Follow the road until the horizon, or out of the network.
+
+    Returns:
+        Positions [m] [N, 2], headings [rad] [N] and speeds [m/s] [N] after step `first`,
+        NaN where the vehicle has left the network, and the lanes driven.
+    """
+    reach = (horizon - first) * DT * 20.0 + 20.0
+    row = onward(roads, (here.location.lane,), here.location.offset + reach)
+    path = roads.path(row, here.position, here.heading, 12.0, reach)
+    plan = ActionPlan("continue", path, (LaneFollow(0.0, path.length),), path.length, np.inf, None)
+    start = Motion(0.0, here.speed, here.acceleration)
+    driven = drive(plan, start, first, obstacles, size, horizon)
+    arcs = np.array([motion.arc for motion in driven.motions[1:]])
+    speed = np.array([motion.speed for motion in driven.motions[1:]])
+    position, heading = sample_path(path, arcs)
+    missing = horizon - first - len(arcs)
+    position = np.vstack((position, np.full((missing, 2), np.nan)))
+    heading = np.concatenate((heading, np.zeros(missing)))
+    return position, heading, np.concatenate((speed, np.zeros(missing))), row
+
+
+def sample_path(path: Path, arcs: Array) -> tuple[Array, Array]:
+    """Positions [m] [N, 2] and headings [rad] [N] at arcs [m] along a path."""
+    x = np.interp(arcs, path.arc, path.points[:, 0])
+    y = np.interp(arcs, path.arc, path.points[:, 1])
+    return np.column_stack((x, y)), np.interp(arcs, path.arc, path.heading)
+
+
+def _links_seen(roads: Roads, observed: Observed) -> frozenset[tuple[str, int]]:
+    lanes = [
+        location.lane
+        for sample in range(0, len(observed.speed), 5)
+        for location in lanes_at(
+            roads,
+            (float(observed.position[sample, 0]), float(observed.position[sample, 1])),
+            float(observed.heading[sample]),
+        )[:1]
+    ]
+    return links_of(roads, lanes)
