@@ -1,0 +1,123 @@
+"""Compiled road networks: SUMO's netconvert, from the extra `maps`.
+
+Our own networks are written as plain XML (nodes, edges, connections) and shipped compiled;
+`compile_plain` compiles them. `convert_opendrive` reads a map in OpenDRIVE.
+
+    NetconvertError
+    ├── NetconvertMissing    netconvert is not installed
+    └── ConversionFailed     netconvert did not accept its input
+"""
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from xml.sax.saxutils import quoteattr
+
+from platformdirs import user_cache_path
+
+GEOMETRY = (
+    "--no-turnarounds",
+    "--offset.disable-normalization",
+    "--junctions.internal-link-detail",
+    "20",
+)
+
+
+class NetconvertError(Exception):
+    """A network could not be compiled."""
+
+
+class NetconvertMissing(NetconvertError):
+    """netconvert is not installed."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "netconvert is not installed; it comes with the extra `maps`:"
+            " pip install 'xavi-dialogue[maps]'"
+        )
+
+
+class ConversionFailed(NetconvertError):
+    """netconvert did not accept its input."""
+
+
+def compile_plain(folder: Path, name: str, target: Path) -> None:
+    """Compile `<name>.nod.xml`, `.edg.xml` and `.con.xml` of a folder into a SUMO net.
+
+    Raises:
+        NetconvertMissing: netconvert is not installed.
+        ConversionFailed: netconvert did not accept the sources.
+    """
+    sources = {"-n": ".nod.xml", "-e": ".edg.xml", "-x": ".con.xml"}
+    arguments = [part for key, end in sources.items() for part in (key, str(folder / (name + end)))]
+    _run(*arguments, *GEOMETRY, "--junctions.corner-detail", "10", "-o", str(target))
+    # netconvert heads the file with the time and its own paths.
+    net = re.sub(r"<!--.*?-->\n*", "", target.read_text(encoding="utf-8"), flags=re.DOTALL)
+    target.write_text(net, encoding="utf-8")
+
+
+def opendrive_net(source: Path, priority: Mapping[str, int]) -> Path:
+    """The SUMO net of an OpenDRIVE map, converted once and kept in the user's cache.
+
+    Raises:
+        NetconvertMissing: netconvert is not installed.
+        ConversionFailed: netconvert did not accept the map or the priorities.
+    """
+    content = source.read_bytes() + _priorities(priority).encode()
+    name = hashlib.sha256(content).hexdigest()[:16] + ".net.xml"
+    target = user_cache_path("xavi-dialogue", ensure_exists=True) / name
+    if not target.exists():
+        # Renamed into place, so that nobody reads half a net.
+        part = target.with_name(f"{os.getpid()}.{name}")
+        convert_opendrive(source, part, priority)
+        part.replace(target)
+    return target
+
+
+def convert_opendrive(source: Path, target: Path, priority: Mapping[str, int]) -> None:
+    """Convert an OpenDRIVE map into a SUMO net that keeps the map's coordinates.
+
+    Args:
+        source: the .xodr file.
+        target: the .net.xml file to write.
+        priority: edge priorities by the edge's id in the converted net; netconvert ignores
+            those of the map's junctions, and with them goes the right of way.
+
+    Raises:
+        NetconvertMissing: netconvert is not installed.
+        ConversionFailed: netconvert did not accept the map or the priorities.
+    """
+    options = ("--junctions.corner-detail", "20", "--geometry.min-dist", "0.1")
+    resolution = ("--opendrive.curve-resolution", "0.5")
+    with tempfile.TemporaryDirectory() as scratch:
+        raw = Path(scratch) / "raw.net.xml"
+        made = raw if priority else target
+        _run("--opendrive-files", str(source), *GEOMETRY, *options, *resolution, "-o", str(made))
+        if priority:
+            edges = Path(scratch) / "priority.edg.xml"
+            edges.write_text(_priorities(priority), encoding="utf-8")
+            patch = ("-s", str(raw), "-e", str(edges), *GEOMETRY, *options)
+            _run(*patch, "-o", str(target))
+
+
+def _priorities(priority: Mapping[str, int]) -> str:
+    lines = [f"<edge id={quoteattr(edge)} priority='{value}'/>" for edge, value in priority.items()]
+    return "<edges>" + "".join(lines) + "</edges>"
+
+
+def _run(*arguments: str) -> None:
+    beside = Path(sys.executable).parent / "netconvert"
+    program = str(beside) if beside.exists() else shutil.which("netconvert")
+    if program is None:
+        raise NetconvertMissing
+    command = [program, *arguments, "--xml-validation", "never"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        reason = next((x for x in done.stderr.splitlines() if x.startswith("Error")), done.stderr)
+        raise ConversionFailed(f"netconvert failed: {reason.strip()}")

@@ -1,0 +1,132 @@
+"""Route files: which vehicles there are, and where they start.
+
+    RoutesError    the file is not XML, or a vehicle in it lacks what its start needs
+"""
+
+import random
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+from pathlib import Path
+
+VEHICLES = ("vehicle", "trip")
+
+
+class RoutesError(Exception):
+    """A route file cannot be used as it stands."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spawn:
+    """How starts vary with the seed, for vehicles that depart at 0 s."""
+
+    longitudinal: float  # [m] length of the interval, centred on departPos
+    speed: tuple[float, float]  # [m/s] least and greatest
+
+
+@dataclass(frozen=True, slots=True)
+class Departure:
+    """A vehicle or trip of a route file."""
+
+    id: str
+    at_start: bool  # departs at 0 s
+    edges: tuple[str, ...]  # of its route as written; a trip's are its ends
+    position: float | None  # [m] departPos along the first edge, None where not a number
+    coloured: bool  # whether the file says what colour it has
+
+
+def parse(path: Path) -> ET.Element:
+    """The root element of a route file.
+
+    Raises:
+        RoutesError: it cannot be read, or is not an XML file of routes.
+    """
+    try:
+        root = ET.parse(path).getroot()
+    except OSError as error:
+        raise RoutesError(f"cannot be read: {error.strerror}") from error
+    except ET.ParseError as error:
+        raise RoutesError(f"not an XML file: {error}") from error
+    if root.tag != "routes":
+        raise RoutesError(f"its root is <{root.tag}>, not <routes>")
+    return root
+
+
+def departures(root: ET.Element) -> tuple[Departure, ...]:
+    """The vehicles and trips of a route file, in file order.
+
+    Raises:
+        RoutesError: a vehicle has no id.
+    """
+    routes = {route.get("id"): route for route in root.iter("route")}
+    painted = {kind.get("id") for kind in root.iter("vType") if kind.get("color")}
+    found = []
+    for element in _vehicles(root):
+        name = element.get("id")
+        if not name:
+            raise RoutesError(f"a <{element.tag}> has no id")
+        route = element.find("route")
+        if route is None:
+            route = routes.get(element.get("route"))
+        edges = _edges(element) if route is None else _edges(route)
+        coloured = bool(element.get("color")) or element.get("type") in painted
+        place = _number(element.get("departPos"))
+        found.append(Departure(name, _at_start(element), edges, place, coloured))
+    return tuple(found)
+
+
+def mentioned_edges(root: ET.Element) -> dict[str, str]:
+    """Every edge that a route, trip or flow names, with the id of who names it first."""
+    parents = {child: parent for parent in root.iter() for child in parent}
+    found: dict[str, str] = {}
+    for element in root.iter():
+        if element.tag in ("route", "trip", "flow"):
+            owner = element if element.get("id") else parents.get(element, element)
+            for edge in _edges(element):
+                found.setdefault(edge, owner.get("id", "?"))
+    return found
+
+
+def with_spawn(root: ET.Element, spawn: Spawn, seed: int) -> bytes:
+    """A route file in which the starts at 0 s vary: the same seed gives the same file.
+
+    Place and speed are drawn uniformly, vehicle by vehicle in file order. SUMO's insertion
+    checks are off for these vehicles, since they would delay or slow a start.
+
+    Raises:
+        RoutesError: a vehicle that departs at 0 s has no departPos as a number.
+    """
+    copy = ET.fromstring(ET.tostring(root))
+    draw = random.Random(seed)
+    for element in _vehicles(copy):
+        if not _at_start(element):
+            continue
+        base = _number(element.get("departPos"))
+        if base is None:
+            raise RoutesError(f"vehicle {element.get('id')!r} has no departPos in metres")
+        half = spawn.longitudinal / 2.0
+        element.set("departPos", repr(base + draw.uniform(-half, half)))
+        element.set("departSpeed", repr(draw.uniform(*spawn.speed)))
+        element.set("insertionChecks", "none")
+    return ET.tostring(copy, encoding="utf-8", xml_declaration=True)
+
+
+def _vehicles(root: ET.Element) -> list[ET.Element]:
+    return [element for element in root if element.tag in VEHICLES]
+
+
+def _edges(element: ET.Element) -> tuple[str, ...]:
+    if element.tag == "route":
+        return tuple(element.get("edges", "").split())
+    ends = (element.get("from", ""), *element.get("via", "").split(), element.get("to", ""))
+    return tuple(edge for edge in ends if edge)
+
+
+def _at_start(element: ET.Element) -> bool:
+    return _number(element.get("depart")) == 0.0
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        return None if text is None else float(text)
+    except ValueError:
+        return None

@@ -1,0 +1,298 @@
+"""SUMO as the world: the only module that knows libsumo.
+
+SUMO moves the other vehicles; the ego is placed where it is told to be. Collisions are judged
+by oriented boxes, since SUMO overlooks bodies that overlap across a lane boundary.
+
+    SimulationError
+    ├── SumoMissing          libsumo, or a system library that it needs, is not installed
+    ├── SimulationRunning    a second simulation in one process
+    ├── SumoFailed           SUMO refused what it was given
+    └── EgoGone              the ego is not on the road
+"""
+
+import importlib
+import math
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self, TypeVar
+
+from sim import routes
+from sim.boxes import overlap
+from sim.colours import colour_name
+from sim.names import VehicleNames
+from sim.network import angle_between
+from sim.scenario import Scenario
+from sim.scene import EGO, Command, Scene, VehicleState
+
+SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
+LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a duration
+KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
+FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
+SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
+
+_KINDS = {
+    "truck": "truck",
+    "trailer": "truck",
+    "delivery": "truck",
+    "bus": "bus",
+    "coach": "bus",
+    "motorcycle": "motorcycle",
+    "moped": "motorcycle",
+    "bicycle": "bicycle",
+}
+_SIGNALS = ((0b0101, "right"), (0b0110, "left"), (0b1000, "brake"))  # hazard lights are 0b0100
+
+_running = False  # libsumo is one per process: a second start would silently replace the first
+
+Value = TypeVar("Value")
+
+
+class SimulationError(Exception):
+    """The simulation cannot start or go on."""
+
+
+class SumoMissing(SimulationError):
+    """libsumo, or a system library that it needs, is not installed."""
+
+
+class SimulationRunning(SimulationError):
+    """A second simulation in one process."""
+
+    def __init__(self) -> None:
+        super().__init__("a simulation runs in this process already; close it or use another one")
+
+
+class SumoFailed(SimulationError):
+    """SUMO refused what it was given."""
+
+
+class EgoGone(SimulationError):
+    """The ego is not on the road."""
+
+
+class Simulation:
+    """A running scenario; close it, or use it in a `with` statement.
+
+    The first scene, at 0 s, shows the vehicles where they start. A vehicle keeps its name for
+    the whole ride.
+    """
+
+    def __init__(self, scenario: Scenario, seed: int) -> None:
+        """Start SUMO.
+
+        Args:
+            scenario: what to run.
+            seed: of the starts that vary and of SUMO itself.
+
+        Raises:
+            SumoMissing: libsumo or a system library is not installed.
+            SimulationRunning: this process has a simulation already.
+            SumoFailed: SUMO does not accept the scenario.
+            EgoGone: SUMO did not put the ego on the road.
+        """
+        global _running
+        if _running:
+            raise SimulationRunning
+        self._sumo = _libsumo()
+        self._scenario = scenario
+        self._scratch = tempfile.TemporaryDirectory(prefix="xavi-")
+        self._steps = 0
+        known = routes.departures(routes.parse(scenario.routes))
+        self._names = VehicleNames(scenario.ego, (departure.id for departure in known))
+        self._coloured = frozenset(departure.id for departure in known if departure.coloured)
+        self._commanded = False
+        _running = self._open = True
+        try:
+            self._call(self._sumo.start, self._arguments(seed))
+            self._call(self._sumo.simulationStep)
+            self._scene = self._look(None)
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the simulation; closing twice does nothing."""
+        global _running
+        if self._open:
+            self._sumo.close()
+            self._scratch.cleanup()
+            _running = self._open = False
+
+    @property
+    def time(self) -> float:
+        """Simulation time [s] since the start."""
+        return round(self._steps * self._scenario.step, 9)
+
+    def scene(self) -> Scene:
+        """Every vehicle within the scenario's view radius of the ego, now."""
+        return self._scene
+
+    def step(self, command: Command | None) -> Scene:
+        """Advance by one step of the scenario.
+
+        Args:
+            command: the ego's pose at the end of the step; None leaves it to SUMO.
+
+        Returns:
+            The scene after the step.
+
+        Raises:
+            SumoFailed: SUMO cannot go on.
+            EgoGone: the ego has left the road network.
+        """
+        before = self._scene.ego
+        if command is None:
+            self._release()
+        else:
+            self._place(command)
+        self._call(self._sumo.simulationStep)
+        self._steps += 1
+        acceleration = None
+        if command is not None:
+            acceleration = (command.speed - before.speed) / self._scenario.step
+        self._scene = self._look(acceleration)
+        return self._scene
+
+    def collisions(self) -> tuple[int, ...]:
+        """The vehicles in view whose box overlaps the ego's now, by name."""
+        ego = self._scene.ego
+        others = self._scene.vehicles.items()
+        return tuple(name for name, state in others if name != EGO and overlap(ego, state))
+
+    def sumo_collisions(self) -> tuple[int, ...]:
+        """The vehicles that SUMO itself finds in collision with the ego: a cross-check."""
+        pairs = [
+            (hit.collider, hit.victim)
+            for hit in self._call(self._sumo.simulation.getCollisions)
+            if self._scenario.ego in (hit.collider, hit.victim)
+        ]
+        others = {b if a == self._scenario.ego else a for a, b in pairs}
+        return tuple(sorted(self._names.of(other) for other in others))
+
+    def _arguments(self, seed: int) -> list[str]:
+        scenario = self._scenario
+        options = {
+            "--net-file": str(scenario.network),
+            "--route-files": str(self._routes(seed)),
+            "--step-length": repr(scenario.step),
+            "--seed": str(seed),
+            "--lanechange.duration": repr(LANE_CHANGE),
+            "--collision.action": "warn",
+            "--collision.check-junctions": "true",
+            "--collision.mingap-factor": "0",
+            "--time-to-teleport": "-1",
+            "--xml-validation": "never",
+            "--xml-validation.net": "never",
+            "--xml-validation.routes": "never",
+            "--no-step-log": "true",
+            "--no-warnings": "true",
+            "--duration-log.disable": "true",
+        }
+        return ["sumo", *(part for option in options.items() for part in option)]
+
+    def _routes(self, seed: int) -> Path:
+        """The route file, with the starts of this seed."""
+        if self._scenario.spawn is None:
+            return self._scenario.routes
+        root = routes.parse(self._scenario.routes)
+        path = Path(self._scratch.name) / "spawned.rou.xml"
+        path.write_bytes(routes.with_spawn(root, self._scenario.spawn, seed))
+        return path
+
+    def _place(self, command: Command) -> None:
+        """Put the ego at a pose for the end of the coming step."""
+        vehicle, ego = self._sumo.vehicle, self._scenario.ego
+        if not self._commanded:
+            self._call(vehicle.setSpeedMode, ego, FREE_SPEED)
+            self._call(vehicle.setLaneChangeMode, ego, FREE_LANES)
+            self._commanded = True
+        (x, y), angle = command.position, 90.0 - math.degrees(command.heading)
+        self._call(vehicle.setPreviousSpeed, ego, command.speed)
+        self._call(vehicle.moveToXY, ego, "", -1, x, y, angle, KEEP_EXACT_PLACE)
+        self._call(vehicle.setSpeed, ego, command.speed)
+
+    def _release(self) -> None:
+        """Give the ego back to SUMO after commands."""
+        if self._commanded:
+            vehicle, ego = self._sumo.vehicle, self._scenario.ego
+            self._call(vehicle.setSpeedMode, ego, SUMO_SPEED)
+            self._call(vehicle.setLaneChangeMode, ego, SUMO_LANES)
+            self._call(vehicle.setSpeed, ego, -1.0)
+            self._commanded = False
+
+    def _look(self, ego_acceleration: float | None) -> Scene:
+        ids: tuple[str, ...] = self._call(self._sumo.vehicle.getIDList)
+        if self._scenario.ego not in ids:
+            raise EgoGone(
+                f"the ego {self._scenario.ego!r} is not on the road at {self.time:g} s:"
+                " its route has ended, or its start was blocked"
+            )
+        states = {vehicle: self._state(vehicle) for vehicle in ids}
+        ego = states[self._scenario.ego]
+        if ego_acceleration is not None:
+            ego = replace(ego, acceleration=ego_acceleration)
+            states[self._scenario.ego] = ego
+        radius = self._scenario.view_radius
+        seen = [x for x in ids if math.dist(states[x].position, ego.position) <= radius]
+        named = {self._names.of(x): states[x] for x in self._names.in_order(seen)}
+        return Scene(self.time, dict(sorted(named.items())))
+
+    def _state(self, vehicle: str) -> VehicleState:
+        api = self._sumo.vehicle
+        lights = self._call(api.getSignals, vehicle)
+        heading = math.radians(90.0 - self._call(api.getAngle, vehicle))
+        return VehicleState(
+            position=self._call(api.getPosition, vehicle),
+            heading=angle_between(heading, 0.0),
+            speed=max(0.0, self._call(api.getSpeed, vehicle)),
+            acceleration=self._call(api.getAcceleration, vehicle),
+            length=self._call(api.getLength, vehicle),
+            width=self._call(api.getWidth, vehicle),
+            kind=_KINDS.get(self._call(api.getVehicleClass, vehicle), "car"),
+            colour=self._colour(vehicle),
+            signals=tuple(light for bits, light in _SIGNALS if lights & bits),
+        )
+
+    def _colour(self, vehicle: str) -> str | None:
+        """SUMO paints a vehicle yellow where nobody said how: then its colour is unknown."""
+        if vehicle not in self._coloured:
+            return None
+        return colour_name(*self._call(self._sumo.vehicle.getColor, vehicle)[:3])
+
+    def _call(self, function: Callable[..., Value], *arguments: Any) -> Value:
+        """Call libsumo; its errors become ours."""
+        try:
+            return function(*arguments)
+        except (self._sumo.TraCIException, self._sumo.FatalTraCIError, RuntimeError) as error:
+            reason = str(error) or type(error).__name__
+            raise SumoFailed(f"SUMO at {self.time:g} s: {reason}") from error
+
+
+def _libsumo() -> Any:
+    """The libsumo module, untyped by its makers.
+
+    Raises:
+        SumoMissing: it, or a system library that it needs, is not installed.
+    """
+    try:
+        return importlib.import_module("libsumo")
+    except ModuleNotFoundError as error:
+        raise SumoMissing("libsumo is not installed; run: pip install libsumo") from error
+    except ImportError as error:
+        raise SumoMissing(
+            f"SUMO lacks a system library ({error}); run: apt-get install -y {SYSTEM_LIBRARIES}"
+        ) from error
