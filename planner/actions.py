@@ -7,6 +7,7 @@ why it does not apply there.
 import math
 from dataclasses import dataclass
 
+from planner.routes import Refusal, link_ahead, onward, straight_on
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Path, Roads
 from sim.network import Direction, Link, Location
@@ -17,6 +18,7 @@ LANE_CHANGE_LENGTH = (15.0, 50.0)  # [m] shortest and longest
 STRAIGHTEN = 12.0  # [m] in which a vehicle off its centreline gets back to it
 AHEAD = 80.0  # [m] of path beyond the end of an action, to see leaders and bends
 FAR = 400.0  # [m] beyond which no action reaches
+CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 STANDING_TIME = 3.0  # [s] that Stop stays at a standstill
 
 
@@ -104,13 +106,6 @@ class ActionPlan:
         return any(isinstance(m, LaneChange) for m in self.manoeuvres)
 
 
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """Why an action does not apply: a clause in words."""
-
-    reason: str
-
-
 DIRECTIONS: dict[Action, Direction] = {
     "exit-left": "left",
     "exit-right": "right",
@@ -177,7 +172,7 @@ def _change(
 def _exit(
     roads: Roads, here: Situation, action: Action, goal: EgoGoal | None, view: float
 ) -> ActionPlan | Refusal:
-    link = _link_ahead(roads, here.location, DIRECTIONS[action], view)
+    link = link_ahead(roads, here.location, DIRECTIONS[action], view)
     if isinstance(link, Refusal):
         return link
     if action == "exit-straight" and not link.yields_to:
@@ -200,7 +195,7 @@ def exit_by(
     manoeuvres: list[Manoeuvre] = [] if inside >= 0 else [LaneFollow(0.0, enter)]
     manoeuvres += _give_way(link, inside, begins, enter)
     manoeuvres.append(Turn(enter, out, link.direction))
-    return _finish(roads, action, path, tuple(manoeuvres), out + 2.0, enter, goal)
+    return _finish(roads, action, path, tuple(manoeuvres), out + CLEAR, enter, goal)
 
 
 def _continue(
@@ -216,7 +211,7 @@ def _continue(
     seen = sum(network.lanes[name].length for name in lanes) - here.location.offset
     blocked: str | None = None
     while seen < FAR and not (goal and network.lanes[lanes[-1]].edge == goal.edge):
-        onwards = _straight(roads, lanes[-1])
+        onwards = straight_on(roads, lanes[-1])
         if isinstance(onwards, Refusal):
             blocked = onwards.reason if network.links_from(lanes[-1]) else None
             break
@@ -271,54 +266,6 @@ def _give_way(link: Link, inside: int, begins: dict[str, float], enter: float) -
         line = enter
     foes = frozenset((link.junction, index) for index in link.yields_to)
     return [GiveWay(max(line - 0.5, 0.0), link, foes)]
-
-
-def _straight(roads: Roads, lane: str) -> Link | Refusal:
-    """The link straight on that needs no giving way."""
-    straight = [link for link in roads.network.links_from(lane) if link.direction == "straight"]
-    if not straight:
-        return Refusal("the lane does not lead straight on")
-    if straight[0].yields_to:
-        return Refusal("a junction comes first, where it has to give way")
-    return straight[0]
-
-
-def _link_ahead(roads: Roads, here: Location, direction: Direction, view: float) -> Link | Refusal:
-    network = roads.network
-    lane = network.lanes[here.lane]
-    inside = network.link_via(here.lane)
-    if inside is not None:
-        return (
-            inside
-            if inside.direction == direction
-            else Refusal("it is already inside the junction")
-        )
-    words = "straight on" if direction == "straight" else f"to the {direction}"
-    if lane.length - here.offset > view or not network.links_from(here.lane):
-        return Refusal("there is no junction in view ahead")
-    for link in network.links_from(here.lane):
-        if link.direction == direction:
-            return link
-    elsewhere = any(
-        link.direction == direction
-        for other in network.edge_lanes(lane.edge)
-        for link in network.links_from(other.id)
-    )
-    return Refusal(f"its lane does not lead {words}" if elsewhere else f"there is no road {words}")
-
-
-def onward(roads: Roads, lanes: tuple[str, ...], reach: float) -> tuple[str, ...]:
-    """Extend connected lanes, straight on where that is possible, to `reach` [m] in all."""
-    network, row = roads.network, list(lanes)
-    total = sum(network.lanes[lane].length for lane in row)
-    while total < reach:
-        links = network.links_from(row[-1])
-        if not links:
-            break
-        link = next((link for link in links if link.direction == "straight"), links[0])
-        row += [*link.via, link.to_lane]
-        total += sum(network.lanes[lane].length for lane in row[-1 - len(link.via) :])
-    return tuple(row)
 
 
 def _along(roads: Roads, here: Situation, lanes: tuple[str, ...], reach: float) -> Path:

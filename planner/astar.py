@@ -4,7 +4,7 @@ import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from planner.actions import Refusal, Situation, expand
+from planner.actions import Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Obstacle
 from planner.rollout import Leg, Task, take

@@ -139,11 +139,11 @@ def record(
     )
 
 
-def rollouts(simulated: Sequence[Simulated], start: float) -> tuple[Rollout, ...]:
-    """Record rollouts; a line that was driven before is referred to."""
+def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:
+    """Record rollouts from index `offset` on; a line that was driven before is referred to."""
     seen: dict[tuple[tuple[Point, ...], tuple[float, ...]], int] = {}
     found = []
-    for index, one in enumerate(simulated):
+    for index, one in enumerate(simulated, offset):
         line = _line(one)
         first = seen.setdefault(line, index)
         new = first == index

@@ -7,7 +7,7 @@ import math
 from collections import deque
 from dataclasses import dataclass, replace
 
-from planner.actions import STANDING_TIME, ActionPlan, Refusal, Situation, expand
+from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.decide import Decision, Frame, Moment, decide, observed, root_at
 from planner.events import Event, EventKind
 from planner.forward import DT, GAP_HORIZON, Hindrance, Lane, Motion, accelerate, advance
@@ -144,15 +144,16 @@ class Driver:
     def _situation(self, scene: Scene) -> Situation:
         current = self._current
         if current is None:
-            here = root_at(self._frame.roads, scene.ego, scene.time)
+            here = root_at(self._frame.roads, self._history[EGO][-1][1], scene.time)
             if here is None:
                 raise DriverError(f"the ego is on no lane at {scene.time:.1f} s")
             return here
-        position, heading = current.plan.path.pose(current.motion.arc)
         lane, begin = current.plan.path.lane_at(current.motion.arc)
         location = Location(lane, current.motion.arc - begin, 0.0)
-        motion = current.motion
-        return Situation(scene.time, position, heading, motion.speed, motion.acceleration, location)
+        ego = self._history[EGO][-1][1]  # as the trace records it
+        return Situation(
+            scene.time, ego.position, ego.heading, ego.speed, ego.acceleration, location
+        )
 
     def _drive(self, scene: Scene, dt: float, events: list[Event]) -> Command:
         current = self._current

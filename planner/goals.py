@@ -8,8 +8,8 @@ from planner.trace import Action, EgoGoal
 from planner.trajectory import Roads
 from sim.network import Link
 
-BEYOND = 5.0  # [m] into its exit that a vehicle has reached its goal
-STOP_PRIOR = 0.05  # of stopping; the exits share the rest equally
+BEYOND = 4.0  # [m] into its exit that a vehicle has reached its goal
+STOP_PRIOR = 0.02  # of stopping; the exits share the rest equally
 
 
 @dataclass(frozen=True, slots=True)

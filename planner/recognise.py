@@ -2,7 +2,8 @@
 
 A goal is the more probable, the less the observed track costs in excess of the best way to it:
 p(goal | track) ~ p(goal) exp(-beta (cost of the track and the best way on - cost of the best way
-from its start)), as in IGP2 (Albrecht et al. 2021, Equations 6 and 7). Costs are seconds.
+from its start)), as in IGP2 (Albrecht et al. 2021, Equations 6 and 7). Costs are seconds. A small
+share of drivers is taken to drive for reasons that we do not see, whatever their goal.
 """
 
 import math
@@ -11,17 +12,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from planner.actions import ActionPlan, Situation, Stop, onward
+from planner.actions import ActionPlan, Situation, Stop
 from planner.astar import LANE_CHANGE_COST, SOLUTIONS, Solution, ways
 from planner.forward import ACCELERATION, COMFORT, DT, Motion, drive
 from planner.goals import Goal, goals_in_view, stopping_time
 from planner.obstacles import Obstacle
 from planner.rollout import Task
+from planner.routes import onward
 from planner.trace import Action, EgoGoal, Settings
 from planner.tracks import Observed, aligned, coast, drive_on, links_of, sample_path
 from planner.trajectory import Roads
 
 NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped
+UNEXPLAINED = 0.03  # share of drivers whose track says nothing of their goal
 NO_WAY = 30.0  # [s] in excess for a goal to which no way is found any more
 CLUTCH = 0.3  # [m] of sideways movement that is not taken for one
 
@@ -86,7 +89,7 @@ def _beliefs(
     goals = goals_in_view(roads, starts, settings.view_radius)
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
-    frame = Task(roads, nowhere, size, time, steps, settings.view_radius)
+    frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True)
     now = [coast(roads, track, steps, past=False) for track in others]
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
     likelihood = _likelihoods(frame, observed, goals, onwards, others, settings)
@@ -125,7 +128,9 @@ def _likelihoods(
     ]
     best = min(excess)
     return [
-        math.exp(-settings.rationality * (e - best)) if onward else 0.0
+        (1.0 - UNEXPLAINED) * math.exp(-settings.rationality * (e - best)) + UNEXPLAINED
+        if onward
+        else 0.0
         for e, onward in zip(excess, onwards, strict=True)
     ]
 
@@ -138,7 +143,7 @@ def _ways_on(
     others: Sequence[Obstacle],
 ) -> list[_Way]:
     if goal.target is None:
-        return [_stopping(frame, starts[0], observed, others)]
+        return _stopping(frame, starts[0], observed, others)
     task = replace(frame, goal=goal.target)
     solutions = ways(task, starts, others, SOLUTIONS)
     return [
@@ -168,13 +173,17 @@ def _motion(
     )
 
 
-def _stopping(frame: Task, here: Situation, observed: Observed, others: Sequence[Obstacle]) -> _Way:
-    """Braking to a standstill and staying there."""
+def _stopping(
+    frame: Task, here: Situation, observed: Observed, others: Sequence[Obstacle]
+) -> list[_Way]:
+    """Braking to a standstill and staying there; nobody means to stay inside a junction."""
     row = onward(frame.roads, (here.location.lane,), here.location.offset + 100.0)
     path = frame.roads.path(row, here.position, here.heading, 12.0, 100.0)
     plan = ActionPlan("stop", path, (Stop(0.0),), path.length, math.inf, None)
     driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
     arcs = np.array([motion.arc for motion in driven.motions])
+    if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:
+        return []
     speed = np.array([motion.speed for motion in driven.motions])
     position, heading = sample_path(path, arcs)
     rest = frame.horizon + 1 - len(arcs)
@@ -187,7 +196,7 @@ def _stopping(frame: Task, here: Situation, observed: Observed, others: Sequence
         np.concatenate((speed, np.zeros(rest))),
         links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
     )
-    return _Way(here.speed / COMFORT, ("stop",), motion)
+    return [_Way(here.speed / COMFORT, ("stop",), motion)]
 
 
 def _excess(

@@ -5,12 +5,14 @@ import numpy as np
 from planner.trace import SAMPLE_PERIOD, Component, Outcome
 from planner.trajectory import Array
 
-#: How much one unit of each component costs, in seconds of travelling time.
+#: What a drive costs, in seconds of travelling time: time as it is, and for each of the others
+#: the seconds per unit of its total over the drive (mean absolute value x time). With totals,
+#: waiting does not make a turn any smoother.
 WEIGHTS: dict[Component, float] = {
     "time": 1.0,  # per s
-    "jerk": 1.0,  # per m/s3
-    "angular-acceleration": 20.0,  # per rad/s2
-    "curvature": 200.0,  # per 1/m
+    "jerk": 0.05,  # per m/s2
+    "angular-acceleration": 3.0,  # per rad/s
+    "curvature": 15.0,  # per s/m
 }
 #: What the other outcomes cost, in the same seconds: more than any drive to the goal.
 PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 100.0, "termination": 100.0}
@@ -49,6 +51,8 @@ def absent() -> dict[Component, float | None]:
 
 def reward(outcome: Outcome, parts: dict[Component, float | None]) -> float:
     """The reward of a rollout, in (negative) seconds of travelling time."""
-    if outcome != "done":
-        return -PENALTY[outcome]
-    return -sum(WEIGHTS[name] * value for name, value in parts.items() if value is not None)
+    time = parts["time"]
+    if outcome == "done" and time is not None:
+        comfort = (WEIGHTS[name] * (parts[name] or 0.0) for name in parts if name != "time")
+        return -time * (WEIGHTS["time"] + sum(comfort))
+    return -PENALTY[outcome]

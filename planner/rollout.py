@@ -29,6 +29,7 @@ class Task:
     start: float  # [s] simulation time of step 0
     horizon: int  # last step
     view: float  # [m]
+    yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -119,29 +120,29 @@ def _collision(
         where, turned = other.position[window], other.heading[window]
         size = (other.length, other.width)
         sample = first_overlap(position[:count], heading[:count], task.size, where, turned, size)
-        if sample is None:
-            sample = _cut_off(task, plan, driven, position, heading, other)
-        elif not plan.changes_lane and _behind(position[sample], heading[sample], where[sample]):
-            continue
+        careless = plan.changes_lane and not task.yielding
+        if sample is None and careless:
+            sample = _cut_off(task, driven, position, heading, other)
+        elif sample is not None and not careless:
+            sample = _unless_behind(sample, position, heading, where)
         if sample is not None:
             hits.append((sample, other.vehicle))
     return min(hits, default=None)
 
 
-def _behind(position: Array, heading: float, other: Array) -> bool:
-    """Whether another front is behind the middle of the ego: it ran into us from behind."""
-    ahead = (other[0] - position[0]) * math.cos(heading) + (other[1] - position[1]) * math.sin(
-        heading
-    )
-    return bool(ahead < -1.0)
+def _unless_behind(sample: int, position: Array, heading: Array, other: Array) -> int | None:
+    """The sample of an overlap, unless the other ran into us from behind."""
+    offset = other[sample] - position[sample]
+    ahead = offset[0] * math.cos(heading[sample]) + offset[1] * math.sin(heading[sample])
+    return None if ahead < -1.0 else sample
 
 
 def _cut_off(
-    task: Task, plan: ActionPlan, driven: Drive, position: Array, heading: Array, other: Obstacle
+    task: Task, driven: Drive, position: Array, heading: Array, other: Obstacle
 ) -> int | None:
     """The last sample of a lane change that ends right before a faster follower."""
     step = driven.first + len(position) - 1
-    if not plan.changes_lane or step >= len(other.speed):
+    if step >= len(other.speed):
         return None
     offset = other.position[step] - position[-1]
     cos, sin = math.cos(heading[-1]), math.sin(heading[-1])

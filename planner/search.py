@@ -7,11 +7,12 @@ import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from planner.actions import ActionPlan, Refusal, Situation, expand
+from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.recognise import Belief
 from planner.reward import reward
 from planner.rollout import Leg, Task, held_up, summarise, take
+from planner.routes import Refusal
 from planner.trace import (
     ACTIONS,
     Action,
@@ -74,7 +75,7 @@ class Search:
     def run(self) -> None:
         """Draw the rollouts of the search, then those that rarely tried first actions lack."""
         for _ in range(self.settings.rollouts):
-            self.rollouts.append(self._roll(self.tree, (), forced=False))
+            self._roll(self.tree, (), forced=False)
         known = self.tree.edges.get((), {})
         visits = {action: edge.visits for action, edge in known.items()}
         for action in ACTIONS:
@@ -82,10 +83,13 @@ class Search:
                 self.force((action,), self.settings.min_rollouts - visits[action])
 
     def force(self, actions: Node, count: int) -> None:
-        """Draw rollouts that begin with given actions, without teaching the search."""
+        """Draw rollouts that begin with given actions, without teaching the search.
+
+        Where one of the actions does not apply, the rollout is dropped and the reason kept.
+        """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
-            self.rollouts.append(self._roll(apart, actions, forced=True))
+            self._roll(apart, actions, forced=True)
 
     def plan(self) -> tuple[PlannedAction, ...]:
         """The chosen macro actions."""
@@ -101,7 +105,7 @@ class Search:
             NotApplicable(node, action, reason) for (node, action), reason in self.refusals.items()
         )
 
-    def _roll(self, tree: Tree, forced_actions: Node, *, forced: bool) -> Simulated:
+    def _roll(self, tree: Tree, forced_actions: Node, *, forced: bool) -> None:
         samples = self._sample()
         legs: list[Leg] = []
         outcome: Outcome | None = None
@@ -111,9 +115,11 @@ class Search:
                 outcome = "termination"
                 break
             options = self._options(samples, node, legs)
-            depth = len(legs)
-            if depth < len(forced_actions):
-                options = {a: leg for a, leg in options.items() if a == forced_actions[depth]}
+            if len(node) < len(forced_actions):
+                wanted = forced_actions[len(node)]
+                if wanted not in options:
+                    return
+                options = {wanted: options[wanted]}
             if not options:
                 outcome = "dead"
                 break
@@ -124,7 +130,9 @@ class Search:
         gained = round(reward(outcome, parts), 3)
         tree.back_up(tuple(leg.action for leg in legs), gained)
         stretches = held_up(legs, self.task.start)
-        return Simulated(forced, samples, tuple(legs), outcome, parts, gained, stretches)
+        self.rollouts.append(
+            Simulated(forced, samples, tuple(legs), outcome, parts, gained, stretches)
+        )
 
     def _sample(self) -> tuple[Sample, ...]:
         """Draw a goal and a trajectory for every other vehicle."""

@@ -5,13 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.actions import ActionPlan, LaneFollow, Situation, onward
+from planner.actions import ActionPlan, LaneFollow, Situation
 from planner.forward import DT, Motion, drive
 from planner.obstacles import Obstacle
+from planner.routes import onward
 from planner.trajectory import Array, Path, Roads
 from sim.network import Location
 from sim.scene import Point
 
+AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
 
 
@@ -47,8 +49,10 @@ def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, .
     if not found:
         return ()
     nearest = found[0]
-    if not roads.network.lanes[nearest.lane].internal:
-        return (nearest,)
+    for location in found:  # a vehicle at a waiting line is still before the junction
+        outside = not roads.network.lanes[location.lane].internal
+        if outside and abs(location.lateral) <= abs(nearest.lateral) + AT_LINE:
+            return (location,)
     return tuple(
         location
         for location in found
