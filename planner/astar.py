@@ -8,6 +8,7 @@ from planner.actions import Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Obstacle
 from planner.rollout import Leg, Task, take
+from planner.routes import Refusal
 from planner.trace import ACTIONS, Action
 
 LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth

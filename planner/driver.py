@@ -12,6 +12,7 @@ from planner.decide import Decision, Frame, Moment, decide, observed, root_at
 from planner.events import Event, EventKind
 from planner.forward import DT, GAP_HORIZON, Hindrance, Lane, Motion, accelerate, advance
 from planner.obstacles import occupancy
+from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings, Track
 from planner.tracks import aligned, coast
