@@ -1,0 +1,42 @@
+"""What the realiser is told besides the answer, and what it hands back."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from planner.trace import Action
+from xavi_dialogue.explain.query import Detail
+
+Style = Literal["passenger", "paper"]
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleWords:
+    """How one vehicle may be spoken of."""
+
+    kind: Literal["car", "truck"] = "car"
+    description: str | None = None  # where it is, seen from us: "the car ahead"
+
+
+@dataclass(frozen=True, slots=True)
+class SpeechContext:
+    """The situation in which an answer is given. Two equal contexts give equal words."""
+
+    style: Style = "passenger"
+    vehicles: Mapping[int, VehicleWords] = field(default_factory=dict)
+    named: frozenset[int] = frozenset()  # vehicles that this conversation has named already
+    detail: Detail | None = None
+    max_causes: int = 1
+    max_effects: int = 1
+    now: float = 0.0  # [s] simulation time
+    done: tuple[Action, ...] = ()  # what we have carried out so far, latest last
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """What the car says."""
+
+    text: str
+    mentioned: tuple[int, ...] = ()  # vehicles named in it, in order of first mention
+    suggestions: tuple[str, ...] = ()  # questions that can be asked next
+    choices: tuple[str, ...] = ()  # of a clarification, in the order they are numbered

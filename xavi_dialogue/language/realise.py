@@ -1,0 +1,116 @@
+"""Realiser: explanations and refusals into English.
+
+Four stages, each of which can be looked at (`stages`): content selection, expansion of an answer
+grammar into tokens, morphology, orthography. All sentences stand in `grammars/`; wording varies
+with what is said and with the context, never by chance.
+
+The errors that the stages raise (GrammarError, FormError, WordingError) mean that a language
+file is at fault; no explanation raises them as long as the grammars provide for all its values.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from xavi_dialogue.explain.explanation import Explanation, NoExplanation
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.content import Budget, select
+from xavi_dialogue.language.context import SpeechContext, Utterance
+from xavi_dialogue.language.followups import follow_ups
+from xavi_dialogue.language.generator import Token, expand
+from xavi_dialogue.language.morphology import inflect
+from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
+from xavi_dialogue.language.paper import PaperContent, select_paper
+from xavi_dialogue.language.points import ActivityPoint, Content, Contrast, Motive, Supposition
+from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.refusals import refuse
+from xavi_dialogue.language.rules import load_grammar
+from xavi_dialogue.language.wording import rewrite
+
+MAX_WORDS = 45
+MAX_SENTENCES = 3
+MAX_WORDS_MORE = 110
+
+
+@dataclass(frozen=True, slots=True)
+class Stages:
+    """One answer in every stage of its making."""
+
+    content: Content | PaperContent
+    tokens: tuple[Token, ...]
+    words: tuple[str, ...]
+    text: str
+    mentioned: tuple[int, ...]
+
+
+def realise(query: Query, result: Explanation | NoExplanation, context: SpeechContext) -> Utterance:
+    """What the car says to `query`: an answer from an explanation, or a refusal."""
+    detail = query.detail or context.detail
+    context = replace(context, detail=detail)
+    if isinstance(result, NoExplanation):
+        return refuse(query, result, context)
+    made = stages(query, result, context)
+    return Utterance(
+        text=made.text,
+        mentioned=made.mentioned,
+        suggestions=questions(follow_ups(query, result, made.mentioned)),
+    )
+
+
+def stages(query: Query, found: Explanation, context: SpeechContext) -> Stages:
+    """The answer to `query` in all its stages.
+
+    Style `paper` applies to contrasts, of which alone the paper has sentences. Style `passenger`
+    takes the fullest wording that keeps within its limits of words and sentences.
+    """
+    if context.style == "paper" and found.counterfactual and found.outcome is not None:
+        return _paper(found, context)
+    more = context.detail == "more"
+    limit = MAX_WORDS_MORE if more else MAX_WORDS
+    for budget in _budgets(context):
+        made = _passenger(query, found, context, budget)
+        short = more or count_sentences(made.text) <= MAX_SENTENCES
+        if short and count_words(made.text) <= limit:
+            break
+    return made
+
+
+def _budgets(context: SpeechContext) -> Iterator[Budget]:
+    """Ways to answer, from the fullest to the barest."""
+    if context.detail == "more":
+        yield Budget(max(3, context.max_effects), max(3, context.max_causes), more=True)
+        yield Budget(2, 2, more=True)
+        yield Budget(1, 1, more=True)
+    full = Budget(context.max_effects, context.max_causes, purpose=context.detail != "less")
+    if context.detail != "less":
+        yield full
+    yield replace(full, particulars=False)
+    yield replace(full, particulars=False, describe=False)
+    yield Budget(min(1, full.effects), min(1, full.causes), full.purpose, False, False)
+    yield Budget(min(1, full.effects), min(1, full.causes), False, False, False)
+
+
+def _passenger(query: Query, found: Explanation, context: SpeechContext, budget: Budget) -> Stages:
+    content = select(query, found, budget)
+    tokens = expand(load_grammar("answer_passenger"), _rule(content), content)
+    words, mentioned = inflect(tokens, context, describe=budget.describe)
+    text = capitalise(rewrite(join(words), "passenger"))
+    return Stages(content, tokens, words, text, mentioned)
+
+
+def _rule(content: Content) -> str:
+    match content:
+        case Contrast() | ActivityPoint():
+            return content.rule
+        case Supposition():
+            return "SUPPOSE"
+        case Motive():
+            return "MOTIVE"
+
+
+def _paper(found: Explanation, context: SpeechContext) -> Stages:
+    content = select_paper(found, context.max_effects, context.max_causes)
+    grammar = load_grammar("answer_paper")
+    tokens = expand(grammar, "S", content.scenario, content.effects, content.causes)
+    words, mentioned = inflect(tokens, context)
+    text = capitalise(rewrite(join(words), "paper"))
+    return Stages(content, tokens, words, text, mentioned)

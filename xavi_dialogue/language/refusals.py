@@ -1,0 +1,175 @@
+"""Refusals, small talk and help: what the car says when it has no explanation to give."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from xavi_dialogue.explain.explanation import NoExplanation
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.content import doing, vehicle_of
+from xavi_dialogue.language.context import SpeechContext, Utterance
+from xavi_dialogue.language.followups import from_situation
+from xavi_dialogue.language.generator import expand
+from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, inflect
+from xavi_dialogue.language.orthography import capitalise, join
+from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.rules import load_grammar
+from xavi_dialogue.language.wording import lexicon, rewrite
+
+MAX_CHOICES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One reading between which the passenger chooses."""
+
+    number: Quantity
+    question: str
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """What `grammars/answer_refusals.rules` says of a refusal; absent facts are None."""
+
+    reason: str  # of the contract, or smalltalk, help
+    topic: str | None = None  # of out-of-scope, small talk, or what was not understood
+    verb: str | None = None  # what cannot be done at all: "fly"
+    past: bool = True
+    who: Vehicle | None = None  # the vehicle it is about; None: us
+    asked: Doing | None = None  # what the question takes for granted, or asks about
+    instead: Doing | None = None  # what happened in its place
+    did: bool = False  # what was asked about is what was done
+    at: Quantity | None = None  # when that was
+    clause: str | None = None  # the planner's reason
+    known: tuple[Vehicle, ...] = ()
+    found: Quantity | None = None  # distinct situations behind the evidence there is
+    needed: Quantity | None = None
+    suggestion: str | None = None  # a question that can be asked
+
+
+def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utterance:
+    """Say what is wrong with the question, and what can be asked instead."""
+    invited = refusal.suggestions or from_situation(context)
+    offered = questions(tuple(q for q in invited if not _same(q, query)))
+    return _speak(_content(query, refusal, offered[:1]), context, offered)
+
+
+def realise_not_understood(
+    cause: str, context: SpeechContext, readings: tuple[Query, ...] = ()
+) -> Utterance:
+    """Ask back: which of the readings is meant, or for other words.
+
+    `cause` is empty, too-long, gibberish, ambiguous, or another that gets the general wording.
+    """
+    choices = questions(readings, MAX_CHOICES)
+    if len(choices) > 1:
+        return realise_clarification(choices, context)
+    offered = choices or questions(from_situation(context))
+    return _chat("not-understood", cause, context, offered)
+
+
+def realise_clarification(choices: tuple[str, ...], context: SpeechContext) -> Utterance:
+    """Ask which of the questions is meant; they are numbered from 1 in the order given."""
+    numbered = tuple(Choice(Quantity(i, "count"), c) for i, c in enumerate(choices, 1))
+    tokens = expand(load_grammar("answer_refusals"), "CHOOSE", numbered)
+    words, _ = inflect(tokens, context)
+    return Utterance(capitalise(join(words)), choices=choices)
+
+
+def realise_smalltalk(topic: str | None, context: SpeechContext) -> Utterance:
+    """A friendly word: on a greeting, thanks, goodbye, who, how-are-you, ok, or anything else."""
+    return _chat("smalltalk", topic, context, questions(from_situation(context)))
+
+
+def realise_help(context: SpeechContext) -> Utterance:
+    """What can be asked, with examples from the situation."""
+    return _chat("help", None, context, questions(from_situation(context)))
+
+
+def _chat(
+    reason: str, topic: str | None, context: SpeechContext, offered: tuple[str, ...]
+) -> Utterance:
+    return _speak(Refusal(reason, topic, suggestion=next(iter(offered), None)), context, offered)
+
+
+def _speak(content: Refusal, context: SpeechContext, suggestions: tuple[str, ...]) -> Utterance:
+    tokens = expand(load_grammar("answer_refusals"), "REFUSAL", content)
+    words, mentioned = inflect(tokens, context)
+    text = capitalise(rewrite(join(words), "passenger"))
+    return Utterance(text, mentioned, suggestions)
+
+
+def _same(offered: Query, asked: Query) -> bool:
+    """Whether a suggestion would but repeat what has just been declined."""
+    return (offered.type, offered.actor, offered.factual, offered.counterfactual) == (
+        asked.type,
+        asked.actor,
+        asked.factual,
+        offered.counterfactual and asked.counterfactual,
+    )
+
+
+def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
+    """The facts of a refusal as values that can be put into words; unfit ones are left out."""
+    facts = refusal.facts
+    actor = _number(facts, "vehicle") or vehicle_of(query.actor)
+    factual, foil = query.factual or (), query.counterfactual or ()
+    claimed = foil if query.type in ("why_not", "what_if", "compare") else factual
+    asked = _actions(facts, "asked") or claimed or factual or foil
+    instead = _actions(facts, "happened")
+    clause = _text(facts, "reason")
+    return Refusal(
+        reason=refusal.reason,
+        topic=_text(facts, "what") or query.reason,
+        verb=_text(facts, "verb"),
+        past=query.tense == "past",
+        who=Vehicle(actor) if actor else None,
+        asked=doing(actor or EGO, asked, query.tense),
+        instead=doing(actor or EGO, instead, query.tense),
+        did=facts.get("did") is True,
+        at=_quantity(facts, "time", "clock"),
+        clause=clause if clause is None or actor else rewrite(clause, "own"),
+        known=_vehicles(facts),
+        found=_quantity(facts, "distinct", "count"),
+        needed=_quantity(facts, "needed", "count"),
+        suggestion=next(iter(offered), None),
+    )
+
+
+_Facts = Mapping[str, object]
+
+
+def _text(facts: _Facts, key: str) -> str | None:
+    value = facts.get(key)
+    return value if isinstance(value, str) and value.strip() else None
+
+
+def _number(facts: _Facts, key: str) -> int | None:
+    """A vehicle's number, given as such or as its name."""
+    value = facts.get(key)
+    if isinstance(value, str):
+        return vehicle_of(f"vehicle:{value.rpartition(' ')[2].rpartition(':')[2]}")
+    return value if isinstance(value, int) and not isinstance(value, bool) else None
+
+
+def _actions(facts: _Facts, key: str) -> tuple[str, ...]:
+    """Actions the lexicon has words for, given as one name or several."""
+    value = facts.get(key)
+    names = (value,) if isinstance(value, str) else value
+    known = lexicon().actions
+    return tuple(n for n in names if n in known) if isinstance(names, tuple | list) else ()
+
+
+def _quantity(facts: _Facts, key: str, unit: Literal["clock", "count"]) -> Quantity | None:
+    value = facts.get(key)
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        return None
+    return Quantity(float(value), unit)
+
+
+def _vehicles(facts: _Facts) -> tuple[Vehicle, ...]:
+    """The vehicles that are known, without us, each once and in order."""
+    value = facts.get("known")
+    numbers = {_number({"n": n}, "n") for n in value} if isinstance(value, tuple | list) else set()
+    return tuple(Vehicle(n) for n in sorted(filter(None, numbers)))
