@@ -1,0 +1,190 @@
+"""The rooms and the one way through them, read off the code."""
+
+import ast
+import graphlib
+from dataclasses import fields
+
+import pytest
+
+from sim.scene import Scene, VehicleState
+from tests.sources import PACKAGES, Module, functions, imports, modules
+
+# Rooms from the world to the shell. A module may import its own room and those before it.
+ROOMS = (
+    ("sim.scene", "sim.network", "sim.boxes"),
+    ("planner",),
+    ("xavi_dialogue.causal",),
+    ("xavi_dialogue.explain",),
+    ("xavi_dialogue.language",),
+    ("xavi_dialogue.dialogue",),
+    ("xavi_dialogue.transports",),
+    ("xavi_dialogue.app",),
+    ("xavi_dialogue.__main__",),
+)
+PURE = ("planner", "xavi_dialogue.causal", "xavi_dialogue.explain", "xavi_dialogue.dialogue")
+GATES = {  # each outside world enters through one file
+    "libsumo": "sim/sumo.py",
+    "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
+}
+SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/transports/terminal.py"}
+IMPURE = {
+    *("asyncio", "datetime", "http", "multiprocessing", "os", "pathlib", "secrets", "shutil"),
+    *("socket", "sqlite3", "subprocess", "sys", "tempfile", "threading", "time", "uuid"),
+}
+MAX_MODULE_LINES = 350
+MAX_FUNCTION_LINES = 60
+
+every_module = pytest.mark.parametrize("module", modules().values(), ids=lambda m: m.path)
+
+
+def within(name: str, package: str) -> bool:
+    return name == package or name.startswith(package + ".")
+
+
+def room(name: str) -> int | None:
+    """The index of a module's room, None for what stands outside the order."""
+    parts = name.split(".")
+    app = parts[:1] == ["xavi_dialogue"] and len(parts) > 1 and parts[1].startswith("app")
+    name = "xavi_dialogue.app" if app else name
+    return next((i for i, r in enumerate(ROOMS) if any(within(name, p) for p in r)), None)
+
+
+def ours(module: Module) -> list[str]:
+    return [i.target for i in imports(module) if i.target.split(".")[0] in PACKAGES]
+
+
+@every_module
+def test_imports_point_towards_the_world(module: Module) -> None:
+    here = room(module.name)
+    for target in ours(module):
+        there = room(target)
+        if module.name.split(".")[0] == "grammars" or module.name == "xavi_dialogue":
+            pytest.fail(f"{module.path} imports {target}; it may import nothing of ours")
+        elif here is None:  # the adapters around SUMO
+            assert within(target, "sim"), f"{module.path} imports {target}"
+        elif there is None:
+            assert here >= room("xavi_dialogue.app"), (
+                f"{module.path} imports {target}; only the app knows the adapters around SUMO"
+            )
+        else:
+            assert there <= here, f"{module.path} imports {target}, a later room"
+
+
+def test_every_module_has_a_room() -> None:
+    strays = [
+        module.path
+        for name, module in modules().items()
+        if room(name) is None and name.split(".")[0] == "xavi_dialogue" and name != "xavi_dialogue"
+    ]
+    assert strays == []
+
+
+def test_the_scene_imports_nothing_of_ours() -> None:
+    assert ours(modules()["sim.scene"]) == []
+    assert set(ours(modules()["sim.network"])) <= {"sim.scene"}
+
+
+@pytest.mark.parametrize(("library", "gate"), GATES.items())
+def test_an_outside_world_enters_through_one_file(library: str, gate: str) -> None:
+    importers = {
+        module.path
+        for module in modules().values()
+        if any(i.target.split(".")[0] == library for i in imports(module))
+    }
+    assert importers == {gate}
+
+
+@every_module
+def test_imports_can_be_read_off_the_code(module: Module) -> None:
+    assert "?" not in {i.target for i in imports(module)}, f"{module.path}: a computed import"
+    assert calls(module, "__import__") == [], module.path
+
+
+def test_sumo_is_reached_through_libsumo_alone() -> None:
+    for module in modules().values():
+        for found in imports(module):
+            assert found.target.split(".")[0] not in {"traci", "sumolib", "sumo"}, module.path
+
+
+def test_the_planner_sees_of_the_world_the_scene_and_the_roads_alone() -> None:
+    for name, module in modules().items():
+        if within(name, "planner"):
+            seen = {target for target in ours(module) if within(target, "sim")}
+            assert seen <= {"sim.scene", "sim.network", "sim.boxes"}, module.path
+
+
+def test_nothing_in_the_planner_speaks_of_sumo() -> None:
+    for name, module in modules().items():
+        if within(name, "planner"):
+            for node in ast.walk(module.tree):
+                word = _word(node).lower()
+                for hidden in ("sumo", "traci", "getroute", ".rou.", "setroute"):
+                    assert hidden not in word, f"{module.path}:{getattr(node, 'lineno', 0)}"
+
+
+def _word(node: ast.AST) -> str:
+    """The name or literal text of a node; docstrings may speak of anything and are left out."""
+    match node:
+        case ast.Name(id=word) | ast.Attribute(attr=word) | ast.arg(arg=word):
+            return word
+        case ast.Constant(value=str(word)) if "\n" not in word and not word.endswith("."):
+            return word
+    return ""
+
+
+def test_a_scene_shows_only_what_can_be_seen() -> None:
+    assert {field.name for field in fields(Scene)} == {"time", "vehicles"}
+    assert {field.name for field in fields(VehicleState)} == {
+        *("position", "heading", "speed", "acceleration", "length", "width"),
+        *("kind", "colour", "signals"),
+    }
+
+
+@every_module
+def test_the_core_is_pure(module: Module) -> None:
+    if any(within(module.name, package) for package in PURE):
+        used = {i.target.split(".")[0] for i in imports(module)}
+        assert used & IMPURE == set(), module.path
+        opened = [node.lineno for node in calls(module, "open")]
+        assert opened == [], f"{module.path} opens files in lines {opened}"
+
+
+@every_module
+def test_only_shells_print(module: Module) -> None:
+    if module.path not in SHELLS:
+        printed = [node.lineno for node in calls(module, "print")]
+        assert printed == [], f"{module.path} prints in lines {printed}"
+
+
+def calls(module: Module, function: str) -> list[ast.Call]:
+    return [
+        node
+        for node in ast.walk(module.tree)
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id == function
+    ]
+
+
+def test_no_import_cycles() -> None:
+    graph = {
+        name: {i.target for i in imports(module) if not i.deferred and i.target in modules()}
+        for name, module in modules().items()
+    }
+    try:
+        order = list(graphlib.TopologicalSorter(graph).static_order())
+    except graphlib.CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+    assert set(order) == set(modules())
+
+
+@every_module
+def test_modules_and_functions_are_small_and_documented(module: Module) -> None:
+    assert ast.get_docstring(module.tree), f"{module.path} has no docstring"
+    lines = module.text.count("\n")
+    assert lines <= MAX_MODULE_LINES, f"{module.path} has {lines} lines"
+    for function in functions(module):
+        length = (function.end_lineno or function.lineno) - function.lineno + 1
+        assert length <= MAX_FUNCTION_LINES, (
+            f"{module.path}:{function.lineno} {function.name} has {length} lines"
+        )
