@@ -1,1 +1,1 @@
-"""Exact inference over the Bayesian network of one PlanTrace."""
+"""From one PlanTrace to its Bayesian network: outcomes, effects, influence, hold-ups."""

@@ -1,0 +1,148 @@
+import doctest
+import random
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner.trace import OUTCOMES, Sample
+from tests.traces import End, World, joints, prior, random_world, trace_of
+from xavi_dialogue.causal.model import CausalModel, InconsistentTrace
+
+worlds = st.integers(0, 10_000).map(lambda seed: random_world(random.Random(seed)))
+
+
+def ends(world: World, plan):
+    """Brute force: (prior, end) of a plan under every joint sample."""
+    found = []
+    for joint in joints(world.aims):
+        chosen = {v: (world.aims[v][g].kind, t) for v, g, t in joint}
+        found.append((prior(world.aims, joint), world.simulate(plan, chosen)[0]))
+    return found
+
+
+def value(world: World, plan) -> float:
+    return sum(p * end.reward for p, end in ends(world, plan))
+
+
+def test_textbook():
+    path = Path(__file__).with_name("textbook.txt")
+    failed, tried = doctest.testfile(str(path), module_relative=False)
+    assert tried > 10
+    assert failed == 0
+
+
+@given(worlds)
+def test_complete_record_agrees_with_enumeration(world):
+    model = CausalModel(trace_of(world))
+    for first in {plan[0] for plan in world.plans}:
+        rivals = [plan for plan in world.plans if plan[0] == first]
+        best = max(rivals, key=lambda plan: value(world, plan))
+        found = model.intervene((first,))
+        assert found is not None
+        assert found.value == pytest.approx(value(world, best))
+        assert found.coverage == pytest.approx(1.0)
+        rows = ends(world, found.plan) if len(found.plan) == 2 else ends(world, best)
+        for outcome in OUTCOMES:
+            expected = sum(p for p, end in rows if end.outcome == outcome)
+            assert found.outcomes[outcome] == pytest.approx(expected)
+        done = [(p, end.time) for p, end in rows if end.outcome == "done"]
+        if done:
+            mean = sum(p * t for p, t in done) / sum(p for p, _ in done)
+            assert found.expectation("time") == pytest.approx(mean)
+        else:
+            assert found.expectation("time") is None
+
+
+@given(worlds)
+def test_any_subset_of_depths_can_be_fixed(world):
+    model = CausalModel(trace_of(world))
+    for second in {plan[1] for plan in world.plans}:
+        rivals = [plan for plan in world.plans if plan[1] == second]
+        found = model.intervene({2: second})
+        assert found is not None
+        assert found.value == pytest.approx(max(value(world, plan) for plan in rivals))
+
+
+@given(worlds, st.integers(3, 12))
+def test_outcomes_exclude_one_another_in_any_record(world, draws):
+    model = CausalModel(trace_of(world, draws=draws))
+    for plan in world.plans:
+        found = model.intervene(plan)
+        if found is not None:
+            assert sum(found.outcomes.values()) == pytest.approx(1.0)
+            assert sum(found.weights) == pytest.approx(1.0)
+            assert len({result.joint for result in found.results}) == len(found.results)
+            assert 0.0 < found.coverage <= 1.0 + 1e-9
+
+
+@given(worlds, st.integers(2, 10))
+def test_prior_weighs_and_not_the_number_of_draws(world, draws):
+    one = World(world.aims, (world.plans[0][:1],), lambda plan, c: (world.simulate(plan, c)[0], 1))
+    trace = trace_of(one, draws=draws)
+    found = CausalModel(trace).intervene(one.plans[0])
+    drawn = {tuple((s.vehicle, s.goal, s.trajectory) for s in r.samples): r for r in trace.rollouts}
+    mass = sum(prior(world.aims, joint) for joint in drawn)
+    expected = sum(prior(world.aims, joint) * r.reward for joint, r in drawn.items()) / mass
+    assert found is not None
+    assert found.value == pytest.approx(expected)
+    assert found.coverage == pytest.approx(mass)
+
+
+def test_samples_that_end_early_do_not_gain_weight():
+    # Half of the prior mass collides at once; of the rest, only one of two samples was driven on.
+    world = random_world(random.Random(1))
+    aims = {1: tuple(replace(world.aims[1][0], probability=p, kind=k) for p, k in KINDS)}
+
+    def simulate(plan, chosen):
+        if chosen[1][0] == "stop":
+            return End("collision", collided_with=1), 1
+        return End(time=10.0), 2
+
+    mixed = World(aims, (("continue", "continue"), ("continue", "stop")), simulate)
+    full = trace_of(mixed)
+    kept = [r for r in full.rollouts if (r.samples[0].goal, len(r.actions)) != (2, 2)]
+    kept += [r for r in full.rollouts if r.samples[0].goal == 2 and r.actions[1].action == "stop"]
+    model = CausalModel(msgspec.structs.replace(full, rollouts=tuple(kept)))
+    found = model.intervene(("continue", "continue"))
+    assert found is not None
+    assert found.outcomes["collision"] == pytest.approx(0.5)
+
+
+KINDS = ((0.5, "stop"), (0.25, "exit-left"), (0.25, "exit-right"))
+
+
+def test_unrecorded_actions_are_told_apart():
+    world = random_world(random.Random(3))
+    model = CausalModel(trace_of(world))
+    assert model.intervene(("exit-left",)) is None
+    assert model.intervene((world.plans[0][0], "exit-left")) is None or all(
+        len(r.rollout.actions) == 1
+        for r in model.intervene((world.plans[0][0], "exit-left")).results
+    )
+
+
+def test_evidence_renormalises_the_prior():
+    world = random_world(random.Random(5))
+    vehicle = max(world.aims, key=lambda v: len(world.aims[v]))
+    only = frozenset({(0, 0)})
+    model = CausalModel(trace_of(world), {vehicle: only})
+    assert model.choices(vehicle) == {(0, 0): pytest.approx(1.0)}
+    found = model.intervene(world.plans[0][:1])
+    assert found is not None
+    assert found.coverage == pytest.approx(1.0)
+    assert all((vehicle, 0, 0) in result.joint for result in found.results)
+
+
+def test_inconsistent_traces_are_named():
+    trace = trace_of(random_world(random.Random(2)))
+    first = trace.rollouts[0]
+    stray = msgspec.structs.replace(first, samples=(Sample(1, 9, 0),))
+    with pytest.raises(InconsistentTrace, match="rollout 0 samples goal 9"):
+        CausalModel(msgspec.structs.replace(trace, rollouts=(stray,)))
+    twin = msgspec.structs.replace(first, index=1, reward=first.reward - 1.0)
+    with pytest.raises(InconsistentTrace, match="rollouts 0 and 1"):
+        CausalModel(msgspec.structs.replace(trace, rollouts=(first, twin)))

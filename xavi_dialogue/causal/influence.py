@@ -1,0 +1,158 @@
+"""Influence: how much the best option depends on what another vehicle does.
+
+Per option o and choice c of vehicle i (its goal and trajectory), the action value Q(o, c) is the
+expected reward of o given c. The other vehicles are adjusted for by an additive model fitted to
+the rollouts of o, so that a chance coincidence of two vehicles' samples is not laid at the wrong
+door. Then p(o | c) is the softmax of Q(o, c), and the influence is the mutual information of
+option and choice, in bits. How much of it chance alone would produce is found by permuting the
+residuals of a model without vehicle i among the rollouts (Freedman and Lane 1983).
+
+A vehicle whose measure does not exceed the 95 % point of that null has no influence. Within a
+vehicle, choices are ordered by the measure of XAVI (Gyevnar et al. 2022, Equation 9), smoothed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from xavi_dialogue.causal.model import CausalModel, Choice, Intervention, Joint
+
+Array = NDArray[np.float64]
+
+RATIONALITY = 1.0  # [1/s] beta of the softmax; rewards count in seconds
+PERMUTATIONS = 199
+NULL_POINT = 0.95
+MIN_BITS = 0.01  # a measure below this is none at all
+SMOOTHING = 1e-3  # added to every probability of a divergence
+RANK = 1e-6  # singular values below this share of the largest count as zero
+
+
+@dataclass(frozen=True, slots=True)
+class ChoiceInfluence:
+    """What one choice of a vehicle makes of the options."""
+
+    choice: Choice
+    probability: float  # of the choice
+    options: tuple[float, ...]  # p(o | choice), in the order of the options
+    divergence: float  # [bit] of p(o) from p(o | choice), smoothed
+
+
+@dataclass(frozen=True, slots=True)
+class Influence:
+    """How one vehicle bears on the choice among the options."""
+
+    vehicle: int
+    bits: float  # mutual information of option and the vehicle's choice
+    null: float  # its 95 % point by chance alone
+    options: tuple[float, ...]  # p(o), averaged over the vehicle's choices
+    choices: tuple[ChoiceInfluence, ...]  # least divergent first; ties: the likelier first
+
+    @property
+    def significant(self) -> bool:
+        """Whether it exceeds what chance would produce."""
+        return self.bits >= MIN_BITS and self.bits > self.null + 1e-9
+
+
+def influence(
+    model: CausalModel, options: Sequence[Intervention] | None = None
+) -> tuple[Influence, ...]:
+    """The influence of every vehicle on the choice among options, largest first.
+
+    Args:
+        model: the network of the decision.
+        options: what there is to choose from; every first action by default, which gives
+            I(Omega_1; G_i, S_i).
+    """
+    if options is None:
+        found = (model.intervene((action,)) for action in model.options())
+        options = [intervention for intervention in found if intervention is not None]
+    if len(options) < 2:
+        return ()
+    draws = [_Draws(model, option, k) for k, option in enumerate(options)]
+    measured = [_measure(model, vehicle, draws) for vehicle in model.vehicles]
+    return tuple(sorted(measured, key=lambda i: (-i.bits, i.vehicle)))
+
+
+class _Draws:
+    """The rollouts of one option as data: a row per draw."""
+
+    def __init__(self, model: CausalModel, option: Intervention, number: int) -> None:
+        joints: list[Joint] = []
+        rewards, weights = [], []
+        for result, weight in zip(option.results, option.weights, strict=True):
+            joints += [result.joint] * result.draws
+            rewards += [result.rollout.reward] * result.draws
+            weights += [weight / result.draws] * result.draws
+        self.rewards: Array = np.array(rewards)  # [N]
+        self.root: Array = np.sqrt(np.array(weights))  # [N] root of the weights
+        self.columns = {
+            vehicle: _one_hot(joints, vehicle, tuple(model.choices(vehicle)))
+            for vehicle in model.vehicles
+        }
+        rng = np.random.default_rng((model.trace.seed, model.trace.decision, number))
+        keys = rng.random((len(joints), PERMUTATIONS))
+        self.shuffled: NDArray[np.int64] = np.argsort(keys, axis=0)  # [N, PERMUTATIONS]
+
+    def values(self, vehicle: int, prior: Array) -> Array:
+        """Q(o, c) as observed and as permuted, [1 + PERMUTATIONS, number of choices]."""
+        ones = np.ones((len(self.rewards), 1))
+        others = [columns for name, columns in self.columns.items() if name != vehicle]
+        design, wanted = np.hstack([ones, *others]), self.columns[vehicle]
+        root = self.root[:, None]
+        targets = np.hstack([wanted, self.rewards[:, None]])
+        fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root * targets)
+        rest = targets - design @ fitted
+        rest[np.abs(rest) < 1e-9] = 0.0
+        slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
+        residual = rest[:, -1]
+        shifts = slopes @ np.column_stack((residual, residual[self.shuffled]))
+        mean = float(np.sum(self.root**2 * self.rewards))
+        return np.asarray(mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
+
+
+def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influence:
+    choices = model.choices(vehicle)
+    prior = np.array(list(choices.values()))
+    values = np.stack([option.values(vehicle, prior) for option in draws], axis=1)
+    weights = np.exp(RATIONALITY * (values - np.max(values, axis=1, keepdims=True)))
+    chances = weights / np.sum(weights, axis=1, keepdims=True)  # [1 + P, options, choices]
+    pooled = chances @ prior  # [1 + P, options]
+    ratio = np.log2(np.maximum(chances, 1e-300) / np.maximum(pooled[:, :, None], 1e-300))
+    bits = np.sum(chances * ratio, axis=1) @ prior
+    null = np.sort(bits[1:])[int(NULL_POINT * PERMUTATIONS)]
+    details = [
+        ChoiceInfluence(
+            choice,
+            float(prior[k]),
+            tuple(chances[0, :, k].tolist()),
+            divergence(pooled[0], chances[0, :, k]),
+        )
+        for k, choice in enumerate(choices)
+    ]
+    details.sort(key=lambda d: (round(d.divergence, 6), -d.probability, d.choice))
+    return Influence(
+        vehicle,
+        max(float(bits[0]), 0.0),
+        float(null),
+        tuple(pooled[0].tolist()),
+        tuple(details),
+    )
+
+
+def divergence(p: Array, q: Array) -> float:
+    """Kullback-Leibler divergence D[p || q] in bits, of distributions smoothed by SMOOTHING."""
+    a, b = p + SMOOTHING, q + SMOOTHING
+    a, b = a / np.sum(a), b / np.sum(b)
+    return float(np.sum(a * np.log2(a / b)))
+
+
+def _one_hot(joints: Sequence[Joint], vehicle: int, choices: Sequence[Choice]) -> Array:
+    column = {choice: k for k, choice in enumerate(choices)}
+    found = np.zeros((len(joints), len(choices)))
+    for row, joint in enumerate(joints):
+        for name, goal, way in joint:
+            if name == vehicle:
+                found[row, column[goal, way]] = 1.0
+    return found

@@ -1,0 +1,260 @@
+"""The Bayesian network of one decision: p(G) p(S|G) p(Omega|S) p(R,O|Omega,S).
+
+After the network of XAVI (Gyevnar et al. 2022, Equations 1-6), with two arrows mended: the other
+vehicles' trajectories S reach the rewards R and the outcome O, and components and outcome of a
+rollout are one joint value, so that outcomes exclude one another. A rollout is a function of its
+actions and samples; a distinct (actions, S) is kept once, with the number of times it was drawn.
+
+Nothing is tabulated: the rollouts are indexed by the action sequences that they pass through,
+and every query walks that index.
+
+Errors:
+
+    CausalError
+    └── InconsistentTrace   a rollout refers to what its trace does not predict
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
+
+from planner.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout, Sample
+
+#: One vehicle's goal and trajectory, as indices into its prediction.
+Choice: TypeAlias = tuple[int, int]
+#: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory).
+Joint: TypeAlias = tuple[tuple[int, int, int], ...]
+#: A sequence of macro actions: from the root of the search on.
+Actions: TypeAlias = tuple[Action, ...]
+
+#: A continuation must be known for this share of the best-known one's prior mass.
+SUPPORT = 0.5
+
+
+class CausalError(Exception):
+    """A causal query that cannot be carried out."""
+
+
+class InconsistentTrace(CausalError):
+    """A rollout refers to what its trace does not predict."""
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What came of one action sequence under one joint sample."""
+
+    joint: Joint
+    rollout: Rollout  # the first one recorded
+    draws: int  # how often it was recorded
+
+
+@dataclass(frozen=True)
+class Intervention:
+    """p(R, O | do(plan)): the results under a plan with their weights.
+
+    A plan that leaves some samples unfinished at a depth passes their mass on to those samples
+    of which the next action is recorded; otherwise samples that end early would weigh too much.
+    """
+
+    plan: Actions
+    results: tuple[Result, ...]  # one for each distinct sample, in order of first record
+    weights: tuple[float, ...]  # of the results; they sum to 1
+    coverage: float  # prior mass of the samples behind it
+
+    @property
+    def draws(self) -> int:
+        """Recorded rollouts behind it, repeats included."""
+        return sum(result.draws for result in self.results)
+
+    @cached_property
+    def outcomes(self) -> dict[Outcome, float]:
+        """p(O | do(plan)): exclusive, sums to 1."""
+        found = dict.fromkeys(OUTCOMES, 0.0)
+        for result, weight in zip(self.results, self.weights, strict=True):
+            found[result.rollout.outcome] += weight
+        return found
+
+    @cached_property
+    def value(self) -> float:
+        """Expected reward."""
+        pairs = zip(self.results, self.weights, strict=True)
+        return sum(weight * result.rollout.reward for result, weight in pairs)
+
+    @property
+    def likeliest(self) -> Outcome:
+        """The likeliest outcome; ties go to the earlier one in the order of OUTCOMES."""
+        return max(OUTCOMES, key=lambda outcome: self.outcomes[outcome])
+
+    def present(self, component: Component) -> list[tuple[Joint, float, float]]:
+        """(sample, weight, value) of the results in which a component is present."""
+        return [
+            (result.joint, weight, value)
+            for result, weight in zip(self.results, self.weights, strict=True)
+            if (value := result.rollout.components.get(component)) is not None
+        ]
+
+    def expectation(self, component: Component) -> float | None:
+        """E[R_c | do(plan)] over the results in which c is present; None where it never is."""
+        present = self.present(component)
+        mass = sum(weight for _, weight, _ in present)
+        return sum(weight * value for _, weight, value in present) / mass if mass > 0.0 else None
+
+    def collisions(self) -> dict[int, float]:
+        """Probability of a collision with each vehicle, by vehicle."""
+        found: dict[int, float] = {}
+        for result, weight in zip(self.results, self.weights, strict=True):
+            vehicle = result.rollout.collided_with
+            if result.rollout.outcome == "collision" and vehicle is not None:
+                found[vehicle] = found.get(vehicle, 0.0) + weight
+        return dict(sorted(found.items()))
+
+
+class CausalModel:
+    """Answers causal queries about one decision; immutable once built."""
+
+    def __init__(self, trace: PlanTrace, given: Mapping[int, frozenset[Choice]] | None = None):
+        """Index the rollouts of a trace.
+
+        Args:
+            trace: the record of the decision.
+            given: evidence on other vehicles: the choices to which each is confined. The prior
+                is renormalised over them.
+
+        Raises:
+            InconsistentTrace: a rollout samples a goal or trajectory that is not predicted, or
+                two rollouts of the same actions and samples differ.
+        """
+        self.trace = trace
+        self.given = dict(given or {})
+        self._choices = _choices(trace, self.given)
+        self._priors: dict[Joint, float] = {}
+        self._reached: dict[Actions, dict[Joint, None]] = {(): {}}
+        self._ended: dict[Actions, dict[Joint, Result]] = {}
+        self._beyond: dict[Actions, float] = {}
+        for rollout in trace.rollouts:
+            self._add(rollout)
+
+    @property
+    def vehicles(self) -> tuple[int, ...]:
+        """The predicted vehicles, in increasing order."""
+        return tuple(sorted(self._choices))
+
+    def choices(self, vehicle: int) -> Mapping[Choice, float]:
+        """p(G_i) p(S_i | G_i) for each goal and trajectory of a vehicle, as given."""
+        return self._choices[vehicle]
+
+    def prior(self, joint: Joint) -> float:
+        """p(S), the product over vehicles of goal times trajectory probability."""
+        return self._priors[joint]
+
+    def options(self, node: Actions = ()) -> Actions:
+        """The actions recorded at a node of the search, in order of first record."""
+        found = {seq[len(node)]: None for seq in self._reached if seq and seq[:-1] == node}
+        return tuple(found)
+
+    def intervene(self, do: Mapping[int, Action] | Actions) -> Intervention | None:
+        """p(R, O | do(w)), with the depths that w leaves open filled by the best continuation.
+
+        The best is that of the highest expected reward among the continuations that are known
+        for at least SUPPORT of the prior mass of the best-known one.
+
+        Args:
+            do: depth -> action, the first action having depth 1; or the leading actions.
+
+        Returns:
+            None where no rollout does so.
+        """
+        wanted = do if isinstance(do, Mapping) else dict(enumerate(do, start=1))
+        found = [
+            intervention
+            for plan in self._ended
+            if _agrees(plan, wanted) and (intervention := self._follow(plan)) is not None
+        ]
+        most = max((intervention.coverage for intervention in found), default=0.0)
+        known = [i for i in found if i.coverage >= SUPPORT * most]
+        return max(known, key=lambda i: (i.value, i.coverage), default=None)
+
+    def _add(self, rollout: Rollout) -> None:
+        joint = _joint(rollout.samples)
+        if any((goal, way) not in self.given[v] for v, goal, way in joint if v in self.given):
+            return
+        if joint not in self._priors:
+            self._priors[joint] = self._probability(joint, rollout.index)
+        plan: Actions = tuple(timed.action for timed in rollout.actions)
+        for depth in range(len(plan) + 1):
+            self._reached.setdefault(plan[:depth], {})[joint] = None
+        ended = self._ended.setdefault(plan, {})
+        known = ended.get(joint)
+        if known is not None and known.rollout.reward != rollout.reward:
+            raise InconsistentTrace(
+                f"rollouts {known.rollout.index} and {rollout.index} take the same actions under "
+                "the same samples but end differently: record a rollout for each sample"
+            )
+        draws = 1 if known is None else known.draws + 1
+        ended[joint] = Result(joint, rollout if known is None else known.rollout, draws)
+
+    def _probability(self, joint: Joint, index: int) -> float:
+        product = 1.0
+        for vehicle, goal, way in joint:
+            try:
+                product *= self._choices[vehicle][goal, way]
+            except KeyError:
+                raise InconsistentTrace(
+                    f"rollout {index} samples goal {goal}, trajectory {way} of vehicle {vehicle}, "
+                    "which the trace does not predict: check the indices of its samples"
+                ) from None
+        return product
+
+    def _follow(self, plan: Actions) -> Intervention | None:
+        """The results under a complete plan; None where the record stops in the middle of it."""
+        if self._going_on(plan) > 0.0:
+            return None
+        factor, results, weights = 1.0, [], []
+        for depth in range(len(plan) + 1):
+            node = plan[:depth]
+            for result in self._ended.get(node, {}).values():
+                results.append(result)
+                weights.append(factor * self._priors[result.joint])
+            followed = self._mass(self._reached[plan[: depth + 1]])
+            factor *= self._going_on(node) / followed if followed > 0.0 else 0.0
+        total = sum(weights)
+        if total <= 0.0:
+            return None
+        coverage = self._mass(result.joint for result in results)
+        return Intervention(plan, tuple(results), tuple(w / total for w in weights), coverage)
+
+    def _going_on(self, node: Actions) -> float:
+        """Prior mass of the samples that are known to go on beyond a node."""
+        if node not in self._beyond:
+            ended = self._ended.get(node, {})
+            self._beyond[node] = self._mass(j for j in self._reached[node] if j not in ended)
+        return self._beyond[node]
+
+    def _mass(self, joints: Iterable[Joint]) -> float:
+        return sum(self._priors[joint] for joint in joints)
+
+
+def _choices(
+    trace: PlanTrace, given: Mapping[int, frozenset[Choice]]
+) -> dict[int, dict[Choice, float]]:
+    found: dict[int, dict[Choice, float]] = {}
+    for prediction in trace.predictions:
+        allowed = given.get(prediction.vehicle)
+        weights = {
+            (g, t): goal.probability * way.probability
+            for g, goal in enumerate(prediction.goals)
+            for t, way in enumerate(goal.trajectories)
+            if allowed is None or (g, t) in allowed
+        }
+        total = sum(weights.values()) if allowed is not None else 1.0
+        found[prediction.vehicle] = {c: w / total if total > 0 else 0.0 for c, w in weights.items()}
+    return found
+
+
+def _joint(samples: tuple[Sample, ...]) -> Joint:
+    return tuple(sorted((s.vehicle, s.goal, s.trajectory) for s in samples))
+
+
+def _agrees(plan: Actions, do: Mapping[int, Action]) -> bool:
+    return all(do.get(depth, action) == action for depth, action in enumerate(plan, start=1))
