@@ -29,7 +29,7 @@ format: develop ## put the code in its standard form
 	@$(BIN)/python -m ruff format
 
 schema: develop ## write docs/plan_trace.schema.json anew
-	@$(BIN)/python -m xavi_dialogue.transports.schema > docs/plan_trace.schema.json
+	@$(BIN)/python -m xavi_dialogue.transports.schema docs/plan_trace.schema.json
 
 bench: runtime ## measure; ARGS="dialogue --json" chooses
 	@$(BIN)/xavi bench $(or $(ARGS),plan)

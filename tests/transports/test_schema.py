@@ -1,0 +1,65 @@
+"""The JSON Schema of messages, and that the documentation says what the code does."""
+
+import json
+import re
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from planner import trace
+from xavi_dialogue.transports.schema import plan_trace, schema_of
+
+
+class Inner(msgspec.Struct):
+    value: float
+
+
+class Outer(msgspec.Struct):
+    schema: str
+    first: Inner
+    others: dict[int, tuple[Inner, ...]]
+    maybe: Inner | None = None
+
+
+class Chain(msgspec.Struct):
+    schema: str
+    rest: "Chain | None" = None
+
+
+def test_references_are_replaced_by_what_they_refer_to() -> None:
+    schema = schema_of(Outer)
+    inner = schema["properties"]["first"]
+    assert inner["properties"] == {"value": {"type": "number"}}
+    assert schema["properties"]["others"]["additionalProperties"]["items"] == inner
+    assert inner in schema["properties"]["maybe"]["anyOf"]
+    assert "$ref" not in json.dumps(schema)
+    assert "$defs" not in schema
+
+
+def test_a_named_schema_accepts_its_name_alone() -> None:
+    assert schema_of(Outer, "outer/1")["properties"]["schema"] == {"const": "outer/1"}
+    assert schema_of(Outer)["properties"]["schema"] == {"type": "string"}
+
+
+def test_a_type_that_contains_itself_is_refused() -> None:
+    with pytest.raises(ValueError, match="Chain contains itself"):
+        schema_of(Chain)
+
+
+def test_the_schema_in_the_docs_is_current(root: Path) -> None:
+    stored = (root / "docs" / "plan_trace.schema.json").read_text(encoding="utf-8")
+    assert stored == plan_trace(), "docs/plan_trace.schema.json is out of date; run: make schema"
+    assert "$ref" not in stored
+
+
+def test_the_commented_example_in_the_docs_is_a_plan_trace(root: Path) -> None:
+    page = (root / "docs" / "trace.md").read_text(encoding="utf-8")
+    [example] = re.findall(r"^```jsonc\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
+    decoded = trace.decode(re.sub(r"//.*", "", example).encode())
+    assert decoded.rollouts
+    assert {p.vehicle for p in decoded.predictions} == set(decoded.scene) - {0}
+    for rollout in decoded.rollouts:
+        assert {sample.vehicle for sample in rollout.samples} <= set(decoded.scene)
+    for prediction in decoded.predictions:
+        assert sum(goal.probability for goal in prediction.goals) == pytest.approx(1.0, abs=1e-5)
