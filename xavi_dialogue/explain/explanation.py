@@ -3,7 +3,7 @@
 No text here: `language.realise` puts these values into words.
 """
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import msgspec
 
@@ -28,6 +28,9 @@ Reason = Literal[
     "busy",
     "planner-failed",
 ]
+
+
+Facts: TypeAlias = dict[str, str | float | int | bool | tuple[str, ...] | None]
 
 
 class OutcomeEstimate(msgspec.Struct, frozen=True):
@@ -90,8 +93,34 @@ class Activity(msgspec.Struct, frozen=True):
     trend: Literal["slowing", "steady", "speeding-up", "standing"] | None
 
 
+class Destination(msgspec.Struct, frozen=True):
+    """Where a vehicle is going: the content of answers to "where"."""
+
+    vehicle: int
+    edge: str | None  # None for stopping
+    kind: Action | None = None  # the macro action that ends there; None for the ego
+    place: str | None = None  # in words; None for the ego
+    probability: float | None = None  # None where it is known
+
+
 class Explanation(msgspec.Struct, frozen=True, kw_only=True):
-    """A derived answer. The contract's fields first; the rest serve the wording."""
+    """A derived answer. The contract's fields first; the rest serve the wording.
+
+    By what was asked:
+
+    - About the ego and a foil (why, why not, what if, compare): all contract fields. Where no
+      foil was named, the counterfactual is the best alternative first action.
+    - Why the ego slowed down, stopped or gave way: no counterfactual, no effects; the causes are
+      the vehicles that hold it up under its own plan, and `activity` is the ego's at that time.
+    - What if another vehicle did otherwise: the counterfactual is what the ego would then plan,
+      outcome and effects are those of that plan then, against the plan as it was; the one cause
+      is that vehicle, with the prior probability of what was supposed, and `decision_changes`
+      tells whether the ego would begin otherwise.
+    - Why or what about another vehicle: `activity` holds what it is expected to do, or what its
+      track shows (probability None); `destination` the goal under which that is rational.
+    - Where: `destination`. When: `moment`, or `arrival` for the way to the goal.
+    - How sure: `activity` of another vehicle with its probability, or the outcome of the plan.
+    """
 
     factual: tuple[Action, ...]
     counterfactual: tuple[Action, ...]  # () where the question has none
@@ -102,13 +131,27 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     activity: Activity | None = None  # answers to "what"
     sim_time: float = 0.0  # [s] when the explained decision was taken, or the moment asked about
     arrival: float | None = None  # [s] expected time to the goal under the factual plan
+    destination: Destination | None = None  # answers to "where", goals behind "why"
+    moment: float | None = None  # [s] when what was asked about happened
 
 
 class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
-    """A refusal with the facts behind it."""
+    """A refusal with the facts behind it.
+
+    Facts, by reason:
+
+    - did-not-happen: vehicle (0 is the ego), asked; did (True where the foil is what was done),
+      happened and time [s] of what was done instead, planned (True where it is yet to come).
+    - not-applicable: asked, reason (a clause in words), time [s] of the decision.
+    - unknown-vehicle: vehicle, known.
+    - too-little-evidence: asked, distinct, needed, coverage, rollouts.
+    - effect-too-small: asked, delta [s].
+    - outside-record, trace-gap: vehicle, time [s].
+    - out-of-scope: what.
+    """
 
     reason: Reason
-    facts: dict[str, str | float | int | bool | tuple[str, ...] | None] = {}
+    facts: Facts = {}
     suggestions: tuple[Query, ...] = ()  # what could be asked instead
 
 
