@@ -101,23 +101,16 @@ class _Speaker:
         raise FormError(f"no form {form!r} of {value!r}")
 
     def _refer(self, vehicle: Vehicle, form: str) -> str:
+        if form not in ("plain", "full", "paper"):
+            raise FormError(f"a vehicle has no form {form!r}: plain, full or paper")
         name = f"vehicle {vehicle.number}"
-        if vehicle.number == EGO:
-            return "my" if form == "possessive" else "I"
-        again = self.mentioned == [vehicle.number]
-        new = vehicle.number not in self.mentioned
-        if new:
-            self.mentioned.append(vehicle.number)
-        if form in ("full", "paper"):
+        if form == "plain" and self.mentioned == [vehicle.number]:
+            return "it"
+        if vehicle.number in self.mentioned:
             return name
-        if form not in ("plain", "possessive"):
-            raise FormError(f"a vehicle has no form {form!r}: plain, possessive, full or paper")
-        if again:
-            return "its" if form == "possessive" else "it"
-        reference = f"{self._description(vehicle)} ({name})" if new else name
-        if not new or not self._description(vehicle):
-            reference = name
-        return f"{reference}'s" if form == "possessive" else reference
+        self.mentioned.append(vehicle.number)
+        description = self._description(vehicle) if form == "plain" else None
+        return f"{description} ({name})" if description else name
 
     def _description(self, vehicle: Vehicle) -> str | None:
         known = self.context.vehicles.get(vehicle.number, VehicleWords())
@@ -146,7 +139,7 @@ class _Speaker:
                 return f"had not {self._verbs(doing, 'participle')}"
             case "had-not":
                 return f"did not {self._verbs(doing, 'base')}"
-            case "base" | "past" | "participle" | "gerund" | "third":
+            case "base" | "past" | "participle" | "gerund":
                 return self._verbs(doing, form)
         raise FormError(f"actions have no form {form!r}")
 

@@ -13,8 +13,8 @@ from importlib.resources import files
 from typing import Literal
 
 PAPER_ADVERBS = ("never", "unlikely", "probably", "likely", "certainly")
-VerbForm = Literal["base", "past", "participle", "gerund", "third"]
-_VERB_COLUMNS: dict[VerbForm, int] = {"past": 0, "participle": 1, "gerund": 2, "third": 3}
+VerbForm = Literal["base", "past", "participle", "gerund"]
+_VERB_COLUMNS: dict[VerbForm, int] = {"past": 0, "participle": 1, "gerund": 2}
 
 
 class WordingError(ValueError):
@@ -79,14 +79,14 @@ def lexicon() -> Lexicon:
     """The lexicon of `grammars/lexicon.toml`.
 
     Raises:
-        WordingError: a table is missing, or a verb has not four forms.
+        WordingError: a table is missing, or a verb has not three forms.
     """
     data, name = _read("lexicon.toml"), "lexicon.toml"
     actions, verbs = _table(data, "actions", name), _table(data, "verbs", name)
     forms = {k: tuple(map(str, v)) for k, v in verbs.items() if isinstance(v, list)}
     for verb, row in forms.items():
         if len(row) != len(_VERB_COLUMNS):
-            raise WordingError(f"{name}: {verb!r} needs past, participle, gerund, third person")
+            raise WordingError(f"{name}: {verb!r} needs past, participle, gerund")
     return Lexicon(
         actions={k: dict(v) for k, v in actions.items() if isinstance(v, dict)},
         components={k: str(v) for k, v in _table(data, "components", name).items()},

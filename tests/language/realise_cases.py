@@ -1,0 +1,179 @@
+"""Explanations to be put into words: hand-made ones, and a Hypothesis strategy for any."""
+
+from hypothesis import strategies as st
+
+from planner.trace import ACTIONS, COMPONENTS, UNITS, Action, Component, Outcome
+from xavi_dialogue.explain.explanation import (
+    Activity,
+    Cause,
+    Effect,
+    Evidence,
+    Explanation,
+    Mechanism,
+    OutcomeEstimate,
+)
+from xavi_dialogue.explain.query import Query, QueryType
+from xavi_dialogue.language.context import SpeechContext, VehicleWords
+
+CUT_AND_TURN: tuple[Action, ...] = ("change-right", "exit-right")
+
+
+def explanation(
+    foil: tuple[Action, ...],
+    outcome: Outcome = "done",
+    probability: float = 1.0,
+    effects: tuple[Effect, ...] = (),
+    causes: tuple[Cause, ...] = (),
+    *,
+    fact: tuple[Action, ...] = ("change-left", "continue"),
+    hit: int | None = None,
+) -> Explanation:
+    return Explanation(
+        factual=fact,
+        counterfactual=foil,
+        outcome=OutcomeEstimate(outcome, probability, hit),
+        effects=effects,
+        causes=causes,
+        evidence=Evidence("tree", 120, 32, ("0123456789abcdef",)),
+    )
+
+
+def effect(component: Component, delta: float, spread: float = 0.4) -> Effect:
+    return Effect(component, UNITS[component], delta, delta - spread, delta + spread, 60, 20)
+
+
+def cause(
+    vehicle: int,
+    actions: tuple[Action, ...],
+    probability: float,
+    mechanism: Mechanism | None = None,
+    decision_changes: bool | None = None,
+) -> Cause:
+    return Cause(vehicle, actions, probability, mechanism, 0.3, decision_changes)
+
+
+def watching(activity: Activity, arrival: float | None = None) -> Explanation:
+    """An answer to "what"."""
+    evidence = Evidence("tree", 100, 20, ("0123456789abcdef",))
+    return Explanation(
+        factual=(),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=evidence,
+        activity=activity,
+        arrival=arrival,
+    )
+
+
+_probabilities = st.one_of(st.sampled_from([0.0, 1.0, 1 - 1e-12]), st.floats(0, 1))
+_numbers = st.integers(1, 5)
+_plans = st.lists(st.sampled_from(ACTIONS), max_size=4).map(tuple)
+_some_plans = st.lists(st.sampled_from(ACTIONS), min_size=1, max_size=3).map(tuple)
+_speeds = st.none() | st.floats(0, 40)
+_mechanisms = st.builds(
+    Mechanism,
+    how=st.sampled_from(["leader", "right-of-way", "cut-in", "blocked", "collision"]),
+    speed_from=_speeds,
+    speed_to=_speeds,
+    delay=st.none() | st.floats(0, 20),
+    share=st.floats(0, 1),
+)
+_causes = st.lists(
+    st.builds(
+        Cause,
+        vehicle=_numbers,
+        actions=_plans,
+        probability=_probabilities,
+        mechanism=st.none() | _mechanisms,
+        influence=st.none() | st.floats(0, 2),
+        decision_changes=st.none() | st.booleans(),
+    ),
+    max_size=4,
+    unique_by=lambda c: c.vehicle,
+).map(tuple)
+
+
+@st.composite
+def _effects(draw: st.DrawFn) -> tuple[Effect, ...]:
+    components = draw(st.lists(st.sampled_from(COMPONENTS), unique=True))
+    return tuple(effect(c, draw(st.floats(-20, 20)), draw(st.floats(0, 20))) for c in components)
+
+
+_activities = st.builds(
+    Activity,
+    vehicle=st.integers(0, 5),
+    actions=_plans,
+    probability=st.none() | _probabilities,
+    speed=_speeds,
+    trend=st.sampled_from([None, "slowing", "steady", "speeding-up", "standing"]),
+)
+
+explanations = st.builds(
+    Explanation,
+    factual=_plans,
+    counterfactual=_plans,
+    outcome=st.none()
+    | st.builds(
+        OutcomeEstimate,
+        name=st.sampled_from(["done", "collision", "termination", "dead"]),
+        probability=_probabilities,
+        collided_with=st.none() | _numbers,
+    ),
+    effects=_effects(),
+    causes=_causes,
+    evidence=st.builds(
+        Evidence,
+        method=st.sampled_from(["tree", "rollouts"]),
+        rollouts=st.integers(0, 400),
+        distinct_samples=st.integers(0, 200),
+        traces=st.just(("0123456789abcdef",)),
+    ),
+    activity=st.none() | _activities,
+    sim_time=st.floats(0, 3600),
+    arrival=st.none() | st.floats(0, 200),
+)
+
+QUESTION_TYPES: tuple[QueryType, ...] = (
+    "why",
+    "why_not",
+    "what_if",
+    "what",
+    "where_goal",
+    "confidence",
+    "compare",
+    "when",
+    "how",
+    "how_avoid",
+    "sensitivity",
+)
+_tenses = st.sampled_from(["past", "present", "future"])
+_details = st.sampled_from([None, "more", "less"])
+_asked = st.none() | _some_plans
+queries = st.builds(
+    Query,
+    type=st.sampled_from(QUESTION_TYPES),
+    actor=st.sampled_from(["ego", "vehicle:1", "vehicle:2", "vehicle:front"]),
+    factual=_asked,
+    counterfactual=_asked,
+    negated=st.booleans(),
+    tense=_tenses,
+    detail=_details,
+    intervention=st.sampled_from([None, "remove"]),
+)
+
+_descriptions = st.sampled_from([None, "the car ahead", "the car behind", "the car on our left"])
+contexts = st.builds(
+    SpeechContext,
+    style=st.just("passenger"),
+    vehicles=st.dictionaries(
+        _numbers,
+        st.builds(VehicleWords, kind=st.sampled_from(["car", "truck"]), description=_descriptions),
+    ),
+    named=st.frozensets(_numbers),
+    detail=_details,
+    max_causes=st.integers(0, 3),
+    max_effects=st.integers(0, 4),
+    done=_plans,
+)

@@ -1,0 +1,123 @@
+"""What holds of every answer, whatever the explanation."""
+
+import math
+import re
+from collections.abc import Iterator
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.language.realise_cases import contexts, explanations, queries
+from xavi_dialogue.explain.explanation import Explanation
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.context import SpeechContext
+from xavi_dialogue.language.morphology import Quantity, quantity
+from xavi_dialogue.language.orthography import count_sentences, count_words
+from xavi_dialogue.language.realise import MAX_SENTENCES, MAX_WORDS, MAX_WORDS_MORE, realise
+
+JARGON = re.compile(
+    r"\b(ego|macro|rollouts?|jerk|kl|curvature|angular|trajector\w+|prior|posterior|nan|none|null|"
+    r"inf|true|false|change-\w+|exit-\w+|vehicle:\S+)\b",
+    re.IGNORECASE,
+)
+DOUBLED = re.compile(r"\b(\w+) \1\b", re.IGNORECASE)
+UNTIDY = re.compile(r"because\s*[.,]|[,.;:]\s*[,.;:]|\s[,.;:?]|  |\(\s|\s\)|[{}_]|[a-z]\. [a-z]")
+EXAMPLES = settings(max_examples=400)
+
+
+def numbers(found: Explanation, query: Query) -> Iterator[str]:
+    """Every number that an answer may contain, as it would be spelt."""
+    evidence = found.evidence
+    yield from (str(evidence.rollouts), str(evidence.distinct_samples))
+    times = [found.arrival, *(x for e in found.effects for x in (e.delta, e.low, e.high))]
+    speeds = [s for c in found.causes if (m := c.mechanism) for s in (m.speed_from, m.speed_to)]
+    chances = [c.probability for c in found.causes]
+    if found.outcome is not None:
+        chances.append(found.outcome.probability)
+    if found.activity is not None:
+        speeds.append(found.activity.speed)
+        chances.append(found.activity.probability or 1.0)
+    for value in times:
+        yield from re.findall(r"[\d.]+", quantity(Quantity(value or 0.0, "s")))
+    for value in speeds:
+        yield from re.findall(r"\d+", quantity(Quantity(value or 0.0, "km/h")))
+    for chance in chances:
+        yield from re.findall(r"\d+", quantity(Quantity(chance, "probability")))
+    yield "100"  # a chance of one, where there is no estimate
+
+
+def vehicles(found: Explanation, query: Query) -> set[int]:
+    known = {c.vehicle for c in found.causes}
+    if found.outcome is not None and found.outcome.collided_with is not None:
+        known.add(found.outcome.collided_with)
+    if found.activity is not None:
+        known.add(found.activity.vehicle)
+    return known | {int(n) for n in re.findall(r"\d+", query.actor)}
+
+
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_answers_are_tidy(query: Query, found: Explanation, context: SpeechContext) -> None:
+    text = realise(query, found, context).text
+    assert text[-1] in ".?"
+    assert text[0].isupper()
+    assert DOUBLED.search(text) is None
+    assert UNTIDY.search(text) is None
+    assert text.count("(") == text.count(")")
+    assert "would not not" not in text
+
+
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_answers_keep_to_a_passengers_words(
+    query: Query, found: Explanation, context: SpeechContext
+) -> None:
+    assert JARGON.search(realise(query, found, context).text) is None
+
+
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_answers_are_short(query: Query, found: Explanation, context: SpeechContext) -> None:
+    text = realise(query, found, context).text
+    if "more" in (query.detail, context.detail) and query.detail != "less":
+        assert count_words(text) <= MAX_WORDS_MORE
+    else:
+        assert count_words(text) <= MAX_WORDS
+        assert count_sentences(text) <= MAX_SENTENCES
+
+
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_numbers_and_vehicles_come_from_the_explanation(
+    query: Query, found: Explanation, context: SpeechContext
+) -> None:
+    said = realise(query, found, context)
+    named = {int(n) for n in re.findall(r"[Vv]ehicle (\d+)", said.text)}
+    assert named == set(said.mentioned)
+    assert named <= vehicles(found, query)
+    bare = re.sub(r"[Vv]ehicle \d+", "", said.text)
+    assert set(re.findall(r"\d+(?:\.\d+)?", bare)) <= set(numbers(found, query)) | {"5", "95"}
+
+
+@given(queries, explanations, contexts)
+def test_wording_is_deterministic(query: Query, found: Explanation, context: SpeechContext) -> None:
+    assert realise(query, found, context) == realise(query, found, context)
+
+
+@given(queries, explanations)
+def test_the_papers_style_is_tidy_too(query: Query, found: Explanation) -> None:
+    context = SpeechContext(style="paper", max_causes=4, max_effects=4)
+    text = realise(query, found, context).text
+    assert text.endswith((".", "?"))
+    assert UNTIDY.search(text) is None
+    assert "  " not in text
+    assert "would have certainly" not in text
+
+
+@given(st.floats(0, 1))
+def test_a_chance_is_only_certain_when_it_is(probability: float) -> None:
+    spelt = quantity(Quantity(probability, "probability"))
+    certain = math.isclose(probability, 1, abs_tol=1e-9)
+    impossible = math.isclose(probability, 0, abs_tol=1e-9)
+    assert (spelt == "100 %") == certain
+    assert (spelt == "0 %") == impossible
