@@ -1,0 +1,27 @@
+"""The passenger picks one of the choices of a clarification: "2", "the second one"."""
+
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+
+
+def chosen(text: str, count: int) -> int | None:
+    """The index (from 0) of the choice that the text picks out of `count`, or None."""
+    filler, numbers = _words()
+    words = ["".join(filter(str.isalnum, word)) for word in text.casefold().split()]
+    if words == ["one"]:
+        words = ["first"]
+    telling = [word for word in words if word and word not in filler]
+    if len(telling) != 1:
+        return None
+    word = telling[0]
+    number = int(word) if word.isdecimal() and len(word) <= 2 else numbers.get(word, 0)
+    index = count - 1 if number == -1 else number - 1
+    return index if 0 <= index < count else None
+
+
+@cache
+def _words() -> tuple[frozenset[str], Mapping[str, int]]:
+    data = tomllib.loads(files("grammars").joinpath("choices.toml").read_text(encoding="utf-8"))
+    return frozenset(data["filler"]), data["number"]

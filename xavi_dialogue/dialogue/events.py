@@ -1,0 +1,109 @@
+"""What the dialogue manager is told, and what it hands out. No clock: times are given."""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from planner.events import Event
+from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.explain.explanation import NeedRollout, Reason
+from xavi_dialogue.language.context import Style
+
+
+@dataclass(frozen=True, slots=True)
+class TraceRecorded:
+    """The planner took a decision."""
+
+    trace: PlanTrace
+
+
+@dataclass(frozen=True, slots=True)
+class EventRecorded:
+    """Something happened to the ego."""
+
+    event: Event
+
+
+@dataclass(frozen=True, slots=True)
+class RideEnded:
+    """Nothing more will be recorded."""
+
+    at: float  # [s]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A passenger asks; the record is complete up to `at`."""
+
+    request: str  # names the question until it is answered
+    session: str
+    text: str
+    at: float  # [s] the moment at which it is asked
+    style: Style = "passenger"
+
+
+@dataclass(frozen=True, slots=True)
+class TurnedAway:
+    """A passenger asked, and the shell cannot have the question answered."""
+
+    asked: Asked
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True)
+class RolloutsArrived:
+    """The planner planned again, as wanted for the question."""
+
+    request: str
+    session: str
+    trace: PlanTrace
+
+
+@dataclass(frozen=True, slots=True)
+class RolloutsFailed:
+    """The planner did not plan again."""
+
+    request: str
+    session: str
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True)
+class Cancelled:
+    """The passenger no longer wants the answer."""
+
+    request: str
+    session: str
+
+
+Input: TypeAlias = (
+    TraceRecorded
+    | EventRecorded
+    | RideEnded
+    | Asked
+    | TurnedAway
+    | RolloutsArrived
+    | RolloutsFailed
+    | Cancelled
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """The reply to a question."""
+
+    request: str
+    session: str
+    reply: Reply
+
+
+@dataclass(frozen=True, slots=True)
+class RolloutsWanted:
+    """The question needs the planner to plan again."""
+
+    request: str
+    session: str
+    need: NeedRollout
+
+
+Output: TypeAlias = Answered | RolloutsWanted

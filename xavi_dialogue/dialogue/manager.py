@@ -1,0 +1,185 @@
+"""The dialogue manager, sans I/O: inputs in, outputs out, and the state a fold over inputs.
+
+It has no sockets, clock or threads. Where evidence is lacking it hands out RolloutsWanted and
+goes on when RolloutsArrived or RolloutsFailed comes back. An input that has no place in the
+present state raises IllegalEvent and changes nothing.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TypeAlias
+
+from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.events import (
+    Answered,
+    Asked,
+    Cancelled,
+    EventRecorded,
+    Input,
+    Output,
+    RideEnded,
+    RolloutsArrived,
+    RolloutsFailed,
+    RolloutsWanted,
+    TraceRecorded,
+    TurnedAway,
+)
+from xavi_dialogue.dialogue.mind import Mind, Said, answer, refuse, turn_away, understand
+from xavi_dialogue.dialogue.state import Dialogue, Pending, Session, Turn, Understood
+from xavi_dialogue.dialogue.states import (
+    PHASES,
+    RIDE_PHASES,
+    IllegalEvent,
+    Move,
+    Phase,
+    RideMove,
+    after,
+)
+from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
+
+MAX_ROUNDS = 3  # of planning again for one question
+
+Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
+
+
+def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
+    """The state after one input, and what is handed out.
+
+    Raises:
+        IllegalEvent: the input has no place in the present state.
+    """
+    match event:
+        case TraceRecorded() | EventRecorded() | RideEnded():
+            return _record(dialogue, event), ()
+        case Asked():
+            return _ask(mind, dialogue, event)
+        case TurnedAway():
+            return _turn_away(dialogue, event)
+        case RolloutsArrived():
+            return _go_on(mind, dialogue, event)
+        case RolloutsFailed():
+            return _give_up(dialogue, event)
+        case Cancelled(request, name):
+            session, _ = _waiting(dialogue, request, name, Move.CANCELLED)
+            return _with(dialogue, name, session), ()
+
+
+def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
+    """The state after a row of inputs."""
+    state = Dialogue() if dialogue is None else dialogue
+    for event in events:
+        state, _ = advance(mind, state, event)
+    return state
+
+
+def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded) -> Dialogue:
+    move = RideMove.ENDED if isinstance(event, RideEnded) else RideMove.RECORDED
+    phase = after(RIDE_PHASES, dialogue.ride, move)
+    match event:
+        case TraceRecorded(trace):
+            return replace(dialogue, ride=phase, traces=(*dialogue.traces, trace))
+        case EventRecorded(happened):
+            return replace(dialogue, ride=phase, events=(*dialogue.events, happened))
+        case RideEnded(at):
+            return replace(dialogue, ride=phase, ended_at=at)
+
+
+def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
+    session = dialogue.session(asked.session)
+    phase = after(PHASES, session.phase, Move.ASKED)
+    record = dialogue.record(asked.at)
+    if phase is Phase.PLANNING:
+        return dialogue, (_answered(asked, turn_away(session, asked, record, "busy")),)
+    session = replace(session, phase=phase)
+    understood = understand(mind, session, asked, record)
+    if isinstance(understood, Said):
+        return _speak(dialogue, session, asked, understood)
+    return _think(mind, dialogue, session, asked, understood)
+
+
+def _think(
+    mind: Mind,
+    dialogue: Dialogue,
+    session: Session,
+    asked: Asked,
+    understood: Understood,
+    extra: tuple[PlanTrace, ...] = (),
+) -> Step:
+    """Explain; what was planned again for an earlier question need not be planned anew."""
+    record = dialogue.record(asked.at, extra)
+    found = answer(mind, session, asked, record, understood)
+    if isinstance(found, NeedRollout):
+        known = dialogue.planned.get(found)
+        if len(extra) >= MAX_ROUNDS or known in extra:
+            why = NoExplanation(reason="too-little-evidence")
+            found = refuse(session, asked, record, understood, why)
+        elif known is not None:
+            return _think(mind, dialogue, session, asked, understood, (*extra, known))
+        else:
+            return _want(dialogue, session, Pending(asked, understood, found, extra))
+    return _speak(dialogue, session, asked, found)
+
+
+def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
+    phase = after(PHASES, session.phase, Move.LACKED)
+    session = replace(session, phase=phase, pending=pending)
+    asked = pending.asked
+    wanted = RolloutsWanted(asked.request, asked.session, pending.need)
+    return _with(dialogue, asked.session, session), (wanted,)
+
+
+def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[Session, Pending]:
+    """The session that waits for rollouts for this request, moved on.
+
+    Raises:
+        IllegalEvent: it waits for nothing, or for another request.
+    """
+    session = dialogue.session(name)
+    phase = after(PHASES, session.phase, move)
+    pending = session.pending
+    if pending is None or pending.asked.request != request:
+        raise IllegalEvent(f"{move.value!r} for {request!r}, which waits for nothing")
+    return replace(session, phase=phase, pending=None), pending
+
+
+def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
+    session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNED)
+    dialogue = replace(dialogue, planned={**dialogue.planned, pending.need: event.trace})
+    extra = (*pending.extra, event.trace)
+    return _think(mind, dialogue, session, pending.asked, pending.understood, extra)
+
+
+def _give_up(dialogue: Dialogue, event: RolloutsFailed) -> Step:
+    session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNING_FAILED)
+    record = dialogue.record(pending.asked.at, pending.extra)
+    why = NoExplanation(reason=event.reason)
+    said = refuse(session, pending.asked, record, pending.understood, why)
+    return _speak(dialogue, session, pending.asked, said)
+
+
+def _turn_away(dialogue: Dialogue, event: TurnedAway) -> Step:
+    asked = event.asked
+    session = dialogue.session(asked.session)
+    session = replace(session, phase=after(PHASES, session.phase, Move.TURNED_AWAY))
+    said = turn_away(session, asked, dialogue.record(asked.at), event.reason)
+    return _with(dialogue, asked.session, session), (_answered(asked, said),)
+
+
+def _speak(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
+    session = replace(
+        session,
+        phase=after(PHASES, session.phase, Move.ANSWERED),
+        turns=(*session.turns, Turn(said.text, said.query, said.reply)),
+        named=session.named | frozenset(said.mentioned),
+        topic=said.mentioned[-1] if said.mentioned else session.topic,
+        choices=said.choices,
+    )
+    return _with(dialogue, asked.session, session), (_answered(asked, said),)
+
+
+def _answered(asked: Asked, said: Said) -> Answered:
+    return Answered(asked.request, asked.session, said.reply)
+
+
+def _with(dialogue: Dialogue, name: str, session: Session) -> Dialogue:
+    return replace(dialogue, sessions={**dialogue.sessions, name: session})

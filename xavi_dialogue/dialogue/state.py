@@ -1,0 +1,82 @@
+"""The state of all conversations about one ride: a value, folded from inputs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from planner.events import Event
+from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.events import Asked
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.states import Phase, RidePhase
+from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.record import Record
+
+EPSILON = 1e-6  # [s] times nearer than this are the same
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """One question and its reply."""
+
+    text: str  # as asked; where a choice was picked, the question it stands for
+    query: Query | None
+    reply: Reply
+
+
+@dataclass(frozen=True, slots=True)
+class Understood:
+    """A question that can be explained."""
+
+    text: str  # see Turn
+    query: Query
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """A question that waits for rollouts."""
+
+    asked: Asked
+    understood: Understood
+    need: NeedRollout
+    extra: tuple[PlanTrace, ...] = ()  # what arrived for it so far
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """One passenger's conversation."""
+
+    phase: Phase = Phase.LISTENING
+    turns: tuple[Turn, ...] = ()
+    named: frozenset[int] = frozenset()  # vehicles that were spoken of
+    topic: int | None = None  # the one that was spoken of last
+    choices: tuple[Query, ...] = ()  # offered by the last reply
+    pending: Pending | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Dialogue:
+    """The ride's record, and every conversation about it."""
+
+    ride: RidePhase = RidePhase.UNDER_WAY
+    traces: tuple[PlanTrace, ...] = ()
+    events: tuple[Event, ...] = ()
+    ended_at: float | None = None  # [s]
+    sessions: Mapping[str, Session] = field(default_factory=dict)
+    planned: Mapping[NeedRollout, PlanTrace] = field(default_factory=dict)  # planned again so far
+
+    def session(self, name: str) -> Session:
+        """A passenger's conversation, a fresh one at first."""
+        return self.sessions.get(name, Session())
+
+    def record(self, at: float, extra: tuple[PlanTrace, ...] = ()) -> Record:
+        """All that was known at a moment [s]; after the ride, at its end."""
+        ended = self.ended_at is not None and at >= self.ended_at - EPSILON
+        now = self.ended_at if ended and self.ended_at is not None else at
+        return Record(
+            now=now,
+            traces=tuple(t for t in self.traces if t.sim_time <= now + EPSILON),
+            events=tuple(e for e in self.events if e.sim_time <= now + EPSILON),
+            ended=ended,
+            extra=extra,
+        )

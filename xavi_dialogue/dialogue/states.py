@@ -1,0 +1,92 @@
+"""The conversation as a table; everything that decides what may follow what stands here.
+
+A session listens, thinks about one question at a time, and may have to wait for new rollouts
+before it can go on thinking. A ride is under way until it is over. An input that the table does
+not provide for is an error and changes nothing.
+"""
+
+from collections.abc import Mapping
+from enum import Enum
+from typing import TypeVar
+
+
+class Phase(Enum):
+    """Where a session stands. THINKING never outlasts the input that led to it."""
+
+    LISTENING = "listening"
+    THINKING = "thinking"
+    PLANNING = "planning"
+
+
+class Move(Enum):
+    """What happens to a session."""
+
+    ASKED = "asked"
+    TURNED_AWAY = "turned away"  # the shell could not have the question answered
+    ANSWERED = "answered"
+    LACKED = "lacked evidence"
+    PLANNED = "rollouts arrived"
+    PLANNING_FAILED = "rollouts failed"
+    CANCELLED = "cancelled"
+
+
+class RidePhase(Enum):
+    """Where the ride stands."""
+
+    UNDER_WAY = "under way"
+    OVER = "over"
+
+
+class RideMove(Enum):
+    """What happens to the ride."""
+
+    RECORDED = "recorded"
+    ENDED = "ended"
+
+
+PHASES: Mapping[tuple[Phase, Move], Phase] = {
+    (Phase.LISTENING, Move.ASKED): Phase.THINKING,
+    (Phase.LISTENING, Move.TURNED_AWAY): Phase.LISTENING,
+    (Phase.THINKING, Move.ANSWERED): Phase.LISTENING,
+    (Phase.THINKING, Move.LACKED): Phase.PLANNING,
+    (Phase.PLANNING, Move.PLANNED): Phase.THINKING,
+    (Phase.PLANNING, Move.PLANNING_FAILED): Phase.THINKING,
+    (Phase.PLANNING, Move.CANCELLED): Phase.LISTENING,
+    (Phase.PLANNING, Move.ASKED): Phase.PLANNING,  # turned away as busy
+    (Phase.PLANNING, Move.TURNED_AWAY): Phase.PLANNING,
+}
+
+RIDE_PHASES: Mapping[tuple[RidePhase, RideMove], RidePhase] = {
+    (RidePhase.UNDER_WAY, RideMove.RECORDED): RidePhase.UNDER_WAY,
+    (RidePhase.UNDER_WAY, RideMove.ENDED): RidePhase.OVER,
+}
+
+State = TypeVar("State", bound=Enum)
+Input = TypeVar("Input", bound=Enum)
+
+
+class IllegalEvent(Exception):
+    """An input that has no place in the present state."""
+
+
+def after(table: Mapping[tuple[State, Input], State], state: State, move: Input) -> State:
+    """The state that follows.
+
+    Raises:
+        IllegalEvent: the table has no such transition.
+    """
+    try:
+        return table[state, move]
+    except KeyError:
+        raise IllegalEvent(f"{move.value!r} cannot happen while {state.value!r}") from None
+
+
+def diagram() -> str:
+    """Both tables as Mermaid state diagrams."""
+    lines = ["stateDiagram-v2", "    [*] --> listening"]
+    lines += [f"    {a.value} --> {b.value}: {move.value}" for (a, move), b in PHASES.items()]
+    lines += ["", "stateDiagram-v2", '    state "under way" as under_way', "    [*] --> under_way"]
+    for (before, happened), then in RIDE_PHASES.items():
+        names = [phase.value.replace(" ", "_") for phase in (before, then)]
+        lines.append(f"    {names[0]} --> {names[1]}: {happened.value}")
+    return "\n".join(lines) + "\n"
