@@ -92,7 +92,8 @@ def _number(element: ET.Element, key: str, default: float | None = None) -> floa
         return float(value)
     except ValueError as error:
         name = element.get("id", "?")
-        raise NetworkInvalid(f"<{element.tag}> {name!r}: {key}={value!r} is not a number") from error
+        what = f"{key}={value!r} is not a number"
+        raise NetworkInvalid(f"<{element.tag}> {name!r}: {what}") from error
 
 
 def _lanes(root: ET.Element) -> Iterator[Lane]:

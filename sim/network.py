@@ -9,6 +9,7 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 from sim.scene import Point
@@ -147,7 +148,9 @@ class Network:
         for lane in self.lanes.values():
             if not lane.internal:
                 result.setdefault(lane.edge, []).append(lane)
-        return {edge: tuple(sorted(lanes, key=lambda lane: lane.index)) for edge, lanes in result.items()}
+        for lanes in result.values():
+            lanes.sort(key=lambda lane: lane.index)
+        return {edge: tuple(lanes) for edge, lanes in result.items()}
 
     @cached_property
     def _distances(self) -> dict[str, dict[str, float]]:
@@ -158,7 +161,7 @@ class Network:
         """Lanes by the 20 m cells that their centrelines pass within 10 m of."""
         cells: dict[tuple[int, int], dict[str, None]] = {}
         for lane in self.lanes.values():
-            for (ax, ay), (bx, by) in zip(lane.centreline, lane.centreline[1:], strict=False):
+            for (ax, ay), (bx, by) in pairwise(lane.centreline):
                 steps = max(1, math.ceil(math.hypot(bx - ax, by - ay) / 5.0))
                 for k in range(steps + 1):
                     x, y = ax + (bx - ax) * k / steps, ay + (by - ay) * k / steps
@@ -175,9 +178,9 @@ class Network:
         here = self.lanes[lane]
         if here.internal:
             return None
+        # Lanes that cars may not use leave gaps in the numbers.
         lanes = self._edge_lanes[here.edge]
-        index = here.index + step
-        return lanes[index] if 0 <= index < len(lanes) else None
+        return next((other for other in lanes if other.index == here.index + step), None)
 
     def _search_back(self, edge: str) -> dict[str, float]:
         """Dijkstra against the driving direction over edges."""
@@ -224,7 +227,8 @@ def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, flo
         distance = math.hypot(position[0] - px, position[1] - py)
         if distance < best[0]:
             side = dx * (position[1] - ay) - dy * (position[0] - ax)
-            best = (distance, travelled + clamped, math.copysign(distance, side), math.atan2(dy, dx))
+            lateral = math.copysign(distance, side)
+            best = (distance, travelled + clamped, lateral, math.atan2(dy, dx))
         travelled += length
     return best[1], best[2], best[3]
 
@@ -242,7 +246,7 @@ def angle_between(a: float, b: float) -> float:
 def cumulative(line: tuple[Point, ...]) -> list[float]:
     """Arc length [m] at each point of a polyline, from 0."""
     total = [0.0]
-    for (ax, ay), (bx, by) in zip(line, line[1:], strict=False):
+    for (ax, ay), (bx, by) in pairwise(line):
         total.append(total[-1] + math.hypot(bx - ax, by - ay))
     return total
 

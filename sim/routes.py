@@ -1,6 +1,6 @@
 """Route files: which vehicles there are, and where they start.
 
-    RoutesError    the file is not XML, or a vehicle in it lacks what its start needs
+The one error is RoutesError.
 """
 
 import random
@@ -12,7 +12,7 @@ VEHICLES = ("vehicle", "trip")
 
 
 class RoutesError(Exception):
-    """A route file cannot be used as it stands."""
+    """A route file is not XML, or a vehicle in it lacks what its start needs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Departure:
     at_start: bool  # departs at 0 s
     edges: tuple[str, ...]  # of its route as written; a trip's are its ends
     position: float | None  # [m] departPos along the first edge, None where not a number
-    coloured: bool  # whether the file says what colour it has
+    coloured: bool  # has a colour of its own, beside that of its type
 
 
 def parse(path: Path) -> ET.Element:
@@ -58,7 +58,6 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
         RoutesError: a vehicle has no id.
     """
     routes = {route.get("id"): route for route in root.iter("route")}
-    painted = {kind.get("id") for kind in root.iter("vType") if kind.get("color")}
     found = []
     for element in _vehicles(root):
         name = element.get("id")
@@ -68,10 +67,14 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
         if route is None:
             route = routes.get(element.get("route"))
         edges = _edges(element) if route is None else _edges(route)
-        coloured = bool(element.get("color")) or element.get("type") in painted
-        place = _number(element.get("departPos"))
+        place, coloured = _number(element.get("departPos")), bool(element.get("color"))
         found.append(Departure(name, _at_start(element), edges, place, coloured))
     return tuple(found)
+
+
+def coloured_types(root: ET.Element) -> frozenset[str]:
+    """The vehicle types whose colour the file states."""
+    return frozenset(kind.get("id", "") for kind in root.iter("vType") if kind.get("color"))
 
 
 def mentioned_edges(root: ET.Element) -> dict[str, str]:
@@ -107,7 +110,8 @@ def with_spawn(root: ET.Element, spawn: Spawn, seed: int) -> bytes:
         element.set("departPos", repr(base + draw.uniform(-half, half)))
         element.set("departSpeed", repr(draw.uniform(*spawn.speed)))
         element.set("insertionChecks", "none")
-    return ET.tostring(copy, encoding="utf-8", xml_declaration=True)
+    varied: bytes = ET.tostring(copy, encoding="utf-8", xml_declaration=True)
+    return varied
 
 
 def _vehicles(root: ET.Element) -> list[ET.Element]:

@@ -1,12 +1,11 @@
 """Scenario folders: ours and a user's alike, read and checked.
 
+Errors:
     ScenarioError
     ├── ScenarioNotFound    no scenario has this name, and no folder is there
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
 """
 
-import math
-import tomllib
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from sim.netconvert import NetconvertError, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
 from sim.routes import RoutesError, Spawn
+from sim.tables import Table, TableError, read_toml
 
 CONFIG = "scenario.toml"
 VIEW_RADIUS = 100.0  # [m]
@@ -42,12 +42,10 @@ class ScenarioNotFound(ScenarioError):
 
 
 class ScenarioInvalid(ScenarioError):
-    """A file of a scenario folder is wrong."""
+    """A file of a scenario folder is wrong.
 
-    def __init__(self, file: Path, key: str | None, problem: str, remedy: str) -> None:
-        self.file, self.key, self.problem, self.remedy = file, key, problem, remedy
-        where = f"{file}: {key}" if key else str(file)
-        super().__init__(f"{where}: {problem}; {remedy}")
+    The message names file, key, problem and remedy.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,23 +90,22 @@ def load(name_or_path: str | Path) -> Scenario:
         ScenarioInvalid: the folder is wrong.
     """
     folder = _folder(name_or_path)
-    file = folder / CONFIG
     try:
-        with file.open("rb") as stream:
-            top = _Table(file, "", tomllib.load(stream))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ScenarioInvalid(file, None, f"not TOML: {error}", "mend the syntax there") from error
-    except OSError as error:
-        raise ScenarioInvalid(file, None, str(error.strerror), "make it readable") from error
+        return _read(folder)
+    except TableError as error:
+        raise ScenarioInvalid(str(error)) from error
+
+
+def _read(folder: Path) -> Scenario:
+    top = read_toml(folder / CONFIG)
     top.only((*_KEYS, *_OPTIONAL))
     priority = top.table("priority")
     priorities = {edge: priority.integer(edge) for edge in priority.values}
-    network_file = _network_file(top, folder, priorities)
     scenario = Scenario(
         name=top.text("name"),
         description=top.text("description"),
         folder=folder,
-        network=network_file,
+        network=_network_file(top, folder, priorities),
         routes=top.path("routes", folder),
         ego=top.text("ego"),
         step=top.number("step", least=0.001, most=1.0),
@@ -132,88 +129,16 @@ def _folder(name_or_path: str | Path) -> Path:
     return folder.resolve()
 
 
-@dataclass(frozen=True, slots=True)
-class _Table:
-    """A table of the TOML file, read key by key with strict types."""
-
-    file: Path
-    prefix: str  # of its keys in messages
-    values: Mapping[str, object]
-
-    def wrong(self, key: str, problem: str, remedy: str) -> ScenarioInvalid:
-        return ScenarioInvalid(self.file, self.prefix + key, problem, remedy)
-
-    def only(self, known: tuple[str, ...]) -> None:
-        for key in self.values:
-            if key not in known:
-                raise self.wrong(key, "unknown key", f"remove it; known are {', '.join(known)}")
-
-    def _get(self, key: str, what: str) -> object:
-        if key not in self.values:
-            raise self.wrong(key, "missing", f"add it: {what}")
-        return self.values[key]
-
-    def text(self, key: str) -> str:
-        value = self._get(key, "a text")
-        if not isinstance(value, str) or not value.strip():
-            raise self.wrong(key, f"{value!r} is no text", "write it in quotes")
-        return value
-
-    def number(
-        self,
-        key: str,
-        *,
-        default: float | None = None,
-        least: float = 0.0,
-        most: float = math.inf,
-    ) -> float:
-        value = default if default is not None and key not in self.values else None
-        if value is None:
-            value = self.check(key, self._get(key, "a number"))
-        if not least <= value <= most:
-            limits = f"at least {least:g}" + ("" if math.isinf(most) else f", at most {most:g}")
-            raise self.wrong(key, f"{value:g} is out of range", f"it must be {limits}")
-        return value
-
-    def check(self, key: str, value: object) -> float:
-        """A finite number, or an error."""
-        real = isinstance(value, int | float) and not isinstance(value, bool)
-        if not (real and math.isfinite(float(value))):  # type: ignore[arg-type]
-            raise self.wrong(key, f"{value!r} is no number", "write a finite number, unquoted")
-        return float(value)  # type: ignore[arg-type]
-
-    def integer(self, key: str, *, default: int | None = None, most: int = 2**31 - 1) -> int:
-        value = self.values.get(key, default)
-        if value is None:
-            value = self._get(key, "a whole number")
-        if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= most:
-            remedy = f"write a whole number from 0 to {most}"
-            raise self.wrong(key, f"{value!r} is no whole number in range", remedy)
-        return value
-
-    def path(self, key: str, folder: Path) -> Path:
-        path = folder / self.text(key)
-        if not path.is_file():
-            raise self.wrong(key, f"there is no file {path}", "put it there or mend the name")
-        return path
-
-    def table(self, key: str, *, required: bool = False) -> "_Table":
-        value = self._get(key, f"a table [{key}]") if required else self.values.get(key, {})
-        if not isinstance(value, dict):
-            raise self.wrong(key, f"{value!r} is no table", f"write it as [{key}]")
-        return _Table(self.file, f"{self.prefix}{key}.", value)
-
-
-def _goal(table: _Table) -> Goal:
+def _goal(table: Table) -> Goal:
     table.only(("edge", "position", "lane"))
     lane = table.integer("lane") if "lane" in table.values else None
     return Goal(table.text("edge"), table.number("position"), lane)
 
 
-def _spawn(table: _Table) -> Spawn:
+def _spawn(table: Table) -> Spawn:
     table.only(("longitudinal", "speed"))
     longitudinal = table.number("longitudinal")
-    speeds = table._get("speed", "the least and the greatest speed [m/s]")
+    speeds = table.value("speed", "the least and the greatest speed [m/s]")
     if not isinstance(speeds, list) or len(speeds) != 2:
         raise table.wrong("speed", f"{speeds!r} is no range", "write it as [least, greatest]")
     low, high = (table.check("speed", speed) for speed in speeds)
@@ -222,9 +147,12 @@ def _spawn(table: _Table) -> Spawn:
     return Spawn(longitudinal, (low, high))
 
 
-def _network_file(top: _Table, folder: Path, priority: Mapping[str, int]) -> Path:
+def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path:
     path = top.path("network", folder)
     if path.suffix != ".xodr":
+        if priority:
+            remedy = "remove it: the right of way of a SUMO net is part of the net"
+            raise top.wrong("priority", "only for OpenDRIVE networks", remedy)
         return path
     try:
         return opendrive_net(path, priority)
@@ -232,7 +160,7 @@ def _network_file(top: _Table, folder: Path, priority: Mapping[str, int]) -> Pat
         raise top.wrong("network", f"cannot convert {path}", str(error)) from error
 
 
-def _check(scenario: Scenario, top: _Table) -> None:
+def _check(scenario: Scenario, top: Table) -> None:
     """Whether the files agree with one another."""
     try:
         network = read_network(scenario.network)
@@ -242,7 +170,7 @@ def _check(scenario: Scenario, top: _Table) -> None:
         root = routes.parse(scenario.routes)
         departures = routes.departures(root)
     except RoutesError as error:
-        raise ScenarioInvalid(scenario.routes, None, str(error), "mend the route file") from error
+        raise TableError(scenario.routes, None, str(error), "mend the route file") from error
     edges = {lane.edge for lane in network.lanes.values() if not lane.internal}
     for edge in scenario.priority:
         if edge not in edges:
@@ -260,8 +188,8 @@ def _check(scenario: Scenario, top: _Table) -> None:
 def _check_routes(scenario: Scenario, root: ET.Element, edges: set[str]) -> None:
     for edge, owner in routes.mentioned_edges(root).items():
         if edge not in edges:
-            key = f"route of {owner!r}"
-            raise ScenarioInvalid(scenario.routes, key, f"there is no edge {edge!r}", _one_of(edges))
+            key, problem = f"route of {owner!r}", f"there is no edge {edge!r} for cars"
+            raise TableError(scenario.routes, key, problem, _one_of(edges))
 
 
 def _check_starts(
@@ -272,10 +200,11 @@ def _check_starts(
         key = f"vehicle {vehicle.id!r}"
         if not vehicle.edges:
             remedy = 'give it <route edges="..."/>'
-            raise ScenarioInvalid(scenario.routes, key, "it has no route", remedy)
+            raise TableError(scenario.routes, key, "it has no route", remedy)
         if not vehicle.at_start:
             if vehicle.id == scenario.ego:
-                raise ScenarioInvalid(scenario.routes, key, "the ego departs late", 'write depart="0"')
+                problem = "the ego departs late"
+                raise TableError(scenario.routes, key, problem, 'write depart="0"')
             continue
         if scenario.spawn is None:
             continue
@@ -284,21 +213,19 @@ def _check_starts(
         if vehicle.position is None or not half <= vehicle.position <= length - half:
             problem = "departPos leaves no room for [spawn]"
             remedy = f"write departPos as a number from {half:g} to {length - half:g} m"
-            raise ScenarioInvalid(scenario.routes, key, problem, remedy)
+            raise TableError(scenario.routes, key, problem, remedy)
 
 
-def _check_goal(
-    goal: Goal, top: _Table, network: Network, edges: set[str], start: str
-) -> None:
+def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start: str) -> None:
     if goal.edge not in edges:
         raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", _one_of(edges))
     if goal.edge != start and start not in network.distance_to(goal.edge):
         problem = f"{goal.edge!r} cannot be reached from {start!r}, where the ego starts"
         raise top.wrong("goal.edge", problem, _one_of(_reachable(network, edges, start)))
     lanes = network.edge_lanes(goal.edge)
-    if goal.lane is not None and goal.lane >= len(lanes):
-        remedy = f"{goal.edge!r} has lanes 0 to {len(lanes) - 1}, counted from the right"
-        raise top.wrong("goal.lane", f"there is no lane {goal.lane}", remedy)
+    numbers = [str(lane.index) for lane in lanes]
+    if goal.lane is not None and str(goal.lane) not in numbers:
+        raise top.wrong("goal.lane", f"{goal.edge!r} has no lane {goal.lane}", _one_of(numbers))
     length = min(lane.length for lane in lanes)
     if goal.position > length:
         problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"

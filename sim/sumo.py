@@ -19,9 +19,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
-from sim import routes
+from sim import appearance, routes
 from sim.boxes import overlap
-from sim.colours import colour_name
 from sim.names import VehicleNames
 from sim.network import angle_between
 from sim.scenario import Scenario
@@ -32,18 +31,6 @@ LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a durati
 KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
 FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
 SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
-
-_KINDS = {
-    "truck": "truck",
-    "trailer": "truck",
-    "delivery": "truck",
-    "bus": "bus",
-    "coach": "bus",
-    "motorcycle": "motorcycle",
-    "moped": "motorcycle",
-    "bicycle": "bicycle",
-}
-_SIGNALS = ((0b0101, "right"), (0b0110, "left"), (0b1000, "brake"))  # hazard lights are 0b0100
 
 _running = False  # libsumo is one per process: a second start would silently replace the first
 
@@ -81,11 +68,7 @@ class Simulation:
     """
 
     def __init__(self, scenario: Scenario, seed: int) -> None:
-        """Start SUMO.
-
-        Args:
-            scenario: what to run.
-            seed: of the starts that vary and of SUMO itself.
+        """Start SUMO with the starts that the seed gives.
 
         Raises:
             SumoMissing: libsumo or a system library is not installed.
@@ -100,9 +83,11 @@ class Simulation:
         self._scenario = scenario
         self._scratch = tempfile.TemporaryDirectory(prefix="xavi-")
         self._steps = 0
-        known = routes.departures(routes.parse(scenario.routes))
+        root = routes.parse(scenario.routes)
+        known = routes.departures(root)
         self._names = VehicleNames(scenario.ego, (departure.id for departure in known))
         self._coloured = frozenset(departure.id for departure in known if departure.coloured)
+        self._coloured_types = routes.coloured_types(root)
         self._commanded = False
         _running = self._open = True
         try:
@@ -253,7 +238,6 @@ class Simulation:
 
     def _state(self, vehicle: str) -> VehicleState:
         api = self._sumo.vehicle
-        lights = self._call(api.getSignals, vehicle)
         heading = math.radians(90.0 - self._call(api.getAngle, vehicle))
         return VehicleState(
             position=self._call(api.getPosition, vehicle),
@@ -262,16 +246,21 @@ class Simulation:
             acceleration=self._call(api.getAcceleration, vehicle),
             length=self._call(api.getLength, vehicle),
             width=self._call(api.getWidth, vehicle),
-            kind=_KINDS.get(self._call(api.getVehicleClass, vehicle), "car"),
+            kind=appearance.kind_of(self._call(api.getVehicleClass, vehicle)),
             colour=self._colour(vehicle),
-            signals=tuple(light for bits, light in _SIGNALS if lights & bits),
+            signals=appearance.lights(self._call(api.getSignals, vehicle)),
         )
 
     def _colour(self, vehicle: str) -> str | None:
         """SUMO paints a vehicle yellow where nobody said how: then its colour is unknown."""
-        if vehicle not in self._coloured:
+        kind = self._call(self._sumo.vehicle.getTypeID, vehicle)
+        if vehicle in self._coloured:
+            rgb = self._call(self._sumo.vehicle.getColor, vehicle)
+        elif kind in self._coloured_types:
+            rgb = self._call(self._sumo.vehicletype.getColor, kind)
+        else:
             return None
-        return colour_name(*self._call(self._sumo.vehicle.getColor, vehicle)[:3])
+        return appearance.colour_name(*rgb[:3])
 
     def _call(self, function: Callable[..., Value], *arguments: Any) -> Value:
         """Call libsumo; its errors become ours."""

@@ -1,0 +1,59 @@
+"""What a vehicle looks like, in words: from SUMO's classes, colours and light bits."""
+
+_KINDS = {
+    "truck": "truck",
+    "trailer": "truck",
+    "delivery": "truck",
+    "bus": "bus",
+    "coach": "bus",
+    "motorcycle": "motorcycle",
+    "moped": "motorcycle",
+    "bicycle": "bicycle",
+}
+_RIGHT, _LEFT, _HAZARD, _BRAKE = 0b0001, 0b0010, 0b0100, 0b1000
+
+_PALETTE = {
+    "white": (255, 255, 255),
+    "grey": (128, 128, 128),
+    "black": (0, 0, 0),
+    "red": (255, 0, 0),
+    "orange": (255, 165, 0),
+    "yellow": (255, 255, 0),
+    "green": (0, 160, 0),
+    "blue": (0, 0, 255),
+    "purple": (128, 0, 128),
+    "brown": (139, 69, 19),
+}
+
+
+def colour_name(red: int, green: int, blue: int) -> str:
+    """The word for a colour, by the nearest of a small palette.
+
+    Args:
+        red, green, blue: 0 to 255.
+    """
+
+    def distance(word: str) -> int:
+        r, g, b = _PALETTE[word]
+        return (r - red) ** 2 + (g - green) ** 2 + (b - blue) ** 2
+
+    return min(_PALETTE, key=distance)
+
+
+def kind_of(vehicle_class: str) -> str:
+    """What a vehicle of a SUMO class (vClass) is called; "car" unless it is plainly another."""
+    return _KINDS.get(vehicle_class, "car")
+
+
+def lights(signals: int) -> tuple[str, ...]:
+    """The lights shown, of left, right, brake; hazard lights are both left and right.
+
+    Args:
+        signals: SUMO's bit field.
+    """
+    shown = {
+        "left": signals & (_LEFT | _HAZARD),
+        "right": signals & (_RIGHT | _HAZARD),
+        "brake": signals & _BRAKE,
+    }
+    return tuple(light for light, on in shown.items() if on)
