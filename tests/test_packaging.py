@@ -1,0 +1,114 @@
+"""A wheel built from the repository is complete: it answers questions far from the checkout."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+PACKAGES = ("grammars", "planner", "sim", "xavi_dialogue")
+BUILD_INPUTS = ("pyproject.toml", "README.md", "LICENSE")
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def wheel(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A wheel, built from a copy so that the checkout stays clean, without a download."""
+    folder = tmp_path_factory.mktemp("build")
+    source = folder / "source"
+    for package in PACKAGES:
+        shutil.copytree(
+            root / package, source / package, ignore=shutil.ignore_patterns("__pycache__")
+        )
+    for name in BUILD_INPUTS:
+        shutil.copy(root / name, source)
+    build = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation"]
+    done = subprocess.run(
+        [*build, "--no-index", "--wheel-dir", str(folder), str(source)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    [built] = folder.glob("*.whl")
+    return built
+
+
+@pytest.fixture(scope="module")
+def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An environment with this wheel; its dependencies are lent by the one that runs the tests.
+
+    A path file lends them. Entries of path files come after the environment's own packages, and
+    path files in a folder so added are not read, so the checkout stays out of sight.
+    """
+    place = tmp_path_factory.mktemp("elsewhere") / "env"
+    venv.create(place, with_pip=False)
+    own = Path(sysconfig.get_path("purelib", vars={"base": str(place)}))
+    install = [sys.executable, "-m", "pip", "--python", str(place), "install", "--quiet"]
+    done = subprocess.run(
+        [*install, "--no-deps", "--no-index", str(wheel)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    (own / "lent.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    return place
+
+
+def run(place: Path, *command: str) -> subprocess.CompletedProcess[str]:
+    """Run a program of the environment in an empty folder, told nothing of the checkout."""
+    folder = place.parent / "empty"
+    folder.mkdir(exist_ok=True)
+    return subprocess.run(
+        [str(place / "bin" / command[0]), *command[1:]],
+        cwd=folder,
+        env={"PATH": os.defpath, "HOME": str(folder), "LANG": "C.UTF-8"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_the_wheel_holds_every_file_of_the_packages_and_nothing_else(
+    root: Path, wheel: Path
+) -> None:
+    expected = {
+        path.relative_to(root).as_posix()
+        for package in PACKAGES
+        for path in (root / package).rglob("*")
+        if path.is_file() and path.suffix != ".pyc"
+    }
+    names = set(zipfile.ZipFile(wheel).namelist())
+    assert {name for name in names if ".dist-info/" not in name} == expected
+    assert any(name.endswith("/licenses/LICENSE") for name in names)
+
+
+def test_packages_are_imported_from_the_wheel(root: Path, installed: Path) -> None:
+    code = f"import {', '.join(PACKAGES)}; print({', '.join(f'{p}.__file__' for p in PACKAGES)})"
+    done = run(installed, "python", "-c", code)
+    assert done.returncode == 0, done.stderr
+    assert all(Path(name).is_relative_to(installed) for name in done.stdout.split())
+    assert str(root) not in done.stdout
+
+
+def test_an_installed_car_answers(installed: Path) -> None:
+    done = run(installed, "xavi", "ask", "--scenario", "s1", "--json", "Why did you change left?")
+    assert done.returncode == 0, done.stderr
+    reply = json.loads(done.stdout)
+    assert reply["kind"] == "answer"
+    assert reply["explanation"]["causes"] or reply["explanation"]["effects"]
+    assert reply["text"]
+
+
+def test_an_installed_car_declines(installed: Path) -> None:
+    done = run(installed, "xavi", "ask", "--scenario", "s1", "Why did you not fly?")
+    assert done.returncode == 3, done.stderr
+    assert done.stdout.strip()

@@ -1,0 +1,100 @@
+"""What the repository promises its readers: commands that exist, data that loads."""
+
+import re
+import subprocess
+import tomllib
+from pathlib import Path
+
+import pytest
+from lark import Lark
+
+# Places and registries of one machine, and promises to work later, spelt so that this file passes.
+STRAY = {
+    "a path of one machine": r"/(?:work|home|root|Users|farm)/",
+    "an address of a package registry": r"\b(?:pypi\.org|pythonhosted\.org|anaconda\.org)",
+    "an index of packages": r"--(?:extra-)?index-url|--find-links|--trusted-host",
+    "a promise": r"\b(?:TO[D]O|FIX[M]E|X[X]X)\b",
+}
+LOCKS = re.compile(r"(?:^|/)(?:uv|poetry|pdm)\.lock$|(?:^|/)pylock.*\.toml$|(?:^|/)Pipfile\.lock$")
+
+
+def committed(root: Path) -> list[Path]:
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=root, capture_output=True, check=True, text=True
+    )
+    return [root / name for name in listed.stdout.split("\0") if (root / name).is_file()]
+
+
+def targets(root: Path) -> set[str]:
+    makefile = (root / "Makefile").read_text(encoding="utf-8")
+    return set(re.findall(r"^([a-z]+):.*## ", makefile, flags=re.MULTILINE))
+
+
+def code(page: str) -> str:
+    """The parts of a Markdown page that are set as code."""
+    return "\n".join(re.findall(r"```.*?```|`[^`\n]+`", page, flags=re.DOTALL))
+
+
+@pytest.mark.parametrize("name", ["README.md", "ARCHITECTURE.md"])
+def test_commands_in_the_documents_exist(root: Path, name: str) -> None:
+    shown = code((root / name).read_text(encoding="utf-8"))
+    assert set(re.findall(r"\bmake (?:-s )?([a-z]+)", shown)) <= targets(root)
+
+
+def test_the_makefile_offers_what_everybody_expects(root: Path) -> None:
+    assert targets(root) >= {"chat", "test", "lint", "bench", "clean", "help"}
+
+
+def test_files_named_in_the_documents_exist(root: Path) -> None:
+    for page in [root / "README.md", root / "ARCHITECTURE.md", *(root / "docs").glob("*.md")]:
+        links = re.findall(r"\]\((?!https?:)([^)#\s]+)", page.read_text(encoding="utf-8"))
+        missing = [link for link in links if not (page.parent / link).exists()]
+        assert missing == [], page.name
+
+
+@pytest.mark.parametrize("what", STRAY)
+def test_no_stray_words(root: Path, what: str) -> None:
+    pattern = re.compile(STRAY[what])
+    found = [
+        f"{path.relative_to(root)}: {match.group()}"
+        for path in committed(root)
+        for match in pattern.finditer(path.read_bytes().decode("utf-8", errors="ignore"))
+    ]
+    assert found == [], f"{what} does not belong in the repository"
+
+
+def test_versions_are_pinned_without_addresses(root: Path) -> None:
+    assert [path for path in committed(root) if LOCKS.search(path.as_posix())] == []
+    lines = (root / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    for line in lines:
+        assert re.fullmatch(r"#.*|[A-Za-z0-9_.-]+==[0-9][0-9a-z.]*", line), line
+
+
+def test_every_requirement_is_pinned(root: Path) -> None:
+    pins = (root / "constraints.txt").read_text(encoding="utf-8")
+    pinned = {_normal(name) for name in re.findall(r"^([\w.-]+)==", pins, flags=re.MULTILINE)}
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"].values()
+    wanted = [*project["dependencies"], *(name for extra in extras for name in extra)]
+    assert {_normal(re.split(r"[<>=~! \[;]", name)[0]) for name in wanted} <= pinned
+
+
+def _normal(name: str) -> str:
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def data(suffix: str) -> list[Path]:
+    return sorted((Path(__file__).parents[1] / "grammars").rglob(f"*{suffix}"))
+
+
+@pytest.mark.parametrize("path", data(".lark"), ids=lambda path: path.name)
+def test_every_grammar_reads(path: Path) -> None:
+    """By lark's grammar of grammars; some names come from word lists, as the parser's tests try."""
+    grammars = Lark.open_from_package("lark", "lark.lark", ("grammars",), parser="lalr")
+    tree = grammars.parse(path.read_text(encoding="utf-8") + "\n")
+    assert list(tree.find_data("rule"))
+
+
+@pytest.mark.parametrize("path", data(".toml"), ids=lambda path: path.name)
+def test_every_word_list_reads(path: Path) -> None:
+    assert tomllib.loads(path.read_text(encoding="utf-8"))
