@@ -1,0 +1,153 @@
+"""Follow-ups: a reading in the light of the question before it.
+
+Every function takes the reading and the earlier query and gives the query meant, or None where
+the earlier turn does not supply what is missing.
+"""
+
+import msgspec
+
+from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.language.readings import Reading
+
+_TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
+#: Types whose counterfactual is what they ask about.
+_ABOUT_FOIL = frozenset({"why_not", "what_if", "compare"})
+#: Rules that mean nothing without an earlier question.
+LEANING = frozenset({"more", "less", "again", "replace", "correction"})
+
+
+def answerable(query: Query) -> bool:
+    """Whether the query asks about the record (and can be leant on)."""
+    return query.type not in _TALK
+
+
+def resolve(reading: Reading, previous: Query | None) -> Query | None:
+    """The query meant, given the last question before it.
+
+    Returns None where the reading leans on an earlier turn that is missing or does not fit.
+    """
+    query = reading.query
+    if reading.rule in LEANING:
+        return _lean(reading, previous) if previous is not None else _alone(reading)
+    if reading.anaphoric or reading.elided:
+        if previous is None:
+            return None
+        query = _supply_actions(reading, previous)
+    if query.actor == "vehicle:it" and previous is not None:
+        known = previous.actor.startswith("vehicle:")
+        query = _refer(query, actor=previous.actor if known else query.actor)
+    if previous is not None:
+        query = _inherit(reading, query, previous)
+    return query
+
+
+def _refer(query: Query, **changes: object) -> Query:
+    return msgspec.structs.replace(query, refers_to_previous=True, **changes)
+
+
+def _asked(query: Query) -> tuple[QueryAction, ...] | None:
+    """The actions that a question is about."""
+    if query.type in _ABOUT_FOIL:
+        return query.counterfactual or query.factual
+    return query.factual or query.counterfactual
+
+
+def _alone(reading: Reading) -> Query | None:
+    """A leaning reading with no earlier turn: only the bare "why?" is a question to clarify."""
+    tense = reading.query.tense
+    return Query(type="ambiguous", tense=tense) if reading.rule != "correction" else None
+
+
+def _supply_actions(reading: Reading, previous: Query) -> Query:
+    """Put the actions of the earlier question where "do that" or an elision stands."""
+    query = reading.query
+    actions = _asked(previous)
+    slot = "factual" if query.type in ("why", "what", "how", "when") else "counterfactual"
+    actor = query.actor
+    if reading.elided and previous.negated and not query.negated:
+        return _refer(query, counterfactual=actions, negated=False)
+    return _refer(query, actor=actor, **{slot: actions})
+
+
+def _lean(reading: Reading, previous: Query) -> Query | None:
+    query = reading.query
+    if reading.rule in ("more", "less"):
+        return _refer(previous, detail=query.detail)
+    if reading.rule == "again":
+        return _again(reading, previous)
+    if reading.side is not None:
+        return _turned(reading.side, previous)
+    if query.factual:
+        return _with_actions(previous, query.factual)
+    if query.time and not reading.named_actor:
+        return _refer(previous, time=query.time)
+    return _refer(previous, actor=query.actor)
+
+
+def _again(reading: Reading, previous: Query) -> Query:
+    """A bare "why?" after another question."""
+    if previous.type == "why":
+        return _refer(previous, detail="more")
+    if previous.type in ("why_not", "compare"):
+        return _refer(previous, type="why_not" if previous.type == "why_not" else "why")
+    keep = previous.factual if previous.type in ("what", "when", "how", "confidence") else None
+    return _refer(Query(type="why", actor=previous.actor, factual=keep, tense=previous.tense))
+
+
+def _turned(side: str, previous: Query) -> Query | None:
+    """The earlier question, with every direction replaced."""
+    asked = _asked(previous)
+    if not asked:
+        return None
+    turned = tuple(_to(side, name) for name in asked)
+    if turned == asked and previous.type not in _ABOUT_FOIL:
+        return None
+    return _with_actions(previous, turned)
+
+
+def _to(side: str, action: QueryAction) -> QueryAction:
+    stem = action.rpartition("-")[0]
+    if stem in ("change", "exit"):
+        return f"{stem}-{side}"  # type: ignore[return-value]
+    return f"exit-{side}"  # type: ignore[return-value]
+
+
+def _with_actions(previous: Query, actions: tuple[QueryAction, ...]) -> Query:
+    if previous.type in _ABOUT_FOIL:
+        return _refer(previous, counterfactual=actions, negated=False)
+    return _refer(previous, factual=actions)
+
+
+def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
+    """What a short question leaves out, it takes from the one before."""
+    changes: dict[str, object] = {}
+    if query.type == "why_not" and not reading.tensed:
+        changes["tense"] = previous.tense
+        if previous.factual and query.factual is None and query.counterfactual:
+            changes["counterfactual"] = _same_kind(query.counterfactual, previous.factual)
+            changes["factual"] = previous.factual
+    empty = not query.factual and not query.counterfactual and not query.intervention
+    if empty and query.type in ("confidence", "compare", "sensitivity", "when", "how"):
+        if not reading.named_actor:
+            changes["actor"] = previous.actor
+        if query.type == "compare":
+            changes["counterfactual"] = _asked(previous)
+        else:
+            changes["factual"] = previous.factual
+            changes["counterfactual"] = previous.counterfactual
+        if not reading.tensed:
+            changes["tense"] = previous.tense
+    if not changes:
+        return query
+    return _refer(query, **changes)
+
+
+def _same_kind(
+    asked: tuple[QueryAction, ...], before: tuple[QueryAction, ...]
+) -> tuple[QueryAction, ...]:
+    """"Why not right?" after a lane change speaks of a lane change."""
+    if len(asked) == 1 and len(before) == 1 and before[0].startswith("change-"):
+        side = asked[0].rpartition("-")[2]
+        if asked[0] in ("exit-left", "exit-right"):
+            return (f"change-{side}",)  # type: ignore[return-value]
+    return asked

@@ -1,0 +1,285 @@
+"""Readings: parse trees -> queries, before the conversation is looked at.
+
+One function per rule that needs one; all others share a table of what a clause means there.
+A function that returns None rejects the reading: the grammar allows more than makes sense.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+import lark
+
+from xavi_dialogue.explain.query import Query, QueryType
+from xavi_dialogue.language.grammar import Parse, Tree
+from xavi_dialogue.language.slots import (
+    ANAPHOR,
+    Clause,
+    actor,
+    children,
+    clause,
+    first,
+    settle,
+    side,
+    terminals,
+    tokens_in,
+)
+from xavi_dialogue.language.tense import tense_for, tense_of
+from xavi_dialogue.language.tokens import AUXILIARIES, Token
+
+#: What the clauses of a question are, by start rule and clause rule.
+_ROLES: dict[str, dict[str, str]] = {
+    "why": {"said": "factual", "contrast": "counterfactual", "own": "factual"},
+    "why_not": {
+        "denied": "counterfactual",
+        "said": "counterfactual",
+        "bare": "counterfactual",
+        "own": "counterfactual",
+        "contrast": "factual",
+    },
+    "what_if": {
+        "said": "counterfactual",
+        "denied": "counterfactual",
+        "bare": "counterfactual",
+        "own": "counterfactual",
+        "contrast": "factual",
+    },
+    "how_avoid": {"bare": "factual", "wanted": "counterfactual"},
+    "sensitivity": {"own": "factual", "said": "factual", "wanted": "counterfactual"},
+    "compare": {"first": "factual", "second": "counterfactual"},
+}
+_ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
+_CLAUSES = ("said", "denied", "bare", "wanted", "contrast", "first", "second")
+_DEFAULT_TENSE = {"what": "present", "where_goal": "present", "smalltalk": "present",
+                  "help": "present", "confidence": "present", "command": "present"}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One way to understand a text."""
+
+    rule: str  # the start rule
+    query: Query
+    cost: float  # the smaller, the likelier
+    tensed: bool = True  # the words show a tense
+    anaphoric: bool = False  # "do that": the actions stand in an earlier turn
+    elided: bool = False  # "and if you hadn't?": likewise
+    named_actor: bool = True  # the words name who acts
+    side: str | None = None  # "and the right lane?": a direction alone
+
+
+def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
+    """What a parse means, or None where it makes no sense."""
+    rule = parse.rule
+    whole = tokens[parse.begin : parse.end]
+    clauses = _clauses(parse.tree)
+    if rule in _REJECT and _REJECT[rule](parse.tree, whole):
+        return None
+    fields = _slots_of(rule, clauses, whole)
+    if rule in _EXTRA:
+        fields |= _EXTRA[rule](parse.tree, whole)
+    focus = next((c for c in clauses if c.role not in ("contrast", "own")), None)
+    scope = tokens[focus.span[0] : focus.span[1] + 1] if focus else whole
+    if rule in ("confidence", "how") and focus is None:
+        scope = whole if any(c.role == "own" for c in clauses) else ()
+    tense = tense_for(rule, scope, whole)
+    fields["tense"] = tense or _DEFAULT_TENSE.get(rule, "past")
+    when = " ".join(t.text for t in whole if t.terminal == "TIME")
+    named = "actor" in fields
+    query = Query(type=_type(rule), time=when or None, **fields)
+    return Reading(
+        rule=rule,
+        query=query,
+        cost=parse.cost,
+        tensed=tense is not None,
+        anaphoric=any(ANAPHOR in c.actions for c in clauses),
+        elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
+        named_actor=named,
+        side=_bare_side(parse.tree),
+    )
+
+
+def _type(rule: str) -> QueryType:
+    kinds = {"command": "out_of_scope", "more": "why", "less": "why", "again": "why",
+             "replace": "ambiguous", "correction": "ambiguous"}  # fmt: skip
+    return cast(QueryType, kinds.get(rule, rule))
+
+
+def _subtrees(tree: Tree) -> list[Tree]:
+    return [c for c in tree.children if isinstance(c, lark.Tree)]
+
+
+def _clauses(tree: Tree) -> tuple[Clause, ...]:
+    """Clauses of the question; actions directly under the start rule are a clause "own"."""
+    found = [clause(c) for c in _subtrees(tree) if c.data in _CLAUSES]
+    if first(tree, "actions"):
+        found.insert(0, replace(clause(tree), role="own"))
+    return tuple(found)
+
+
+def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) -> dict[str, Any]:
+    """Actor, factual, counterfactual and negation, by the table of roles."""
+    at_junction = any(t.terminal == "JUNCTION" or " the junction" in t.text for t in whole)
+    fields: dict[str, Any] = {}
+    roles = _ROLES.get(rule, _ANY)
+    for one in clauses:
+        slot = roles.get(one.role)
+        if slot is None:
+            continue
+        others = tuple(a for c in clauses if c is not one for a in c.actions)
+        actions = settle(one.actions, others, at_junction)
+        if actions:
+            fields[slot] = actions
+        if one.actor and (one.role != "contrast" or "actor" not in fields):
+            fields.setdefault("actor", one.actor)
+        if one.role == "denied" and rule != "why_not":
+            fields["negated"] = True
+        if one.underspecified:
+            fields["underspecified"] = "direction"
+    return fields
+
+
+# --- what single rules add to that ---------------------------------------------------------------
+
+
+def _actor_of(tree: Tree) -> dict[str, Any]:
+    who = first(tree, "actor")
+    return {"actor": actor(who)} if who else {}
+
+
+def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    because = first(tree, "because")
+    if because and (cause := first(because, "actor")):
+        fields["hypothesised_cause"] = actor(cause)
+    if "MADE" in terminals(tree):
+        causes = [actor(c) for c in children(tree, "actor")]
+        fields["hypothesised_cause"] = causes[-1]
+        said = first(tree, "said")
+        fields["actor"] = (clause(said).actor if said else None) or "ego"
+    return fields
+
+
+def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    for rule in ("absent", "added", "elided", "elided_not"):
+        if (part := first(tree, rule)) is None:
+            continue
+        fields = _actor_of(part)
+        if rule == "absent":
+            return fields | {"negated": True, "intervention": "remove"}
+        if rule == "added":
+            return fields | {"actor": "vehicle:new", "intervention": "add"}
+        return fields | {"negated": rule == "elided_not"}
+    if {"WITHOUT", "NO"} & set(terminals(tree)):
+        return _actor_of(tree) | {"negated": True, "intervention": "remove"}
+    return {}
+
+
+def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    if "WHICHCAR" in terminals(tree):
+        return {"actor": "vehicle:unknown"}
+    said = first(tree, "said")
+    return {} if said else _actor_of(tree)
+
+
+def _compare(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    """"Would X be better than Y" asks about X; "was X better than Y" starts from X."""
+    one, other = first(tree, "first"), first(tree, "second")
+    at_junction = any(t.terminal == "JUNCTION" for t in whole)
+    aux = {v for t in whole if t.terminal in AUXILIARIES for v in t.value.split()}
+    said = clause(one).actions if one else ()
+    against = clause(other).actions if other else ()
+    if one and not other and len(said) == 2 and "COMPARE" in terminals(tree):
+        said, against = said[:1], said[1:]
+    mine, theirs = settle(said, against, at_junction), settle(against, said, at_junction)
+    if "would" in aux or "could" in aux:
+        return {"counterfactual": mine or None, "factual": theirs or None}
+    return {"factual": mine or None, "counterfactual": theirs or None}
+
+
+def _where(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    return _actor_of(tree)
+
+
+def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    condition = first(tree, "cond")
+    if condition is None:
+        return {}
+    positions = [t.start_pos for t in tokens_in(condition) if t.start_pos is not None]
+    words = [t.text for t in whole]
+    return {"condition": " ".join(words[-len(positions) :]) if positions else None}
+
+
+def _detail(kind: str) -> Callable[[Tree, tuple[Token, ...]], dict[str, Any]]:
+    return lambda _tree, _whole: {"detail": kind, "refers_to_previous": True}
+
+
+def _command(_tree: Tree, _whole: tuple[Token, ...]) -> dict[str, Any]:
+    return {"reason": "command", "factual": None}
+
+
+def _leaning(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    listed = first(tree, "actions")
+    fields = _actor_of(tree) | {"refers_to_previous": True}
+    if listed:
+        fields["factual"] = settle(clause(tree).actions, (), at_junction=False)
+    return fields
+
+
+_EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
+    "why": _why,
+    "what_if": _what_if,
+    "what": _what,
+    "how_avoid": lambda _tree, _whole: {},
+    "where_goal": _where,
+    "when": lambda tree, _whole: {} if first(tree, "said") else _actor_of(tree),
+    "compare": _compare,
+    "sensitivity": _sensitivity,
+    "more": _detail("more"),
+    "less": _detail("less"),
+    "again": _leaning,
+    "replace": _leaning,
+    "correction": _leaning,
+    "command": _command,
+}
+
+
+def _bare_side(tree: Tree) -> str | None:
+    part = first(tree, "bare_side")
+    return side(part) if part else None
+
+
+# --- readings that make no sense -----------------------------------------------------------------
+
+
+def _no_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
+    """"How could you have stopped": only with "could" it asks how to get there."""
+    return first(tree, "wanted") is not None and whole[1].terminal != "COULD"
+
+
+def _is_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
+    return "COULD" in terminals(tree)
+
+
+def _not_imperative(tree: Tree, whole: tuple[Token, ...]) -> bool:
+    """A command is an imperative, or asks the car itself to do something from now on."""
+    if who := first(tree, "actor"):
+        asks = whole[0].text.split()[0] in ("can", "could", "will", "would")
+        return not asks or actor(who) != "ego" or "have" in whole[0].text
+    verb = next((t for t in whole if t.form), None)
+    return verb is None or verb.form != "base" or tense_of(whole) is not None
+
+
+def _already_happened(tree: Tree, whole: tuple[Token, ...]) -> bool:
+    """"Could you turn left?" is no question about an event."""
+    own = first(tree, "actions") is not None
+    asks = whole[0].text.split()[0] in ("can", "could", "would", "should", "might")
+    return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")
+
+
+_REJECT: dict[str, Callable[[Tree, tuple[Token, ...]], bool]] = {
+    "how_avoid": _no_could,
+    "how": _is_could,
+    "command": _not_imperative,
+    "what": _already_happened,
+}

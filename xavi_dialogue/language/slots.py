@@ -1,0 +1,127 @@
+"""Slots: what the parts of a parse tree mean: actors, actions, clauses."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import lark
+
+from xavi_dialogue.explain.query import QueryAction
+from xavi_dialogue.language.grammar import Tree
+
+ANAPHOR = "that"  # stands for the actions of an earlier turn, until these are known
+STRAIGHT = "straight"  # "go straight", until it is known whether a junction comes first
+STRAIGHT_ON = "straight-on"  # "carry straight on": continue, unless a junction is named
+
+#: Which word says most about a vehicle, most first.
+_DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
+_PRONOUNS = {"EGO": "ego", "IT": "vehicle:it", "BOTH": "vehicle:both", "WHICHCAR": "vehicle:unknown"}
+_SIDES = {"LEFT": "left", "RIGHT": "right", "ONLEFT": "left", "ONRIGHT": "right"}
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """Who does what, in one part of a question."""
+
+    role: str  # the grammar rule: said, denied, contrast, ...
+    actor: str | None
+    actions: tuple[str, ...]  # query actions, ANAPHOR or STRAIGHT
+    underspecified: bool  # a direction was left open
+    span: tuple[int, int]  # positions of its first and last token
+
+
+def tokens_in(tree: Tree) -> Iterator[lark.Token]:
+    """The tokens of a tree, in order."""
+    for child in tree.children:
+        if isinstance(child, lark.Token):
+            yield child
+        else:
+            yield from tokens_in(child)
+
+
+def children(tree: Tree, rule: str) -> Iterator[Tree]:
+    """The direct children that are trees of that rule."""
+    return (c for c in tree.children if isinstance(c, lark.Tree) and c.data == rule)
+
+
+def first(tree: Tree, rule: str) -> Tree | None:
+    """The first direct child of that rule."""
+    return next(children(tree, rule), None)
+
+
+def terminals(tree: Tree) -> tuple[str, ...]:
+    """The types of the direct tokens of a tree."""
+    return tuple(c.type for c in tree.children if isinstance(c, lark.Token))
+
+
+def clause(tree: Tree) -> Clause:
+    """Read a clause rule: its own actor and actions, at any depth short of another actor."""
+    inner = first(tree, "bare") or tree
+    listed = first(inner, "actions")
+    spoken = [action(a) for a in children(listed, "action")] if listed else []
+    who = first(tree, "actor")
+    positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
+    return Clause(
+        role=tree.data,
+        actor=actor(who) if who else None,
+        actions=tuple(name for name, _ in spoken),
+        underspecified=any(is_open for _, is_open in spoken),
+        span=(min(positions, default=0), max(positions, default=0)),
+    )
+
+
+def actor(tree: Tree) -> str:
+    """Read the rule `actor`: "ego", "vehicle:3", "vehicle:front", ..."""
+    by_type = {t.type: str(t) for t in tokens_in(tree)}
+    for terminal in _DESCRIBING:
+        if terminal in by_type and not (terminal == "KIND" and by_type[terminal] == "any"):
+            value = by_type[terminal]
+            return "ego" if terminal == "NUMBER" and int(value) == 0 else f"vehicle:{value}"
+    for terminal, name in _PRONOUNS.items():
+        if terminal in by_type:
+            return name
+    return "ego" if by_type.get("CAR") == "car" else "vehicle:other"
+
+
+def side(tree: Tree) -> str | None:
+    """The direction named in an action, if any."""
+    found = [_SIDES[t.type] for t in tokens_in(tree) if t.type in _SIDES]
+    return found[-1] if found else None
+
+
+def action(tree: Tree) -> tuple[str, bool]:
+    """Read the rule `action`: (its name, whether a direction was left open)."""
+    (inner,) = (c for c in tree.children if isinstance(c, lark.Tree))
+    kind = str(inner.data)
+    where = side(inner)
+    if kind == "lane_change":
+        return f"change-{where or 'left'}", where is None
+    if kind == "turn":
+        if terminals(inner) == ("EXITWAY",) or where or "TURN" in terminals(inner):
+            return f"exit-{where or 'left'}", where is None
+        return "exit-left", True
+    if kind == "straight":
+        going_on = {"CONTINUE", "STAY"} & set(terminals(inner))
+        return (STRAIGHT_ON if going_on else STRAIGHT), False
+    if kind == "keep":
+        return "continue", False
+    if kind == "let_pass":
+        return "give-way", False
+    if kind == "anaphor":
+        return ANAPHOR, False
+    return str(next(t for t in inner.children if isinstance(t, lark.Token))), False
+
+
+def settle(
+    actions: tuple[str, ...], others: tuple[str, ...], at_junction: bool
+) -> tuple[QueryAction, ...]:
+    """Decide what "straight" is: exit-straight at a junction, continue beside a lane change."""
+    settled: list[QueryAction] = []
+    for name in actions:
+        if name in (STRAIGHT, STRAIGHT_ON):
+            beside_change = any(o.startswith("change-") for o in others)
+            beside_turn = any(o.startswith("exit-") for o in others)
+            on = name == STRAIGHT_ON and not beside_turn
+            name = "continue" if (beside_change or on) and not at_junction else "exit-straight"
+        if name != ANAPHOR:
+            settled.append(name)  # type: ignore[arg-type]
+    return tuple(settled)

@@ -1,0 +1,74 @@
+"""Spelling: an unknown word -> the word of the closed vocabulary that was meant, or None.
+
+A known word is never touched. Distances are optimal string alignment (one transposition of
+neighbours is one error); ties are broken by rules, never by order in memory.
+"""
+
+from functools import cache, lru_cache
+
+from rapidfuzz.distance import OSA
+from rapidfuzz.process import extract
+
+from xavi_dialogue.language.wordlists import vocabulary
+
+_CANDIDATES = 12
+
+
+@cache
+def _choices() -> dict[int, tuple[str, ...]]:
+    """Words by length: a correction differs by at most two letters in length."""
+    by_length: dict[int, list[str]] = {}
+    for word in sorted(vocabulary().words):
+        if word.isascii() and word.isalpha() and len(word) > 1:
+            for length in range(len(word) - 2, len(word) + 3):
+                by_length.setdefault(length, []).append(word)
+    return {length: tuple(words) for length, words in by_length.items()}
+
+
+def allowance(length: int) -> int:
+    """How many errors a word of that many letters may have."""
+    if length < 3:
+        return 0
+    return 1 if length < 6 else 2
+
+
+@lru_cache(maxsize=4096)
+def correct(word: str) -> tuple[str, ...] | None:
+    """What an unknown word was meant to be: one word, or two that ran together."""
+    allowed = allowance(len(word))
+    if allowed == 0 or not word.isalpha():
+        return None
+    found = extract(
+        word, _choices().get(len(word), ()), scorer=OSA.distance, score_cutoff=allowed,
+        limit=_CANDIDATES,
+    )  # fmt: skip
+    ranked = sorted(
+        (_rank(word, candidate, int(distance)), candidate) for candidate, distance, _ in found
+    )
+    ranked = [entry for entry in ranked if _plausible(word, entry[1])]
+    if ranked and ranked[0][0][0] <= 1:
+        return (ranked[0][1],)
+    return _split(word) or ((ranked[0][1],) if ranked else None)
+
+
+def _plausible(word: str, candidate: str) -> bool:
+    """Short words only by transposition: else every three letters are a typing error."""
+    return len(word) > 3 or sorted(word) == sorted(candidate)
+
+
+def _rank(word: str, candidate: str, distance: int) -> tuple[int, bool, int, bool, int]:
+    return (
+        distance,
+        sorted(word) != sorted(candidate),
+        vocabulary().words[candidate] // 3,
+        word[0] != candidate[0],
+        -len(candidate),
+    )
+
+
+def _split(word: str) -> tuple[str, ...] | None:
+    known = vocabulary().words
+    for cut in range(3, len(word) - 2):
+        if known.get(word[:cut], 9) < 5 and known.get(word[cut:], 9) < 5:
+            return (word[:cut], word[cut:])
+    return None

@@ -1,0 +1,97 @@
+"""Tense: when what a question speaks of happened, from its auxiliaries and verb forms."""
+
+from collections.abc import Iterable
+
+from xavi_dialogue.explain.query import Tense
+from xavi_dialogue.language.tokens import AUXILIARIES, Token
+
+_PRESENT_HEADS = frozenset({"is", "are", "makes", "causes"})
+_PAST_HEADS = frozenset({"was", "were", "did", "made", "caused", "taken", "been", "changed"})
+
+
+def hypothetical(tokens: Iterable[Token]) -> bool:
+    """Whether a "would" or "could" stands in the tokens without "have"."""
+    return any(
+        {"would", "could"} & set(t.value.split()) and "have" not in t.text.split()
+        for t in tokens
+        if t.terminal in AUXILIARIES
+    ) and not any(t.terminal == "HAVE" for t in tokens)
+
+
+def tense_of(tokens: tuple[Token, ...]) -> Tense | None:
+    """The tense that auxiliaries and verb forms show; None where they show none."""
+    values = [v for t in tokens if t.terminal in AUXILIARIES for v in t.value.split()]
+    if "future" in values:
+        return "past" if "past" in values else "future"
+    if "past" in values or any(t.terminal == "HAVE" for t in tokens):
+        return "past"
+    if any("have" in t.text.split() for t in tokens if t.terminal in AUXILIARIES):
+        return "past"
+    if "present" in values:
+        return "present"
+    forms = {t.form for t in tokens if t.terminal not in AUXILIARIES}
+    if forms & {"past", "part"}:
+        return "past"
+    return "present" if "third" in forms else None
+
+
+def head_tense(tokens: tuple[Token, ...]) -> Tense | None:
+    """The tense of a phrase such as "what is the reason for", from its words."""
+    words = {word for token in tokens for word in token.text.split()}
+    if words & _PAST_HEADS:
+        return "past"
+    return "present" if words & _PRESENT_HEADS else None
+
+
+def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
+    """The tense of a question of that rule.
+
+    Args:
+        rule: the start rule of its reading.
+        clause: tokens of the clause asked about.
+        whole: all tokens of the question.
+    """
+    if rule == "what_if":
+        return _of_what_if(whole)
+    if rule in ("how", "confidence"):
+        return _of_complement(clause, whole)
+    if rule == "compare":
+        if hypothetical(whole):
+            return "future"
+        return tense_of(tuple(t for t in whole if t.terminal in AUXILIARIES)) or head_tense(whole)
+    if rule == "sensitivity":
+        found = tense_of(whole)
+        if found == "past" or not any(t.terminal == "REQUIRE" for t in whole):
+            return found or "past"
+        return "past" if head_tense(whole) == "past" else "future"
+    if rule == "when":
+        found = tense_of(clause)
+        upcoming = found in ("present", None) or hypothetical(clause)
+        return "future" if upcoming else found
+    if hypothetical(clause):
+        return "future" if rule == "what" else "past"
+    found = tense_of(clause) or head_tense(tuple(t for t in whole if t.terminal not in AUXILIARIES))
+    if any(t.terminal == "TIME" and t.value == "future" for t in whole) and found != "past":
+        return "future"
+    return found
+
+
+def _of_what_if(whole: tuple[Token, ...]) -> Tense:
+    if hypothetical(whole):
+        return "future"
+    words = {word for token in whole for word in token.text.split()}
+    if tense_of(whole) == "past" or words & {"have", "happened"}:
+        return "past"
+    return "future"
+
+
+def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
+    """What was known or believed: seen from then, "was going to" lies ahead."""
+    values = {v for t in clause if t.terminal in AUXILIARIES for v in t.value.split()}
+    if not clause:
+        return head_tense(whole)
+    if "future" in values or "would" in values:
+        return "future"
+    found = tense_of(clause)
+    third = any(t.form in ("third", "base") for t in clause) and "past" not in values
+    return "future" if third and "present" not in values else found

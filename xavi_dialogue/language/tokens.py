@@ -1,0 +1,132 @@
+"""Tokens: words -> what they stand for in the grammar.
+
+Lark never sees characters: words are found here, so a word can only match as a whole.
+"""
+
+from dataclasses import dataclass
+from functools import cache
+
+from xavi_dialogue.language.normalise import BREAK, Normalised
+from xavi_dialogue.language.spelling import correct
+from xavi_dialogue.language.wordlists import english, vocabulary
+
+
+AUXILIARIES = frozenset({"DO", "BE", "HAVE", "WILL", "WOULD", "CAN", "COULD", "BEGIN"})
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """One word or phrase."""
+
+    terminal: str  # of the grammar; NOISE is dropped, UNKNOWN is not in the vocabulary
+    value: str  # what it means within its terminal: "left", "3", "off-topic"
+    text: str  # the words
+    form: str = ""  # of a verb: base, third, past, part, gerund
+
+
+@dataclass(frozen=True, slots=True)
+class Tokenised:
+    """A text as tokens, with what had to be corrected on the way."""
+
+    tokens: tuple[Token, ...]
+    corrections: tuple[tuple[str, str], ...] = ()  # (as typed, as read)
+
+    @property
+    def heard(self) -> tuple[Token, ...]:
+        """What is parsed: no noise, neighbouring auxiliaries as one token."""
+        heard: list[Token] = []
+        for token in self.tokens:
+            if token.terminal == "NOISE":
+                continue
+            last = heard[-1] if heard else None
+            if last and last.terminal in AUXILIARIES and token.terminal in AUXILIARIES:
+                heard[-1] = Token(
+                    last.terminal,
+                    f"{last.value} {token.value}",
+                    f"{last.text} {token.text}",
+                    token.form,
+                )
+            else:
+                heard.append(token)
+        return tuple(heard)
+
+
+@cache
+def _numbers() -> dict[str, int]:
+    table: dict[str, int] = english()["numbers"]
+    return table
+
+
+@cache
+def _vehicle_nouns() -> frozenset[str]:
+    return frozenset({"vehicle", "car", "number", "truck"})
+
+
+def tokenise(normalised: Normalised) -> Tokenised:
+    """Correct the spelling, read numbers, and find the longest phrases from the left."""
+    words: list[str] = []
+    corrections: list[tuple[str, str]] = []
+    for word in normalised.words:
+        fixed = _known(word)
+        if fixed != (word,):
+            corrections.append((word, " ".join(fixed)))
+        words.extend(fixed)
+    return Tokenised(_tokens(tuple(_read_numbers(words))), tuple(corrections))
+
+
+def _known(word: str) -> tuple[str, ...]:
+    if word == BREAK or word.isdigit() or word in vocabulary().words or word in _numbers():
+        return (word,)
+    parts = tuple(part for part in word.split("-") if part)
+    if len(parts) > 1:
+        return tuple(fixed for part in parts for fixed in _known(part))
+    return correct(word) or (word,)
+
+
+def _read_numbers(words: list[str]) -> list[str]:
+    """Number words after a vehicle noun or another number become digits."""
+    read: list[str] = []
+    homophones = english()["homophones"]
+    for index, word in enumerate(words):
+        before = read[-1] if read else ""
+        value = _numbers().get(word)
+        if value is not None and (word != "one" or before in _vehicle_nouns()):
+            tens = int(before) if before.isdigit() else 0
+            if tens >= 20 and tens % 10 == 0 and value < 10:
+                read[-1] = str(tens + value)
+            else:
+                read.append(str(value))
+        elif before == "vehicle" and word in homophones and _verb_follows(words, index):
+            read.append(str(homophones[word]))
+        else:
+            read.append(word)
+    return read
+
+
+def _verb_follows(words: list[str], index: int) -> bool:
+    """Whether the next word can only follow a subject: "vehicle to turned left"."""
+    following = words[index + 1 : index + 2]
+    return bool(following) and vocabulary().forms.get(following[0]) is not None
+
+
+def _tokens(words: tuple[str, ...]) -> tuple[Token, ...]:
+    known = vocabulary()
+    tokens: list[Token] = []
+    position = 0
+    while position < len(words):
+        word = words[position]
+        found = known.longest(words, position)
+        if word == BREAK:
+            tokens.append(Token("BREAK", word, word))
+            position += 1
+        elif found is not None:
+            end, sense = found
+            text = words[position:end]
+            form = next((known.forms[w] for w in text if w in known.forms), "")
+            tokens.append(Token(sense.terminal, sense.value, " ".join(text), form))
+            position = end
+        else:
+            kind = "NUMBER" if word.isdigit() else "UNKNOWN"
+            tokens.append(Token(kind, word, word))
+            position += 1
+    return tuple(tokens)
