@@ -12,7 +12,7 @@ from lark import Lark
 STRAY = {
     "a path of one machine": r"/(?:work|home|root|Users|farm)/",
     "an address of a package registry": r"\b(?:pypi\.org|pythonhosted\.org|anaconda\.org)",
-    "an index of packages": r"--(?:extra-)?index-url|--find-links|--trusted-host",
+    "an index of packages": r"-{2}(?:(?:extra-)?index-url|find-links|trusted-host)",
     "a promise": r"\b(?:TO[D]O|FIX[M]E|X[X]X)\b",
 }
 LOCKS = re.compile(r"(?:^|/)(?:uv|poetry|pdm)\.lock$|(?:^|/)pylock.*\.toml$|(?:^|/)Pipfile\.lock$")
