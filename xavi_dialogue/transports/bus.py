@@ -1,0 +1,164 @@
+"""The bus: what processes say to one another, independent of what carries it.
+
+`zenoh_bus` carries it between processes, `memory_bus` within one. Handlers run on threads of
+the bus and must return at once.
+
+    BusError
+    ├── HubUnreachable   there is no hub at the endpoint
+    ├── EndpointTaken    the hub's endpoint is in use
+    ├── BusFailed        the carrier failed otherwise
+    └── NoAnswer
+        ├── NobodyThere  nobody serves the key
+        ├── TooLate      no reply within the time given
+        └── Refused      the reply is a failure
+"""
+
+import queue
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Protocol, Self, TypeAlias
+
+ROOT = "xavi/v1"
+DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
+DEFAULT_VEHICLE = "car"
+
+
+class BusError(Exception):
+    """The bus cannot do what is asked."""
+
+
+class HubUnreachable(BusError):
+    """There is no hub at the endpoint."""
+
+
+class EndpointTaken(BusError):
+    """The hub's endpoint is in use."""
+
+
+class BusFailed(BusError):
+    """The carrier failed."""
+
+
+class NoAnswer(BusError):
+    """A request without a reply."""
+
+
+class NobodyThere(NoAnswer):
+    """Nobody serves the key."""
+
+
+class TooLate(NoAnswer):
+    """No reply within the time given."""
+
+
+class Refused(NoAnswer):
+    """The reply is a failure; `payload` is its message."""
+
+    def __init__(self, payload: bytes) -> None:
+        super().__init__("the request was refused")
+        self.payload = payload
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """The keys of one car."""
+
+    vehicle: str = DEFAULT_VEHICLE
+
+    def of(self, tail: str) -> str:
+        """The key that ends with `tail`, such as `scene` or `@rpc/ask`."""
+        return f"{ROOT}/{self.vehicle}/{tail}"
+
+
+class Publisher(Protocol):
+    """Sends messages under one key."""
+
+    def put(self, payload: bytes) -> None: ...
+
+
+class Call(Protocol):
+    """A request that came in; exactly one of its methods is called, once."""
+
+    @property
+    def payload(self) -> bytes: ...
+
+    def reply(self, payload: bytes) -> None: ...
+
+    def refuse(self, payload: bytes) -> None:
+        """Reply with a failure."""
+
+    def drop(self) -> None:
+        """Leave it without a reply."""
+
+
+Handler: TypeAlias = Callable[[str, bytes], None]  # key, payload
+CallHandler: TypeAlias = Callable[[Call], None]
+Watcher: TypeAlias = Callable[[str, bool], None]  # key, whether it is alive
+Outcome: TypeAlias = bytes | NoAnswer
+
+
+class Bus(Protocol):
+    """One process's connection to the others; `close` ends all that was declared on it."""
+
+    def publisher(self, key: str, keep: int = 0) -> Publisher:
+        """Send under a key.
+
+        Args:
+            key: where to.
+            keep: 0 lets messages drop; else none is lost, and so many are kept for late joiners.
+        """
+
+    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
+        """Receive what is sent under a key; with `kept` also what is kept there."""
+
+    def serve(self, key: str, handler: CallHandler) -> None:
+        """Answer requests to a key."""
+
+    def request(
+        self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
+    ) -> None:
+        """Send a request; `done` is called once, with the reply or with why there is none.
+
+        Args:
+            key: where to.
+            payload: the request.
+            timeout: [s] after which `done` gets TooLate.
+            done: runs on a thread of the bus.
+        """
+
+    def appear(self, key: str) -> None:
+        """Show under a key that this process is alive, until it is not."""
+
+    def watch(self, key: str, watcher: Watcher) -> None:
+        """Learn who is alive under a key, now and from now on."""
+
+    def close(self) -> None: ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None: ...
+
+
+def call(bus: Bus, key: str, payload: bytes, timeout: float) -> bytes:
+    """Send a request and wait for its reply.
+
+    Raises:
+        NobodyThere: nobody serves the key.
+        TooLate: no reply within `timeout` [s].
+        Refused: the reply is a failure.
+    """
+    outcomes: queue.SimpleQueue[Outcome] = queue.SimpleQueue()
+    bus.request(key, payload, timeout, outcomes.put)
+    try:
+        outcome = outcomes.get(timeout=timeout)
+    except queue.Empty:
+        raise TooLate(f"no reply from {key} within {timeout:g} s") from None
+    if isinstance(outcome, NoAnswer):
+        raise outcome
+    return outcome

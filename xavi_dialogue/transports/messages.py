@@ -1,0 +1,251 @@
+"""Messages on the bus: JSON, checked where they come in.
+
+Every message carries its schema, a sequence number of its sender, simulation time [s] and wall
+time [s since 1970]; requests carry a name and a deadline instead.
+
+    MessageError
+    ├── TooLarge       more bytes than the message may have
+    ├── WrongSchema    another message, or a version that is not known here
+    └── Malformed      not JSON, or a field is missing or wrong
+"""
+
+from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
+
+import msgspec
+
+from planner.events import Event
+from planner.trace import MAX_BYTES, Action, PlanTrace
+from sim.scene import VehicleState
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.language.context import Style
+from xavi_dialogue.transports.text import clean, one_line
+
+Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$")]
+Count = Annotated[int, msgspec.Meta(ge=0)]
+Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
+DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
+CarState = Literal["driving", "paused", "ended"]
+
+KIB = 1024
+
+
+class MessageError(ValueError):
+    """A message that cannot be used."""
+
+
+class TooLarge(MessageError):
+    """More bytes than the message may have."""
+
+
+class WrongSchema(MessageError):
+    """Another message, or a version that is not known here."""
+
+
+class Malformed(MessageError):
+    """Not JSON, or a field is missing or wrong."""
+
+
+class Message(msgspec.Struct, frozen=True, kw_only=True):
+    """What all messages have. `schema` has a default where they are made, never where read."""
+
+    LIMIT: ClassVar[int]  # bytes
+
+    schema: str
+
+
+class Report(Message, frozen=True, kw_only=True):
+    """What all messages of the car have."""
+
+    ride: Name  # changes with every start of the car
+    seq: Count  # of this key, without gaps from 0
+    sim_time: Seconds
+    wall_time: float
+
+
+class SceneReport(Report, frozen=True, kw_only=True):
+    """What the car sees now, and how far its record goes."""
+
+    LIMIT = 256 * KIB
+
+    schema: Literal["xavi.scene/1"] = "xavi.scene/1"
+    vehicles: dict[int, VehicleState]
+    state: CarState
+    speed_factor: float  # simulated seconds per second; 0: as fast as possible
+    plan: tuple[Action, ...]
+    traces: Count  # reports on key `trace` so far
+    events: Count  # reports on key `event` so far
+    orders: Count = 0  # lines on its standard input that the car has obeyed
+
+
+class TraceReport(Report, frozen=True, kw_only=True):
+    """One decision."""
+
+    LIMIT = MAX_BYTES + KIB
+
+    schema: Literal["xavi.trace/1"] = "xavi.trace/1"
+    trace: PlanTrace
+
+
+class EventReport(Report, frozen=True, kw_only=True):
+    """One thing that happened to the ego."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.event_report/1"] = "xavi.event_report/1"
+    event: Event
+
+
+class AskRequest(Message, frozen=True, kw_only=True):
+    """A passenger's question."""
+
+    LIMIT = 16 * KIB
+
+    schema: Literal["xavi.ask/1"] = "xavi.ask/1"
+    request: Name
+    session: Name
+    text: Annotated[str, msgspec.Meta(max_length=4096)]
+    style: Style = "passenger"
+    deadline_ms: DeadlineMs = 10_000.0
+    at: Seconds | None = None  # simulation time; null: now
+
+    def __post_init__(self) -> None:
+        msgspec.structs.force_setattr(self, "text", one_line(self.text))
+
+
+class AskReply(Reply, frozen=True, kw_only=True):
+    """The answer: a reply with what every message has."""
+
+    LIMIT: ClassVar[int] = 256 * KIB
+
+    schema: Literal["xavi.reply/1"] = "xavi.reply/1"
+    request: Name
+    seq: Count
+    wall_time: float
+
+    def reply(self) -> Reply:
+        """The reply alone, fit to be shown."""
+        fields = {name: getattr(self, name) for name in Reply.__struct_fields__}
+        return Reply(**{**fields, "text": clean(self.text)})
+
+
+class HistoryRequest(Message, frozen=True, kw_only=True):
+    """Asks for what was said in a session."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.history/1"] = "xavi.history/1"
+    session: Name
+
+
+class PastTurn(msgspec.Struct, frozen=True):
+    """One question and its reply."""
+
+    text: str
+    reply: Reply
+
+
+class HistoryReply(Message, frozen=True, kw_only=True):
+    """The latest turns of a session, oldest first."""
+
+    LIMIT = 1024 * KIB
+
+    schema: Literal["xavi.history_reply/1"] = "xavi.history_reply/1"
+    session: Name
+    seq: Count
+    sim_time: Seconds
+    wall_time: float
+    turns: tuple[PastTurn, ...]
+
+
+class CancelRequest(Message, frozen=True, kw_only=True):
+    """The passenger no longer wants an answer."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.cancel/1"] = "xavi.cancel/1"
+    request: Name
+    session: Name
+
+
+class CancelReply(Message, frozen=True, kw_only=True):
+    """Whether there was anything to cancel."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.cancel_reply/1"] = "xavi.cancel_reply/1"
+    request: Name
+    cancelled: bool
+
+
+class WhatIfRequest(Message, frozen=True, kw_only=True):
+    """Plan again from a recorded decision; the reply is a PlanTrace."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.whatif/1"] = "xavi.whatif/1"
+    request: Name
+    trace_id: Name
+    actions: tuple[Action, ...] = ()
+    removed: int | None = None
+    rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40
+    deadline_ms: DeadlineMs = 10_000.0
+
+
+class Failure(Message, frozen=True, kw_only=True):
+    """In place of a reply: why there is none."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.failure/1"] = "xavi.failure/1"
+    reason: Reason
+    detail: str = ""
+
+
+AnyMessage: TypeAlias = Message | AskReply
+M = TypeVar("M", bound=AnyMessage)
+
+
+def schema_name(kind: type[msgspec.Struct]) -> str:
+    """What the field `schema` of a message says, such as `xavi.ask/1`."""
+    fields = {field.name: field.default for field in msgspec.structs.fields(kind)}
+    return str(fields["schema"])
+
+
+#: Every message by its name under `@schema/`.
+MESSAGES: dict[str, type[AnyMessage]] = {
+    schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind
+    for kind in (
+        *(SceneReport, TraceReport, EventReport, AskRequest, AskReply, HistoryRequest),
+        *(HistoryReply, CancelRequest, CancelReply, WhatIfRequest, Failure),
+    )
+}
+
+
+class _Label(msgspec.Struct):
+    schema: str
+
+
+def pack(message: AnyMessage) -> bytes:
+    """The message as JSON."""
+    return msgspec.json.encode(message, order="deterministic")
+
+
+def unpack(data: bytes, kind: type[M]) -> M:
+    """Read and check a message.
+
+    Raises:
+        TooLarge: it has more bytes than its kind may have.
+        WrongSchema: it is another message, or of an unknown version.
+        Malformed: it is not JSON, or a field is missing or wrong.
+    """
+    name = schema_name(kind)
+    if len(data) > kind.LIMIT:
+        raise TooLarge(f"{len(data)} bytes; a {name} has at most {kind.LIMIT}")
+    try:
+        schema = msgspec.json.decode(data, type=_Label).schema
+        if schema != name:
+            raise WrongSchema(f"schema {one_line(schema)[:64]!r}; {name!r} is read here")
+        return msgspec.json.decode(data, type=kind)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise Malformed(f"no {name}: {one_line(str(error))}") from error
