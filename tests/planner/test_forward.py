@@ -1,0 +1,282 @@
+import itertools
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from planner.actions import STANDING_TIME
+from planner.collision import first_overlap
+from planner.forward import (
+    ACCELERATION,
+    COMFORT,
+    DT,
+    EMERGENCY,
+    FOLLOWING,
+    JERK_DOWN,
+    JERK_UP,
+    MIN_GAP,
+    Drive,
+    Lane,
+    Motion,
+    advance,
+    drive,
+    safe_speed,
+)
+from planner.obstacles import Obstacle
+from sim.network import Direction
+from tests.planner.worlds import (
+    LENGTH,
+    SIZE,
+    before_end,
+    link,
+    obstacle,
+    plan_of,
+    roads,
+    row,
+    situation,
+)
+
+HORIZON = 90  # steps: nobody gets to the end of the road
+ALONG = row("s1", "main_in_0", "straight")  # a road without anybody to give way to
+START = 20.0  # [m] from its beginning
+
+
+def cruise(speed: float, obstacles: tuple[Obstacle, ...] = (), horizon: int = HORIZON) -> Drive:
+    """Continue from START."""
+    plan = plan_of("s1", situation("s1", ALONG[0], START, speed), "continue")
+    return drive(plan, Motion(0.0, speed, 0.0), 0, obstacles, SIZE, horizon)
+
+
+def leader(gap: float, speed: float, braking: float, steps: int = HORIZON + 60) -> Obstacle:
+    """A vehicle at a gap [m] ahead of START that brakes [m/s2] to a standstill."""
+    motions = [Motion(START + gap + LENGTH, speed, 0.0)]
+    for _ in range(steps):
+        motions.append(advance(motions[-1], -braking, DT))
+    return obstacle("s1", ALONG, [motion.arc for motion in motions])
+
+
+def fronts(driven: Drive) -> np.ndarray:
+    return np.array([motion.arc for motion in driven.motions])
+
+
+def speeds(driven: Drive) -> np.ndarray:
+    return np.array([motion.speed for motion in driven.motions])
+
+
+def test_a_free_road_is_driven_at_its_limit() -> None:
+    driven = cruise(5.0)
+    limit = roads("s1").network.lanes[ALONG[0]].speed_limit
+    assert driven.motions[0] == Motion(0.0, 5.0, 0.0)
+    assert np.all(np.diff(speeds(driven)) > -1e-6)
+    assert speeds(driven)[-1] == pytest.approx(limit, abs=0.1)
+    assert np.max(speeds(driven)) <= limit + 1e-6
+    assert driven.hindrances == ()
+
+
+@pytest.mark.parametrize("lane", ["from_s_0", "back_in_0"])
+def test_bends_are_braked_for(lane: str) -> None:
+    here = situation("s1", lane, before_end("s1", lane, 60.0), 11.0)
+    plan = plan_of("s1", here, "exit-right")
+    driven = drive(plan, Motion(0.0, 11.0, 0.0), 0, (), SIZE, HORIZON)
+    assert driven.finished
+    allowed = np.interp(fronts(driven), plan.path.arc, plan.path.cap)
+    assert np.max(speeds(driven) - allowed) < 0.6
+    assert np.min(speeds(driven)) < 5.0
+    assert min(motion.acceleration for motion in driven.motions) >= -FOLLOWING - 1e-6
+
+
+def test_the_speed_ahead_of_a_bend_allows_comfortable_braking() -> None:
+    lane = "from_s_0"
+    here = situation("s1", lane, before_end("s1", lane, 60.0), 11.0)
+    plan = plan_of("s1", here, "exit-right")
+    prepared = Lane(plan.path)
+    squares = [speed**2 for speed in prepared.speeds]
+    falls = [(a - b) / 2.0 for a, b in itertools.pairwise(squares)]
+    assert max(falls) <= COMFORT + 0.2
+    assert prepared.speed(1e6) == prepared.speeds[-1]
+
+
+gaps = st.floats(MIN_GAP + 1.0, 70.0)
+velocities = st.floats(0.0, 13.8)
+
+
+@given(gaps, velocities, velocities, st.floats(0.0, FOLLOWING))
+def test_a_leader_is_never_touched(gap: float, own: float, its: float, braking: float) -> None:
+    assume(own <= safe_speed(gap - MIN_GAP, its, FOLLOWING))
+    ahead = leader(gap, its, braking)
+    driven = cruise(own, (ahead,))
+    rear = np.hypot(*(ahead.position - np.array(roads("s1").line(ALONG).points[0])).T) - LENGTH
+    arcs = START + fronts(driven)
+    assert np.all(rear[: len(arcs)] - arcs > 0.3)
+
+
+@given(gaps, velocities, velocities, st.floats(0.0, FOLLOWING))
+def test_motion_keeps_within_its_limits(gap: float, own: float, its: float, braking: float) -> None:
+    driven = cruise(own, (leader(gap, its, braking),))
+    assert np.all(np.diff(fronts(driven)) >= 0.0)
+    assert np.all(speeds(driven) >= 0.0)
+    for before, after in itertools.pairwise(driven.motions):
+        assert -EMERGENCY <= after.acceleration <= ACCELERATION
+        change = after.acceleration - before.acceleration
+        assert change >= -JERK_DOWN * DT - 1e-9
+        if after.acceleration > 0.0:
+            least = max(before.acceleration, 0.0)
+            assert after.acceleration - least <= JERK_UP * DT + 1e-9
+
+
+@given(gaps, velocities)
+def test_who_stands_in_the_way_is_waited_for(gap: float, own: float) -> None:
+    assume(own <= safe_speed(gap - MIN_GAP, 0.0, FOLLOWING))
+    driven = cruise(own, (leader(gap, 0.0, 0.0),))
+    assert driven.motions[-1].speed < 0.3
+    assert gap - driven.motions[-1].arc == pytest.approx(MIN_GAP, abs=1.2)
+    assert {(h.vehicle, h.how) for h in driven.hindrances} <= {(1, "blocked")}
+
+
+def test_a_slow_leader_is_followed_and_named() -> None:
+    driven = cruise(10.0, (leader(30.0, 5.0, 0.0),))
+    assert driven.motions[-1].speed == pytest.approx(5.0, abs=0.2)
+    assert {(h.vehicle, h.how) for h in driven.hindrances} == {(1, "leader")}
+    assert {round(h.speed, 1) for h in driven.hindrances} == {5.0}
+
+
+def test_nobody_brakes_for_who_comes_from_behind() -> None:
+    behind = obstacle("s1", ALONG, [2.0 + 12.0 * DT * k for k in range(HORIZON)])
+    assert cruise(5.0, (behind,)).motions == cruise(5.0).motions
+
+
+def test_nobody_brakes_for_who_is_in_another_lane() -> None:
+    beside = obstacle("s1", ("main_in_1",), [START + 15.0] * HORIZON)
+    assert cruise(10.0, (beside,)).motions == cruise(10.0).motions
+
+
+def test_stopping_ends_after_a_while_at_a_standstill() -> None:
+    here = situation("s1", ALONG[0], START, 10.0)
+    plan = plan_of("s1", here, "stop")
+    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, (), SIZE, HORIZON)
+    assert driven.finished
+    assert driven.motions[-1].speed == pytest.approx(0.0, abs=0.001)
+    standing = sum(1 for motion in driven.motions if motion.speed < 0.1)
+    assert standing * DT == pytest.approx(STANDING_TIME, abs=2 * DT)
+    assert min(motion.acceleration for motion in driven.motions) >= -COMFORT - 1e-9
+    assert driven.motions[-1].arc == pytest.approx(10.0**2 / (2.0 * COMFORT), abs=6.0)
+
+
+def test_the_horizon_ends_what_is_not_finished() -> None:
+    driven = cruise(5.0, horizon=10)
+    assert not driven.finished
+    assert len(driven.motions) == 11
+    assert driven.goal_time is None
+
+
+def test_passing_the_goal_is_timed_between_the_samples() -> None:
+    here = situation("s1", "main_out_0", 90.0, 10.0)
+    plan = plan_of("s1", here, "continue", aim=True)
+    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, (), SIZE, HORIZON)
+    assert plan.goal == pytest.approx(10.0)
+    assert driven.goal_time is not None
+    assert (len(driven.motions) - 2) * DT <= driven.goal_time <= (len(driven.motions) - 1) * DT
+    assert driven.goal_time == pytest.approx(0.95, abs=0.06)
+
+
+@given(st.floats(0.0, 100.0), velocities, st.floats(0.5, 7.0))
+def test_the_safe_speed_leaves_room_to_react_and_brake(
+    gap: float, its: float, braking: float
+) -> None:
+    speed = safe_speed(gap, its, braking)
+    assert speed >= 0.0
+    reacting = speed * 0.9 + speed**2 / (2.0 * braking)
+    assert reacting == pytest.approx(gap + its**2 / (2.0 * braking), abs=1e-6)
+    assert safe_speed(gap + 1.0, its, braking) > speed
+
+
+@given(st.floats(0.0, 15.0), st.floats(-7.0, 2.0), st.floats(0.01, 1.0))
+def test_nobody_rolls_back(speed: float, acceleration: float, dt: float) -> None:
+    motion = advance(Motion(3.0, speed, 0.0), acceleration, dt)
+    assert motion.speed >= 0.0
+    assert motion.arc >= 3.0
+
+
+# Giving way: the ego of s2 turns right from the minor road; vehicle 1 comes from the left.
+WEST = "west_in_0"
+TURN = ("south_in_0", "exit-right")
+STEPS = HORIZON + 60
+
+
+def turn_right(*others: Obstacle, distance: float = 25.0, speed: float = 7.0) -> Drive:
+    here = situation("s2", TURN[0], before_end("s2", TURN[0], distance), speed)
+    plan = plan_of("s2", here, "exit-right")
+    return drive(plan, Motion(0.0, speed, 0.0), 0, others, SIZE, HORIZON)
+
+
+def from_west(direction: Direction, away: float, speed: float) -> Obstacle:
+    """A vehicle at a distance [m] before the junction, at a steady speed."""
+    lanes = row("s2", WEST, direction)
+    first = before_end("s2", WEST, away)
+    return obstacle("s2", lanes, [first + speed * DT * k for k in range(STEPS)])
+
+
+def entered(driven: Drive, distance: float = 25.0) -> float:
+    """When [s] the front came into the junction."""
+    return next(k for k, motion in enumerate(driven.motions) if motion.arc > distance) * DT
+
+
+def test_a_line_is_crossed_where_nobody_comes() -> None:
+    driven = turn_right()
+    assert driven.finished
+    assert driven.hindrances == ()
+    assert min(motion.speed for motion in driven.motions) > 2.5
+
+
+def test_a_line_is_a_place_to_wait_for_who_has_priority() -> None:
+    other = from_west("straight", 50.0, 10.0)
+    driven = turn_right(other)
+    assert driven.finished
+    assert {(h.vehicle, h.how) for h in driven.hindrances} >= {(1, "right-of-way")}
+    # The ego's way joins that of the other where the junction ends.
+    through = link("s2", WEST, "straight").via
+    clear = (50.0 + roads("s2").network.lanes[through[0]].length) / 10.0
+    arrived = driven.motions[-1]
+    assert entered(driven) > entered(turn_right())
+    assert (len(driven.motions) - 1) * DT > clear
+    assert arrived.arc > 25.0
+
+
+def test_nobody_waits_for_who_turns_off() -> None:
+    for direction in ("left", "right"):
+        turning = from_west(direction, 50.0, 8.0)
+        assert turn_right(turning).motions == turn_right().motions
+
+
+def test_nobody_waits_for_who_has_passed() -> None:
+    passed = from_west("straight", -30.0, 12.0)
+    assert entered(turn_right(passed)) == entered(turn_right())
+
+
+def test_who_waits_stays_behind_the_line() -> None:
+    standing = obstacle("s2", row("s2", WEST, "straight"), [before_end("s2", WEST, -15.0)] * STEPS)
+    driven = turn_right(standing)
+    assert not driven.finished
+    assert driven.motions[-1].speed < 0.05
+    assert driven.motions[-1].arc <= 25.0
+    assert {h.vehicle for h in driven.hindrances} == {1}
+
+
+@given(st.floats(0.0, 90.0), st.floats(3.0, 13.0))
+def test_giving_way_never_ends_in_a_collision(away: float, speed: float) -> None:
+    other = from_west("straight", away, speed)
+    here = situation("s2", TURN[0], before_end("s2", TURN[0], 25.0), 7.0)
+    plan = plan_of("s2", here, "exit-right")
+    driven = drive(plan, Motion(0.0, 7.0, 0.0), 0, (other,), SIZE, HORIZON)
+    poses = [plan.path.pose(motion.arc) for motion in driven.motions]
+    position = np.array([place for place, _ in poses])
+    heading = np.array([turned for _, turned in poses])
+    count = len(poses)
+    hit = first_overlap(
+        position, heading, SIZE, other.position[:count], other.heading[:count], SIZE
+    )
+    if hit is not None:  # only from behind: the other does not react
+        ahead = other.position[hit] - position[hit]
+        assert ahead[0] * math.cos(heading[hit]) + ahead[1] * math.sin(heading[hit]) < 0.0
