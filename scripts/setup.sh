@@ -74,7 +74,7 @@ pip_install() {
 
 install() {
     : >"$venv/unfinished"
-    say "installing pinned packages (about 1 GB on disk; once)"
+    say "installing pinned packages (the first time about 1 GB on disk)"
     pip_install setuptools
     case $level in
         runtime) pip_install --no-build-isolation --editable . ;;

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -39,6 +40,18 @@ def code(page: str) -> str:
 def test_commands_in_the_documents_exist(root: Path, name: str) -> None:
     shown = code((root / name).read_text(encoding="utf-8"))
     assert set(re.findall(r"\bmake (?:-s )?([a-z]+)", shown)) <= targets(root)
+
+
+def test_programs_in_the_readme_exist(root: Path) -> None:
+    helped = subprocess.run(
+        [sys.executable, "-m", "xavi_dialogue", "--help"],
+        cwd=root,
+        capture_output=True,
+        check=True,
+        text=True,
+    )
+    shown = code((root / "README.md").read_text(encoding="utf-8"))
+    assert set(re.findall(r"\bxavi ([a-z]+)", shown)) <= set(re.findall(r"\w+", helped.stdout))
 
 
 def test_the_makefile_offers_what_everybody_expects(root: Path) -> None:

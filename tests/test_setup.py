@@ -1,0 +1,161 @@
+"""The set-up script, run with a stand-in for Python that writes down what it is told to do."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+# It makes environments that hold itself, installs nothing, and fails where a file `broken-<word>`
+# lies beside the script's folder and its arguments hold the word.
+STAND_IN = """#!/bin/sh
+echo "$*" >>log
+for broken in broken-*; do
+    case "$*" in *"${broken#broken-}"*) exit 1;; esac
+done
+case "$*" in
+    "-m venv"*) mkdir -p "$3/bin" && cp "$PYTHON" "$3/bin/python";;
+    -V) echo "Python 3.9.1";;
+    *print*) echo "python3.11-venv";;
+esac
+"""
+
+
+class Checkout:
+    """A checkout with the script, and programs that shadow the system's."""
+
+    def __init__(self, root: Path, folder: Path) -> None:
+        self.folder = folder
+        (folder / "scripts").mkdir()
+        shutil.copy(root / "scripts" / "setup.sh", folder / "scripts")
+        for name in ("pyproject.toml", "constraints.txt"):
+            shutil.copy(root / name, folder)
+        self.python = self.program("python", STAND_IN)
+        self.program("id", "#!/bin/sh\necho 1000\n")
+        self.program("sudo", "#!/bin/sh\nexit 1\n")
+        self.program("apt-get", '#!/bin/sh\necho "apt-get $*" >>log\n')
+
+    def program(self, name: str, text: str) -> Path:
+        path = self.folder / "bin" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        path.chmod(0o755)
+        return path
+
+    def setup(self, level: str = "runtime", python: str = "") -> subprocess.CompletedProcess[str]:
+        (self.folder / "log").write_text("")
+        done = subprocess.run(
+            ["sh", str(self.folder / "scripts" / "setup.sh"), level],
+            cwd="/",
+            env={"PATH": f"{self.folder}/bin:/usr/bin:/bin", "PYTHON": python or str(self.python)},
+            input="a question that belongs to the passenger\n",
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.stdout == ""
+        return done
+
+    def breaks(self, word: str) -> None:
+        (self.folder / f"broken-{word}").touch()
+
+    def mends(self, word: str) -> None:
+        (self.folder / f"broken-{word}").unlink()
+
+    @property
+    def log(self) -> str:
+        return (self.folder / "log").read_text()
+
+
+@pytest.fixture
+def checkout(root: Path, tmp_path: Path) -> Checkout:
+    return Checkout(root, tmp_path)
+
+
+def test_a_fresh_checkout_is_set_up_once(checkout: Checkout) -> None:
+    assert checkout.setup().returncode == 0
+    assert "-m venv .venv" in checkout.log
+    assert "--editable ." in checkout.log
+    assert "import libsumo" in checkout.log
+    assert checkout.setup().returncode == 0
+    assert checkout.log == ""
+
+
+@pytest.mark.parametrize("file", ["pyproject.toml", "constraints.txt"])
+def test_a_change_of_what_is_needed_installs_anew(checkout: Checkout, file: str) -> None:
+    checkout.setup()
+    with (checkout.folder / file).open("a") as changed:
+        changed.write("# changed\n")
+    assert checkout.setup().returncode == 0
+    assert "pip install" in checkout.log
+    assert "-m venv" not in checkout.log
+
+
+def test_what_serves_the_developer_serves_the_passenger(checkout: Checkout) -> None:
+    checkout.setup("develop")
+    assert "--editable .[dashboard,dev,maps]" in checkout.log
+    checkout.setup("runtime")
+    assert checkout.log == ""
+
+
+def test_what_serves_the_passenger_is_not_enough_for_the_developer(checkout: Checkout) -> None:
+    checkout.setup("runtime")
+    checkout.setup("develop")
+    assert "pip install" in checkout.log
+
+
+def test_an_installation_that_broke_off_is_made_anew(checkout: Checkout) -> None:
+    checkout.breaks("editable")
+    assert checkout.setup().returncode == 1
+    checkout.mends("editable")
+    assert checkout.setup().returncode == 0
+    assert "-m venv .venv" in checkout.log
+    checkout.setup()
+    assert checkout.log == ""
+
+
+def test_missing_system_libraries_are_named_in_a_command(checkout: Checkout) -> None:
+    checkout.breaks("libsumo")
+    done = checkout.setup()
+    assert done.returncode == 1
+    assert "sudo apt-get install -y --no-install-recommends libgl1 libx11-6" in done.stderr
+    assert "apt-get" not in checkout.log
+
+
+def test_missing_system_libraries_are_installed_where_that_is_permitted(
+    checkout: Checkout,
+) -> None:
+    checkout.breaks("libsumo")
+    checkout.program("id", "#!/bin/sh\necho 0\n")
+    checkout.program(
+        "apt-get", '#!/bin/sh\necho "apt-get $*" >>log\n[ $1 = update ] || rm broken-libsumo\n'
+    )
+    assert checkout.setup().returncode == 0
+    assert "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1" in checkout.log
+
+
+def test_a_python_that_cannot_make_environments(checkout: Checkout) -> None:
+    checkout.breaks("ensurepip")
+    done = checkout.setup()
+    assert done.returncode == 1
+    assert "sudo apt-get install -y --no-install-recommends python3.11-venv" in done.stderr
+
+
+def test_a_python_that_is_too_old(checkout: Checkout) -> None:
+    checkout.breaks("version_info")
+    done = checkout.setup()
+    assert done.returncode == 1
+    assert "Python 3.9.1 is too old" in done.stderr
+    assert "make chat PYTHON=" in done.stderr
+
+
+def test_a_python_that_is_not_there(checkout: Checkout) -> None:
+    done = checkout.setup(python="python-of-nowhere")
+    assert done.returncode == 1
+    assert "'python-of-nowhere' was not found" in done.stderr
+
+
+def test_an_unknown_level(checkout: Checkout) -> None:
+    done = checkout.setup("everything")
+    assert done.returncode == 1
+    assert "runtime or develop" in done.stderr
