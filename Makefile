@@ -16,8 +16,12 @@ help: ## show this list
 chat: runtime ## set up if need be, then ride and talk
 	@$(BIN)/xavi chat $(ARGS)
 
-test: lint ## everything that must hold: lint, types, tests
-	@$(BIN)/python -m pytest $(ARGS)
+# The tests run even where lint finds fault, so that one run tells all; either failing fails it.
+test: develop ## everything that must hold: lint, types, tests
+	@status=0; \
+	$(MAKE) --no-print-directory lint || status=1; \
+	$(BIN)/python -m pytest $(ARGS) || status=1; \
+	exit $$status
 
 lint: develop ## ruff and mypy
 	@$(BIN)/python -m ruff check
