@@ -57,7 +57,7 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
     Raises:
         RoutesError: a vehicle has no id.
     """
-    routes = {route.get("id"): route for route in root.iter("route")}
+    routes = {route.get("id"): route for route in root.iter("route") if route.get("id")}
     found = []
     for element in _vehicles(root):
         name = element.get("id")

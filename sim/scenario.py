@@ -155,8 +155,13 @@ def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path
             raise top.wrong("priority", "only for OpenDRIVE networks", remedy)
         return path
     try:
-        return opendrive_net(path, priority)
-    except NetconvertError as error:
+        net = opendrive_net(path, {})
+        edges = _edges(read_network(net))
+        for edge in priority:
+            if edge not in edges:
+                raise top.wrong(f"priority.{edge}", "there is no such edge", _one_of(edges))
+        return opendrive_net(path, priority) if priority else net
+    except (NetconvertError, NetworkError) as error:
         raise top.wrong("network", f"cannot convert {path}", str(error)) from error
 
 
@@ -171,10 +176,7 @@ def _check(scenario: Scenario, top: Table) -> None:
         departures = routes.departures(root)
     except RoutesError as error:
         raise TableError(scenario.routes, None, str(error), "mend the route file") from error
-    edges = {lane.edge for lane in network.lanes.values() if not lane.internal}
-    for edge in scenario.priority:
-        if edge not in edges:
-            raise top.wrong(f"priority.{edge}", "there is no such edge", _one_of(edges))
+    edges = _edges(network)
     _check_routes(scenario, root, edges)
     ids = [departure.id for departure in departures]
     if scenario.ego not in ids:
@@ -230,6 +232,10 @@ def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start
     if goal.position > length:
         problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"
         raise top.wrong("goal.position", problem, f"it must be at most {length:g}")
+
+
+def _edges(network: Network) -> set[str]:
+    return {lane.edge for lane in network.lanes.values() if not lane.internal}
 
 
 def _reachable(network: Network, edges: set[str], start: str) -> list[str]:
