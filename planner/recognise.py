@@ -15,7 +15,7 @@ import numpy as np
 from planner.actions import ActionPlan, Situation, Stop
 from planner.astar import LANE_CHANGE_COST, SOLUTIONS, Solution, ways
 from planner.forward import ACCELERATION, COMFORT, DT, Motion, drive
-from planner.goals import Goal, goals_in_view, stopping_time
+from planner.goals import PLACES, Goal, goals_in_view, stopping_time
 from planner.obstacles import Obstacle
 from planner.rollout import Task
 from planner.routes import onward
@@ -83,9 +83,7 @@ def _beliefs(
     others = [track for track in tracks if track.vehicle != observed.vehicle]
     starts = observed.situation(roads, -1, time)
     if not starts:
-        goal = Goal("stop", "where it comes to a stop", None, 1.0)
-        motion = coast(roads, observed, steps, past=False)
-        return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("stop",), motion),)),)
+        return _unknown(roads, observed, steps)
     goals = goals_in_view(roads, starts, settings.view_radius)
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
@@ -94,12 +92,21 @@ def _beliefs(
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
     likelihood = _likelihoods(frame, observed, goals, onwards, others, settings)
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
+    if sum(weights) == 0.0:
+        return _unknown(roads, observed, steps)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
         Belief(goal, like, weight / sum(weights), _trajectories(onward, settings))
         for goal, like, weight, onward in zip(goals, likelihood, weights, onwards, strict=True)
         if weight > 0.0
     )
+
+
+def _unknown(roads: Roads, observed: Observed, steps: int) -> tuple[Belief, ...]:
+    """A vehicle for which no goal makes sense: it is taken to go on as it does."""
+    goal = Goal("continue", PLACES["continue"], None, 1.0)
+    motion = coast(roads, observed, steps, past=False)
+    return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), motion),)),)
 
 
 def _likelihoods(

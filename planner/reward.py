@@ -11,11 +11,12 @@ from planner.trajectory import Array
 WEIGHTS: dict[Component, float] = {
     "time": 1.0,  # per s
     "jerk": 0.05,  # per m/s2
-    "angular-acceleration": 3.0,  # per rad/s
-    "curvature": 15.0,  # per s/m
+    "angular-acceleration": 4.0,  # per rad/s
+    "curvature": 20.0,  # per s/m
 }
-#: What the other outcomes cost, in the same seconds: more than any drive to the goal.
-PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 100.0, "termination": 100.0}
+#: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
+#: within reach.
+PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 100.0, "termination": 50.0}
 
 
 def components(

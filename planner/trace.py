@@ -65,7 +65,7 @@ class Settings(msgspec.Struct, frozen=True):
     horizon: float = 30.0  # [s] a rollout that lasts longer terminates
     period: float = 1.0  # [s] between decisions
     recognition: bool = True  # False: goals keep their prior
-    rationality: float = 1.0  # beta in p(track | goal) = exp(beta * reward difference)
+    rationality: float = 1.5  # beta in p(track | goal) = exp(beta * reward difference)
     view_radius: float = 100.0  # [m]
 
 
