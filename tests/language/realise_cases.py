@@ -6,6 +6,7 @@ from planner.trace import ACTIONS, COMPONENTS, UNITS, Action, Component, Outcome
 from xavi_dialogue.explain.explanation import (
     Activity,
     Cause,
+    Destination,
     Effect,
     Evidence,
     Explanation,
@@ -110,6 +111,15 @@ _activities = st.builds(
     trend=st.sampled_from([None, "slowing", "steady", "speeding-up", "standing"]),
 )
 
+_destinations = st.builds(
+    Destination,
+    vehicle=st.integers(0, 5),
+    edge=st.sampled_from([None, "main_out"]),
+    kind=st.none() | st.sampled_from(ACTIONS),
+    place=st.sampled_from([None, "the road to the left"]),
+    probability=st.none() | _probabilities,
+)
+
 explanations = st.builds(
     Explanation,
     factual=_plans,
@@ -133,6 +143,8 @@ explanations = st.builds(
     activity=st.none() | _activities,
     sim_time=st.floats(0, 3600),
     arrival=st.none() | st.floats(0, 200),
+    destination=st.none() | _destinations,
+    moment=st.none() | st.floats(0, 3600),
 )
 
 QUESTION_TYPES: tuple[QueryType, ...] = (
@@ -176,4 +188,5 @@ contexts = st.builds(
     max_causes=st.integers(0, 3),
     max_effects=st.integers(0, 4),
     done=_plans,
+    now=st.floats(0, 3600),
 )

@@ -23,6 +23,8 @@ STARTS = {
         "WHY",
         "BRIEF",
         "WHAT_IF",
+        "CONSTRAINT",
+        "WHEN",
         "SUPPOSE",
         "MOTIVE",
         "WHAT",

@@ -1,14 +1,15 @@
 """Style `passenger`: purpose, contrast, cause, in the tense of the question."""
 
+import msgspec
 import pytest
 
 from planner.trace import HoldUp, Outcome
 from tests.language.realise_cases import CUT_AND_TURN, cause, effect, explanation, watching
-from xavi_dialogue.explain.explanation import Activity, Mechanism
+from xavi_dialogue.explain.explanation import Activity, Destination, Mechanism
 from xavi_dialogue.explain.query import Detail, Query, QueryAction, Tense
-from xavi_dialogue.language.content import Budget, select
+from xavi_dialogue.language.content import select
 from xavi_dialogue.language.context import SpeechContext, VehicleWords
-from xavi_dialogue.language.points import Contrast
+from xavi_dialogue.language.points import Budget, Contrast
 from xavi_dialogue.language.realise import realise, stages
 
 SLOWS = Mechanism("leader", 9.4, 4.1, 4.0, 0.8)
@@ -332,6 +333,102 @@ def test_what_if_another_vehicle_had_done_otherwise() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("changes", "answer"),
+    [
+        (True, "If vehicle 1 had stopped, I would have moved to the left lane instead."),
+        (False, "If vehicle 1 had stopped, I would still have moved to the left lane."),
+    ],
+)
+def test_planning_again_decides_whether_we_would_have_done_the_same(
+    changes: bool, answer: str
+) -> None:
+    query = Query(type="what_if", actor="vehicle:1", counterfactual=("stop",))
+    supposed = cause(1, ("stop",), 0.1, None, changes)
+    found = explanation(("change-left",), causes=(supposed,), fact=("change-left",))
+    assert realise(query, found, SpeechContext()).text == answer
+
+
+@pytest.mark.parametrize(
+    ("deed", "how", "answer"),
+    [
+        (
+            "slow-down",
+            "leader",
+            "I slowed down, because I expected vehicle 1 to slow from 34 to 15 km/h and turn left.",
+        ),
+        (
+            "stop",
+            "right-of-way",
+            "I stopped, because I had to give way to vehicle 1, which I expected to turn left.",
+        ),
+        ("give-way", "right-of-way", "I gave way to vehicle 1, which I expected to turn left."),
+    ],
+)
+def test_who_was_in_our_way(deed: QueryAction, how: HoldUp, answer: str) -> None:
+    held_up = cause(1, ("exit-left",), 0.9, Mechanism(how, 9.4, 4.1, 2.0, 0.9))
+    found = msgspec.structs.replace(explanation((), causes=(held_up,)), outcome=None)
+    assert realise(Query(type="why", factual=(deed,)), found, SpeechContext()).text == answer
+
+
+@pytest.mark.parametrize(
+    ("moment", "answer"),
+    [
+        (12.0, "I turned left at 0:12, about 8 seconds ago."),
+        (25.0, "I will turn left at 0:25, in about 5 seconds."),
+        (20.0, "I turned left at 0:20."),
+    ],
+)
+def test_when(moment: float, answer: str) -> None:
+    found = msgspec.structs.replace(explanation(()), moment=moment)
+    query = Query(type="when", factual=("exit-left",))
+    assert realise(query, found, SpeechContext(now=20.0)).text == answer
+
+
+def test_where_another_vehicle_is_going() -> None:
+    goal = Destination(1, "south", "exit-right", "the road to the right", 0.8)
+    found = msgspec.structs.replace(explanation(()), destination=goal, outcome=None)
+    query = Query(type="where_goal", actor="vehicle:1", tense="present")
+    assert realise(query, found, AHEAD).text == "I expect the car ahead (vehicle 1) to turn right."
+
+
+def test_what_a_track_shows_and_the_goal_behind_it() -> None:
+    shown = Activity(1, ("change-right",), None, 9.4, "slowing")
+    goal = Destination(1, "south", "exit-right", "the road to the right", 0.8)
+    found = msgspec.structs.replace(watching(shown), destination=goal)
+    query = Query(type="what", actor="vehicle:1")
+    assert realise(query, found, SpeechContext()).text == (
+        "Vehicle 1 changed to the right lane at 34 km/h, slowing down. I expected it to turn right."
+    )
+    why_it = Query(type="why", actor="vehicle:1", factual=("change-right",))
+    assert realise(why_it, found, SpeechContext()).text == (
+        "Vehicle 1 most likely changed to the right lane in order to turn right."
+    )
+
+
+@pytest.mark.parametrize(
+    ("probability", "sure", "chance"),
+    [
+        (1.0, "as sure as I can be", "100 %"),
+        (0.999, "almost certain", "over 95 %"),
+        (0.8, "quite sure", "80 %"),
+        (0.5, "only fairly sure", "50 %"),
+        (0.1, "not sure at all", "10 %"),
+    ],
+)
+def test_how_sure(probability: float, sure: str, chance: str) -> None:
+    found = watching(Activity(1, ("exit-left",), probability, 9.4, "steady"))
+    query = Query(type="confidence", actor="vehicle:1", tense="present")
+    assert realise(query, found, SpeechContext()).text == (
+        f"I am {sure}: I put the chance that vehicle 1 will turn left at {chance}."
+    )
+
+
+def test_a_range_keeps_its_halves() -> None:
+    found = explanation(("continue",), effects=(effect("time", 1.6, spread=1.0),))
+    assert "ranged from 0.5 to 2.5 seconds" in realise(why(detail="more"), found, AHEAD).text
+
+
 def test_the_stages_can_be_looked_at() -> None:
     made = stages(why(), SLOWED, AHEAD)
     content = made.content
@@ -340,7 +437,7 @@ def test_the_stages_can_be_looked_at() -> None:
     assert content.because is not None
     assert content.because.vehicle.number == 1
     assert len(made.words) == len(made.tokens)
-    assert select(why(), SLOWED, Budget(1, 1)) == content
+    assert select(why(), SLOWED, Budget(1, 1), now=0.0) == content
 
 
 def test_an_answer_suggests_what_to_ask_next() -> None:

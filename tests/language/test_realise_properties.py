@@ -11,7 +11,7 @@ from tests.language.realise_cases import contexts, explanations, queries
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.morphology import Quantity, quantity
+from xavi_dialogue.language.morphology import Quantity, bare, quantity
 from xavi_dialogue.language.orthography import count_sentences, count_words
 from xavi_dialogue.language.realise import MAX_SENTENCES, MAX_WORDS, MAX_WORDS_MORE, realise
 
@@ -25,7 +25,7 @@ UNTIDY = re.compile(r"because\s*[.,]|[,.;:]\s*[,.;:]|\s[,.;:?]|  |\(\s|\s\)|[{}_
 EXAMPLES = settings(max_examples=400)
 
 
-def numbers(found: Explanation, query: Query) -> Iterator[str]:
+def numbers(found: Explanation, now: float) -> Iterator[str]:
     """Every number that an answer may contain, as it would be spelt."""
     evidence = found.evidence
     yield from (str(evidence.rollouts), str(evidence.distinct_samples))
@@ -36,14 +36,19 @@ def numbers(found: Explanation, query: Query) -> Iterator[str]:
         chances.append(found.outcome.probability)
     if found.activity is not None:
         speeds.append(found.activity.speed)
-        chances.append(found.activity.probability or 1.0)
+        chances.append(found.activity.probability or 0.0)
+    if found.destination is not None:
+        chances.append(found.destination.probability or 0.0)
+    if found.moment is not None:
+        times.append(abs(now - found.moment))
+        yield from re.findall(r"\d+", quantity(Quantity(found.moment, "clock")))
     for value in times:
         yield from re.findall(r"[\d.]+", quantity(Quantity(value or 0.0, "s")))
+        yield bare(Quantity(value or 0.0, "s"))
     for value in speeds:
         yield from re.findall(r"\d+", quantity(Quantity(value or 0.0, "km/h")))
     for chance in chances:
         yield from re.findall(r"\d+", quantity(Quantity(chance, "probability")))
-    yield "100"  # a chance of one, where there is no estimate
 
 
 def vehicles(found: Explanation, query: Query) -> set[int]:
@@ -52,6 +57,8 @@ def vehicles(found: Explanation, query: Query) -> set[int]:
         known.add(found.outcome.collided_with)
     if found.activity is not None:
         known.add(found.activity.vehicle)
+    if found.destination is not None:
+        known.add(found.destination.vehicle)
     return known | {int(n) for n in re.findall(r"\d+", query.actor)}
 
 
@@ -96,7 +103,7 @@ def test_numbers_and_vehicles_come_from_the_explanation(
     assert named == set(said.mentioned)
     assert named <= vehicles(found, query)
     bare = re.sub(r"[Vv]ehicle \d+", "", said.text)
-    assert set(re.findall(r"\d+(?:\.\d+)?", bare)) <= set(numbers(found, query)) | {"5", "95"}
+    assert set(re.findall(r"\d+(?:\.\d+)?", bare)) <= set(numbers(found, context.now))
 
 
 @given(queries, explanations, contexts)

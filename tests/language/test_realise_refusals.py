@@ -60,6 +60,13 @@ def test_what_happened_instead() -> None:
     ) == ("I did not turn left. I moved to the left lane at 0:12.")
 
 
+def test_what_is_yet_to_come() -> None:
+    query = Query(type="why", factual=("exit-left",))
+    assert refuse(query, "did-not-happen", asked="exit-left", planned=True) == (
+        "I have not turned left yet, but I plan to."
+    )
+
+
 def test_another_vehicle_did_not_do_it() -> None:
     query = Query(type="why", actor="vehicle:1", factual=("stop",))
     assert refuse(query, "did-not-happen") == "Vehicle 1 did not stop."
@@ -77,6 +84,11 @@ def test_the_foil_is_what_was_done() -> None:
     [
         ("there is no lane to the left", "there is no lane to the left"),
         ("its lane does not lead to the right", "my lane does not lead to the right"),
+        ("it is already inside the junction", "I am already inside the junction"),
+        (
+            "that is no choice: it follows from the road",
+            "that is no choice; it follows from the road",
+        ),
     ],
 )
 def test_the_planners_reason_is_given(reason: str, said: str) -> None:
@@ -147,7 +159,7 @@ def test_what_is_not_understood_gets_a_suggestion(cause: str) -> None:
     assert said.text.endswith("You could ask: Why did you move to the left lane?")
 
 
-@pytest.mark.parametrize("topic", ["greeting", "thanks", "goodbye", "who", "ok", None])
+@pytest.mark.parametrize("topic", ["greeting", "thanks", "assent", "identity", None])
 def test_small_talk_is_short(topic: str | None) -> None:
     text = realise_smalltalk(topic, AFTER_A_CHANGE).text
     assert text[-1] in ".?"

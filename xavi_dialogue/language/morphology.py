@@ -91,7 +91,7 @@ class _Speaker:
         if isinstance(value, Doing):
             return self._doing(value, form)
         if isinstance(value, Quantity):
-            return quantity(value).partition(" ")[0] if form == "number" else quantity(value)
+            return bare(value) if form == "number" else quantity(value)
         if isinstance(value, Term):
             return self._term(value)
         if isinstance(value, tuple) and all(isinstance(v, Vehicle) for v in value):
@@ -205,8 +205,8 @@ def nearest(value: float) -> int:
 def quantity(amount: Quantity) -> str:
     """A quantity in words, rounded as a passenger would say it.
 
-    Seconds to a half below 3 s and to a whole above, speeds to 1 km/h, probabilities to 5 %
-    but never to certainty, times of the ride as minutes and seconds.
+    Seconds to a half below 3 s and to a whole above, minutes from 100 s, speeds to 1 km/h,
+    probabilities to 5 % but never to certainty, times of the ride as minutes and seconds.
     """
     value = amount.value
     match amount.unit:
@@ -226,10 +226,21 @@ def quantity(amount: Quantity) -> str:
     return f"{percent} %"
 
 
+def bare(amount: Quantity) -> str:
+    """The number alone, for where its unit follows later: "from 2 to 4 seconds"."""
+    if amount.unit == "s":
+        return f"{_round_seconds(abs(amount.value)):g}"
+    return quantity(amount).partition(" ")[0]
+
+
 def _seconds(value: float) -> str:
-    rounded = nearest(value) if value >= 3 else nearest(value * 2) / 2
+    if value >= 100:
+        return f"{nearest(value / 60)} minutes"
+    rounded = _round_seconds(value)
     if rounded == 0.5:
         return "half a second"
-    if rounded == 1:
-        return "1 second"
-    return f"{rounded:g} seconds"
+    return "1 second" if rounded == 1 else f"{rounded:g} seconds"
+
+
+def _round_seconds(value: float) -> float:
+    return nearest(value) if value >= 3 else nearest(value * 2) / 2

@@ -1,15 +1,30 @@
-"""Points: what an answer says, before it is put into words.
+"""Points: what an answer says, before it is put into words, and how much of it.
 
 These dataclasses are the vocabulary of `grammars/answer_passenger.rules`: a path such as
 `x.because.vehicle` there is an attribute here.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from planner.trace import Component
 from xavi_dialogue.explain.query import Tense
-from xavi_dialogue.language.morphology import Doing, Quantity, Vehicle
+from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
+
+LANE_CHANGES = ("change-left", "change-right", "overtake")
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """How much an answer may hold; the first of a row of budgets that keeps it short is used."""
+
+    effects: int
+    causes: int
+    purpose: bool = True
+    particulars: bool = True  # speeds and intentions of a vehicle that held us up
+    describe: bool = True  # describe vehicles besides naming them
+    more: bool = False  # ranges, chances and evidence
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,8 +65,8 @@ class CausePoint:
 class EvidencePoint:
     """What an answer rests on."""
 
-    rollouts: Quantity
-    situations: str
+    drives: Quantity  # simulated
+    situations: Quantity  # distinct among them
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +85,31 @@ class Contrast:
     because: CausePoint | None
     also: tuple[CausePoint, ...]  # causes that do not explain how the foil turns out
     more: bool
-    evidence: EvidencePoint
+    evidence: EvidencePoint | None
+
+
+@dataclass(frozen=True, slots=True)
+class Constraint:
+    """Answers to why we slowed down, stopped or gave way: who was in our way."""
+
+    deed: Doing
+    past: bool
+    gave_way: bool  # the question says that we did
+    because: CausePoint | None
+    also: tuple[CausePoint, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Time:
+    """Answers to when."""
+
+    subject: Vehicle | None  # None: us
+    deed: Doing | None
+    past: bool
+    at: Quantity | None  # time of the ride
+    ago: Quantity | None  # how long since then, from 1 s
+    ahead: Quantity | None  # how long until then, from 1 s
+    arrival: Quantity | None  # how long until we are there
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +124,8 @@ class Supposition:
     same: bool  # we would have done the same
     mine: Doing
     effects: tuple[EffectPoint, ...]
+    chance: Quantity | None  # of what is supposed
+    more: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,8 +155,9 @@ class ActivityPoint:
     now: Doing | None  # under way, and known
     next: Doing | None  # planned after it
     forecast: Doing | None  # expected
-    probability: float
-    chance: Quantity
+    halted: bool  # it stands still
+    probability: float | None  # of the forecast or outcome
+    chance: Quantity | None
     motion: bool  # its motion is known
     speed: Quantity | None
     trend: str | None
@@ -123,4 +165,27 @@ class ActivityPoint:
     outcome: str | None
 
 
-Content: TypeAlias = Contrast | Supposition | Motive | ActivityPoint
+Content: TypeAlias = Contrast | Constraint | Supposition | Motive | ActivityPoint | Time
+
+
+def vehicle_of(actor: str) -> int | None:
+    """The number in "vehicle:N"; None for the ego and for descriptions."""
+    _, _, number = actor.partition(":")
+    return int(number) if number.isdecimal() and int(number) != EGO else None
+
+
+def plain(actions: Iterable[str]) -> tuple[str, ...]:
+    """The actions without repetition, and without going on as an afterthought."""
+    kept: list[str] = []
+    for action in actions:
+        if not kept or kept[-1] != action:
+            kept.append(action)
+    while len(kept) > 1 and kept[-1] == "continue":
+        kept.pop()
+    return tuple(kept)
+
+
+def doing(actor: int, actions: Iterable[str], tense: Tense, in_lane: bool = False) -> Doing | None:
+    """The actions as a phrase to be, or None where there is none."""
+    kept = plain(actions)
+    return Doing(actor, kept, tense, in_lane) if kept else None

@@ -13,14 +13,23 @@ from dataclasses import dataclass, replace
 
 from xavi_dialogue.explain.explanation import Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.content import Budget, select
+from xavi_dialogue.language.content import select
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.followups import follow_ups
 from xavi_dialogue.language.generator import Token, expand
 from xavi_dialogue.language.morphology import inflect
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
 from xavi_dialogue.language.paper import PaperContent, select_paper
-from xavi_dialogue.language.points import ActivityPoint, Content, Contrast, Motive, Supposition
+from xavi_dialogue.language.points import (
+    ActivityPoint,
+    Budget,
+    Constraint,
+    Content,
+    Contrast,
+    Motive,
+    Supposition,
+    Time,
+)
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.language.rules import load_grammar
@@ -85,12 +94,14 @@ def _budgets(context: SpeechContext) -> Iterator[Budget]:
         yield full
     yield replace(full, particulars=False)
     yield replace(full, particulars=False, describe=False)
-    yield Budget(min(1, full.effects), min(1, full.causes), full.purpose, False, False)
-    yield Budget(min(1, full.effects), min(1, full.causes), False, False, False)
+    barest = Budget(min(1, full.effects), min(1, full.causes), full.purpose, False, False)
+    yield barest
+    yield replace(barest, purpose=False)
+    yield replace(barest, purpose=False, causes=0)
 
 
 def _passenger(query: Query, found: Explanation, context: SpeechContext, budget: Budget) -> Stages:
-    content = select(query, found, budget)
+    content = select(query, found, budget, context.now)
     tokens = expand(load_grammar("answer_passenger"), _rule(content), content)
     words, mentioned = inflect(tokens, context, describe=budget.describe)
     text = capitalise(rewrite(join(words), "passenger"))
@@ -101,6 +112,10 @@ def _rule(content: Content) -> str:
     match content:
         case Contrast() | ActivityPoint():
             return content.rule
+        case Constraint():
+            return "CONSTRAINT"
+        case Time():
+            return "WHEN"
         case Supposition():
             return "SUPPOSE"
         case Motive():

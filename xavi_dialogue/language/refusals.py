@@ -7,12 +7,12 @@ from typing import Literal
 
 from xavi_dialogue.explain.explanation import NoExplanation
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.content import doing, vehicle_of
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.followups import from_situation
 from xavi_dialogue.language.generator import expand
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join
+from xavi_dialogue.language.points import doing, vehicle_of
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.wording import lexicon, rewrite
@@ -40,6 +40,7 @@ class Refusal:
     asked: Doing | None = None  # what the question takes for granted, or asks about
     instead: Doing | None = None  # what happened in its place
     did: bool = False  # what was asked about is what was done
+    planned: bool = False  # what was asked about is yet to come
     at: Quantity | None = None  # when that was
     clause: str | None = None  # the planner's reason
     known: tuple[Vehicle, ...] = ()
@@ -78,7 +79,7 @@ def realise_clarification(choices: tuple[str, ...], context: SpeechContext) -> U
 
 
 def realise_smalltalk(topic: str | None, context: SpeechContext) -> Utterance:
-    """A friendly word: on a greeting, thanks, goodbye, who, how-are-you, ok, or anything else."""
+    """A friendly word on a greeting, thanks, assent, a question of identity, or anything else."""
     return _chat("smalltalk", topic, context, questions(from_situation(context)))
 
 
@@ -128,6 +129,7 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
         asked=doing(actor or EGO, asked, query.tense),
         instead=doing(actor or EGO, instead, query.tense),
         did=facts.get("did") is True,
+        planned=facts.get("planned") is True,
         at=_quantity(facts, "time", "clock"),
         clause=clause if clause is None or actor else rewrite(clause, "own"),
         known=_vehicles(facts),
