@@ -1,7 +1,8 @@
 """Compiled road networks: SUMO's netconvert, from the extra `maps`.
 
 Our own networks are written as plain XML (nodes, edges, connections) and shipped compiled;
-`compile_plain` compiles them. `convert_opendrive` reads a map in OpenDRIVE.
+`compile_plain` compiles them, and so does `python -m sim.netconvert FOLDER...`.
+`convert_opendrive` reads a map in OpenDRIVE.
 
     NetconvertError
     ├── NetconvertMissing    netconvert is not installed
@@ -121,3 +122,8 @@ def _run(*arguments: str) -> None:
     if done.returncode != 0:
         reason = next((x for x in done.stderr.splitlines() if x.startswith("Error")), done.stderr)
         raise ConversionFailed(f"netconvert failed: {reason.strip()}")
+
+
+if __name__ == "__main__":
+    for folder in map(Path, sys.argv[1:]):
+        compile_plain(folder, folder.name, folder / f"{folder.name}.net.xml")

@@ -113,9 +113,9 @@ class Simulation:
         """End the simulation; closing twice does nothing."""
         global _running
         if self._open:
-            self._sumo.close()
-            self._scratch.cleanup()
             _running = self._open = False
+            self._scratch.cleanup()
+            self._sumo.close()
 
     @property
     def time(self) -> float:
