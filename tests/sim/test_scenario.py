@@ -23,7 +23,8 @@ def test_what_is_read() -> None:
     scenario = load("s1")
     assert scenario.goal == Goal("main_out", 100.0, None)
     assert scenario.spawn == Spawn(10.0, (5.0, 10.0))
-    assert (scenario.step, scenario.duration, scenario.view_radius) == (0.1, 60.0, 100.0)
+    assert (scenario.step, scenario.duration, scenario.view_radius) == (0.1, 60.0, 150.0)
+    assert load("s2").view_radius == 100.0  # the default
     assert (scenario.seed, scenario.ego, scenario.priority) == (0, "ego", {})
     assert scenario.network.is_file()
     assert scenario.routes.is_file()
@@ -31,7 +32,8 @@ def test_what_is_read() -> None:
 
 def test_a_folder_anywhere_loads_by_its_path(tmp_path: Path) -> None:
     folder = copy_of("s1", tmp_path)
-    edit(folder / "scenario.toml", "duration = 60.0", "duration = 9\nview_radius = 50\nseed = 7")
+    edit(folder / "scenario.toml", "duration = 60.0", "duration = 9\nseed = 7")
+    edit(folder / "scenario.toml", "view_radius = 150.0", "view_radius = 50")
     edit(folder / "scenario.toml", "position = 100.0", "position = 40\nlane = 1")
     for path in (folder, str(folder)):
         scenario = load(path)
