@@ -44,6 +44,7 @@ class GiveWay:
     """Wait at a line until those who go first on the link's foes leave a gap."""
 
     stop: float  # [m] arc of the waiting line, for the front bumper
+    clear: float  # [m] arc at which the junction is left
     link: Link
     yields_to: frozenset[tuple[str, int]]  # (junction, link index) of those who go first
 
@@ -265,7 +266,7 @@ def _give_way(link: Link, inside: int, begins: dict[str, float], enter: float) -
     else:
         line = enter
     foes = frozenset((link.junction, index) for index in link.yields_to)
-    return [GiveWay(max(line - 0.5, 0.0), link, foes)]
+    return [GiveWay(max(line - 0.5, 0.0), begins[link.to_lane], link, foes)]
 
 
 def _along(roads: Roads, here: Situation, lanes: tuple[str, ...], reach: float) -> Path:

@@ -165,20 +165,24 @@ def accelerate(
     for line in plan.give_ways:
         gap = line.stop - motion.arc
         braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
-        if -0.5 <= gap <= braking:
-            blocker = _conflict(lane, motion, step, line, first, length)
+        if gap <= braking and motion.arc < line.clear:
+            blocker = _blocker(lane, motion, step, line, first, length)
             speed = safe_speed(gap, 0.0, COMFORT)
             if blocker is not None and speed < wanted:
                 wanted, hindrance = speed, (blocker, "right-of-way")
-    wished = (wanted - motion.speed) / RELAXATION
-    wished = min(max(wished, -hardest), ACCELERATION)
-    low = motion.acceleration - JERK_DOWN * dt
-    high = max(motion.acceleration + JERK_UP * dt, min(0.0, motion.acceleration + JERK_DOWN * dt))
-    acceleration = min(max(wished, low), high)
+    acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
     if hindrance is None or wanted > free - HINDERED:
         return acceleration, None
     other, how = hindrance
     return acceleration, Hindrance(step, other.vehicle, how, other.speed(step))
+
+
+def _towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
+    """The acceleration [m/s2] that leads to a wanted speed [m/s], within all limits."""
+    wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
+    low = acceleration - JERK_DOWN * dt
+    high = max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt))
+    return min(max(wished, low), high)
 
 
 def safe_speed(gap: float, leader: float, braking: float) -> float:
@@ -187,7 +191,7 @@ def safe_speed(gap: float, leader: float, braking: float) -> float:
     return max(0.0, -reach + math.sqrt(reach**2 + leader**2 + 2.0 * braking * max(gap, 0.0)))
 
 
-def _conflict(
+def _blocker(
     lane: Lane,
     motion: Motion,
     step: int,
@@ -195,15 +199,27 @@ def _conflict(
     others: Sequence[Occupancy],
     length: float,
 ) -> Occupancy | None:
-    """The first vehicle with right of way that going now would get in the way of."""
-    first = [other for other in others if other.goes_first(line.yields_to)]
+    """Who must be waited for: going on freely would get in the way of its right to go first.
+
+    Beyond the line, that is asked only as long as one can stop before getting in the way.
+    """
+    first = [
+        other
+        for other in others
+        if other.goes_first(line.yields_to) and not other.leads(motion.arc, step)
+    ]
     if not first:
         return None
-    arc, speed = motion.arc, motion.speed
+    arc, speed, acceleration = motion.arc, motion.speed, motion.acceleration
     for ahead in range(step + 1, step + GAP_HORIZON):
-        speed = min(speed + ACCELERATION * DT, lane.speed(arc))
-        arc += speed * DT
+        wanted = lane.speed(arc + speed * RELAXATION)
+        acceleration = _towards(speed, acceleration, wanted, FOLLOWING, DT)
+        before, speed = speed, max(speed + acceleration * DT, 0.0)
+        arc += 0.5 * (before + speed) * DT
         for other in first:
-            if other.meets(arc - length - 1.0, arc + 1.0, ahead):
-                return other
+            begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
+            if begin is not None:
+                stopping = motion.speed**2 / (2.0 * FOLLOWING)
+                late = motion.arc > line.stop and begin - motion.arc < stopping
+                return None if late else other
     return None

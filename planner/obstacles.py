@@ -10,6 +10,7 @@ from planner.trajectory import Array, Path, relative
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
+ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
 
 
@@ -29,11 +30,14 @@ class Obstacle:
 class Occupancy:
     """The stretch of one path that one obstacle occupies at each step."""
 
-    def __init__(self, obstacle: Obstacle, low: Array, high: Array, along: Array) -> None:
+    def __init__(
+        self, obstacle: Obstacle, low: Array, high: Array, along: Array, aligned: Array
+    ) -> None:
         self.vehicle = obstacle.vehicle
         self._links = obstacle.links
         self._speed: list[float] = obstacle.speed.tolist()
         self._along: list[float] = along.tolist()
+        self._aligned: list[float] = aligned.tolist()  # cosine of the angle to the path
         self._low: list[float] = low.tolist()  # NaN where the path is free of it
         self._high: list[float] = high.tolist()
         self._entered = _entry(low)
@@ -77,10 +81,16 @@ class Occupancy:
         """Whether it drives along one of the links."""
         return not self._links.isdisjoint(links)
 
-    def meets(self, low: float, high: float, step: int) -> bool:
-        """Whether it occupies part of a stretch [m], within the safety time around a step."""
+    def leads(self, arc: float, step: int) -> bool:
+        """Whether it drives along the path already, ahead of a front at an arc [m]."""
         k = self._at(step)
-        return self._wide_low[k] < high and self._wide_high[k] > low
+        return self._low[k] > arc and self._aligned[k] > ALIGNED
+
+    def meets(self, low: float, high: float, step: int) -> float | None:
+        """Where [m] its own stretch begins, if within the safety time it shares one with ours."""
+        k = self._at(step)
+        begin = self._wide_low[k]
+        return begin if begin < high and self._wide_high[k] > low else None
 
 
 def occupancy(
@@ -96,7 +106,8 @@ def occupancy(
         last: step up to which it is needed.
     """
     total = len(obstacle.speed)
-    low, high, along = np.full(total, np.nan), np.full(total, np.nan), np.zeros(total)
+    low, high = np.full(total, np.nan), np.full(total, np.nan)
+    along, aligned = np.zeros(total), np.zeros(total)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     window = slice(start, stop)
     x = obstacle.position[window, 0] - 0.5 * obstacle.length * np.cos(obstacle.heading[window])
@@ -115,8 +126,8 @@ def occupancy(
     arc = path.arc[nearest] + centre
     low[window] = np.where(inside, arc - reach, np.nan)
     high[window] = np.where(inside, arc + reach, np.nan)
-    along[window] = obstacle.speed[window] * cos
-    return Occupancy(obstacle, low, high, along)
+    along[window], aligned[window] = obstacle.speed[window] * cos, cos
+    return Occupancy(obstacle, low, high, along, aligned)
 
 
 def _entry(low: Array) -> list[int]:

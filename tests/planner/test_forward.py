@@ -280,3 +280,26 @@ def test_giving_way_never_ends_in_a_collision(away: float, speed: float) -> None
     if hit is not None:  # only from behind: the other does not react
         ahead = other.position[hit] - position[hit]
         assert ahead[0] * math.cos(heading[hit]) + ahead[1] * math.sin(heading[hit]) < 0.0
+
+
+def test_who_has_gone_first_is_followed_and_not_waited_for() -> None:
+    slow = from_west("straight", -26.0, 3.0)  # on the exit already, and slower than the ego
+    driven = turn_right(slow)
+    assert {h.how for h in driven.hindrances} <= {"leader", "cut-in"}
+    assert entered(driven) == entered(turn_right())
+
+
+def test_a_late_conflict_stops_the_ego_inside_the_junction_if_it_still_can() -> None:
+    here = situation("s2", TURN[0], before_end("s2", TURN[0], 25.0), 2.0)
+    plan = plan_of("s2", here, "exit-right")
+    line = plan.give_ways[0].stop
+    other = from_west("straight", 30.0, 10.0)
+    for beyond in (0.3, 0.8, 2.0):
+        start = Motion(line + beyond, 1.0, 0.0)
+        driven = drive(plan, start, 0, (other,), SIZE, HORIZON)
+        assert min(motion.speed for motion in driven.motions[:15]) < 0.2
+        assert driven.finished
+        assert driven.hindrances[0].how == "right-of-way"
+    start = Motion(line + 8.0, 4.0, 0.0)  # in the way of the other: it had better clear it
+    driven = drive(plan, start, 0, (other,), SIZE, HORIZON)
+    assert min(motion.speed for motion in driven.motions) > 3.0
