@@ -190,7 +190,7 @@ def test_time_differences_are_rounded(delta: float, words: str) -> None:
 
 def test_a_difference_whose_range_includes_none_is_on_average() -> None:
     found = explanation(("continue",), effects=(effect("time", 2.0, spread=3.0),))
-    assert "on average about 2 seconds later" in realise(why(), found, SpeechContext()).text
+    assert "on average 2 seconds later" in realise(why(), found, SpeechContext()).text
 
 
 def test_negligible_differences_are_not_named() -> None:
@@ -398,7 +398,7 @@ def test_what_a_track_shows_and_the_goal_behind_it() -> None:
     found = msgspec.structs.replace(watching(shown), destination=goal)
     query = Query(type="what", actor="vehicle:1")
     assert realise(query, found, SpeechContext()).text == (
-        "Vehicle 1 changed to the right lane at 34 km/h, slowing down. I expected it to turn right."
+        "Vehicle 1 changed to the right lane. I expected it to turn right."
     )
     why_it = Query(type="why", actor="vehicle:1", factual=("change-right",))
     assert realise(why_it, found, SpeechContext()).text == (

@@ -96,12 +96,13 @@ def effect_points(effects: tuple[Effect, ...], limit: int) -> tuple[EffectPoint,
 
 
 def _effect(effect: Effect, opposed: bool) -> EffectPoint:
+    least = lexicon().negligible[effect.component]
     return EffectPoint(
         component=effect.component,
         size=Quantity(abs(effect.delta), "s"),
         more=effect.delta > 0,
         opposed=opposed,
-        unsure=effect.low < 0 < effect.high,
+        unsure=effect.low < -least and effect.high > least,
         narrow=effect.high - effect.low < NARROW,
         low=Quantity(effect.low, "s"),
         high=Quantity(effect.high, "s"),

@@ -40,7 +40,8 @@ class Refusal:
     asked: Doing | None = None  # what the question takes for granted, or asks about
     instead: Doing | None = None  # what happened in its place
     did: bool = False  # what was asked about is what was done
-    planned: bool = False  # what was asked about is yet to come
+    planned: bool = False  # what was asked about is yet to come ...
+    probability: float | None = None  # ... and how probably
     at: Quantity | None = None  # when that was
     clause: str | None = None  # the planner's reason
     known: tuple[Vehicle, ...] = ()
@@ -114,7 +115,7 @@ def _same(offered: Query, asked: Query) -> bool:
 def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
     """The facts of a refusal as values that can be put into words; unfit ones are left out."""
     facts = refusal.facts
-    actor = _number(facts, "vehicle") or vehicle_of(query.actor)
+    actor = _name(facts, "vehicle") or vehicle_of(query.actor)
     factual, foil = query.factual or (), query.counterfactual or ()
     claimed = foil if query.type in ("why_not", "what_if", "compare") else factual
     asked = _actions(facts, "asked") or claimed or factual or foil
@@ -130,6 +131,7 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
         instead=doing(actor or EGO, instead, query.tense),
         did=facts.get("did") is True,
         planned=facts.get("planned") is True,
+        probability=_number_of(facts, "probability"),
         at=_quantity(facts, "time", "clock"),
         clause=clause if clause is None or actor else rewrite(clause, "own"),
         known=_vehicles(facts),
@@ -147,7 +149,7 @@ def _text(facts: _Facts, key: str) -> str | None:
     return value if isinstance(value, str) and value.strip() else None
 
 
-def _number(facts: _Facts, key: str) -> int | None:
+def _name(facts: _Facts, key: str) -> int | None:
     """A vehicle's number, given as such or as its name."""
     value = facts.get(key)
     if isinstance(value, str):
@@ -164,14 +166,19 @@ def _actions(facts: _Facts, key: str) -> tuple[str, ...]:
 
 
 def _quantity(facts: _Facts, key: str, unit: Literal["clock", "count"]) -> Quantity | None:
+    value = _number_of(facts, key)
+    return None if value is None else Quantity(value, unit)
+
+
+def _number_of(facts: _Facts, key: str) -> float | None:
     value = facts.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         return None
-    return Quantity(float(value), unit)
+    return float(value)
 
 
 def _vehicles(facts: _Facts) -> tuple[Vehicle, ...]:
     """The vehicles that are known, without us, each once and in order."""
     value = facts.get("known")
-    numbers = {_number({"n": n}, "n") for n in value} if isinstance(value, tuple | list) else set()
+    numbers = {_name({"n": n}, "n") for n in value} if isinstance(value, tuple | list) else set()
     return tuple(Vehicle(n) for n in sorted(filter(None, numbers)))
