@@ -15,7 +15,7 @@ from xavi_dialogue.explain.explanation import Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.content import select
 from xavi_dialogue.language.context import SpeechContext, Utterance
-from xavi_dialogue.language.followups import follow_ups
+from xavi_dialogue.language.suggestions import follow_ups
 from xavi_dialogue.language.generator import Token, expand
 from xavi_dialogue.language.morphology import inflect
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join

@@ -8,7 +8,7 @@ from typing import Literal
 from xavi_dialogue.explain.explanation import NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext, Utterance
-from xavi_dialogue.language.followups import from_situation
+from xavi_dialogue.language.suggestions import from_situation
 from xavi_dialogue.language.generator import expand
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join

@@ -1,4 +1,4 @@
-"""Follow-ups: which questions an answer or the situation invites."""
+"""Suggestions: which questions an answer or the situation invites."""
 
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
