@@ -376,7 +376,7 @@ class Ride:
     events: tuple[Event, ...] = field(default=())
 
 
-def s1_ride(*, draws: int | None = 24, cut_in_collides: bool = False) -> Ride:
+def s1_ride(*, draws: int | None = 60, cut_in_collides: bool = False) -> Ride:
     """The ego goes on until 4 s, changes left until 7 s, and goes on."""
     world = s1_world(cut_in_collides=cut_in_collides)
     before = World(world.aims, world.plans, world.simulate, world.not_applicable, ("continue",))
@@ -386,12 +386,18 @@ def s1_ride(*, draws: int | None = 24, cut_in_collides: bool = False) -> Ride:
         world.simulate,
         (NotApplicable((), "change-left", "there is no lane to the left"),),
     )
-    cut_in = _cut_in(4.0)
     traces = (
-        trace_of(before, draws=draws, time=2.0, decision=2),
-        trace_of(world, draws=draws, time=4.0, decision=4, history={1: cut_in}),
-        trace_of(after, draws=draws, time=5.0, decision=5, under_way="change-left"),
-        trace_of(after, draws=draws, time=7.0, decision=7),
+        trace_of(before, draws=draws, time=2.0, decision=2, history={1: _cut_in(2.0)}),
+        trace_of(world, draws=draws, time=4.0, decision=4, history={1: _cut_in(4.0)}),
+        trace_of(
+            after,
+            draws=draws,
+            time=5.0,
+            history={1: _cut_in(5.0)},
+            decision=5,
+            under_way="change-left",
+        ),
+        trace_of(after, draws=draws, time=7.0, decision=7, history={1: _cut_in(7.0)}),
     )
     events = (
         Event("action-started", 0.0, "continue", 0),
@@ -404,7 +410,7 @@ def s1_ride(*, draws: int | None = 24, cut_in_collides: bool = False) -> Ride:
     return Ride(7.0, traces, events)
 
 
-def s2_ride(*, draws: int | None = 24) -> Ride:
+def s2_ride(*, draws: int | None = 60) -> Ride:
     """The ego turns right at 6 s, while vehicle 1 waits, and is through at 9 s."""
     world = s2_world()
     after = World(world.aims, (("continue",),), lambda plan, chosen: (End(time=3.0), 1))
@@ -423,13 +429,11 @@ def s2_ride(*, draws: int | None = 24) -> Ride:
 
 
 def _cut_in(time: float) -> Track:
-    """A vehicle that changes to the lane on its right within 3 s."""
-    count = 21
+    """Vehicle 1 until `time`: it changes to the lane on its right between 0.6 and 3.6 s."""
+    count = round(time * 5.0) + 1
     positions, headings = [], []
     for k in range(count):
         share = min(max((k - 3) / 15.0, 0.0), 1.0)
         positions.append((20.0 + 2.0 * k, 3.5 - 3.5 * (3.0 - 2.0 * share) * share**2))
         headings.append(-0.17 * 4.0 * share * (1.0 - share))
-    return Track(
-        round(time - 0.2 * (count - 1), 3), tuple(positions), tuple(headings), (10.0,) * count
-    )
+    return Track(0.0, tuple(positions), tuple(headings), (10.0,) * count)

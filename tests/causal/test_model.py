@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.trace import OUTCOMES, Sample
-from tests.traces import End, World, joints, prior, random_world, trace_of
+from tests.traces import Aim, End, Way, World, joints, prior, random_world, trace_of
 from xavi_dialogue.causal.model import CausalModel, InconsistentTrace
 
 worlds = st.integers(0, 10_000).map(lambda seed: random_world(random.Random(seed)))
@@ -79,17 +79,39 @@ def test_outcomes_exclude_one_another_in_any_record(world, draws):
             assert 0.0 < found.coverage <= 1.0 + 1e-9
 
 
-@given(worlds, st.integers(2, 10))
-def test_prior_weighs_and_not_the_number_of_draws(world, draws):
-    one = World(world.aims, (world.plans[0][:1],), lambda plan, c: (world.simulate(plan, c)[0], 1))
-    trace = trace_of(one, draws=draws)
-    found = CausalModel(trace).intervene(one.plans[0])
-    drawn = {tuple((s.vehicle, s.goal, s.trajectory) for s in r.samples): r for r in trace.rollouts}
-    mass = sum(prior(world.aims, joint) for joint in drawn)
-    expected = sum(prior(world.aims, joint) * r.reward for joint, r in drawn.items()) / mass
+def test_prior_weighs_and_not_the_number_of_draws():
+    # 0.9 and 0.1, but each drawn once: the record is complete.
+    aims = {1: (Aim("stop", 0.9, (Way(("stop",)),)), Aim("continue", 0.1, (Way(("continue",)),)))}
+
+    def simulate(plan, chosen):
+        return End(time=20.0 if chosen[1][0] == "stop" else 10.0), 1
+
+    found = CausalModel(trace_of(World(aims, (("continue",),), simulate))).intervene(("continue",))
     assert found is not None
-    assert found.value == pytest.approx(expected)
-    assert found.coverage == pytest.approx(mass)
+    assert found.expectation("time") == pytest.approx(19.0)
+
+
+def test_few_draws_from_many_samples_do_not_lean_towards_the_likely_ones():
+    # Vehicle 1 matters; vehicle 2 has forty ways that do not, so that samples are rarely repeated.
+    ways = tuple(Way(("continue",), 1.0 / 40.0) for _ in range(40))
+    aims = {
+        1: (Aim("stop", 0.75, (Way(("stop",)),)), Aim("continue", 0.25, (Way(("continue",)),))),
+        2: (Aim("continue", 1.0, ways),),
+    }
+
+    def simulate(plan, chosen):
+        return End(time=20.0 if chosen[1][0] == "stop" else 10.0), 1
+
+    world = World(aims, (("continue",),), simulate)
+    estimates, coverages = [], []
+    for seed in range(200):
+        found = CausalModel(trace_of(world, draws=16, seed=seed)).intervene(("continue",))
+        assert found is not None
+        estimates.append(found.expectation("time"))
+        coverages.append(found.coverage)
+    assert max(coverages) < 0.5
+    # 17.5 s; weighing each drawn sample by its prior alone would give more than 18.8 s.
+    assert sum(estimates) / len(estimates) == pytest.approx(17.5, abs=0.3)
 
 
 def test_samples_that_end_early_do_not_gain_weight():

@@ -24,60 +24,76 @@ class VehicleHoldUp:
         return self.share * self.duration
 
 
-def hold_ups(intervention: Intervention) -> dict[int, VehicleHoldUp]:
-    """The vehicles that hold the ego up under an intervention, by vehicle."""
-    met: dict[int, list[tuple[Result, float]]] = {}
+def hold_ups(
+    intervention: Intervention, window: tuple[float, float] | None = None
+) -> dict[int, VehicleHoldUp]:
+    """The vehicles that hold the ego up under an intervention, by vehicle.
+
+    Args:
+        intervention: what the ego does.
+        window: [s] simulation times between which a hold-up must lie at least in part.
+    """
+    met: dict[int, list[_Meeting]] = {}
     for result, weight in zip(intervention.results, intervention.weights, strict=True):
-        for vehicle in {stretch.vehicle: None for stretch in result.rollout.held_up}:
-            met.setdefault(vehicle, []).append((result, weight))
+        stretches: dict[int, list[HeldUp]] = {}
+        if weight <= 0.0:
+            continue
+        for stretch in result.rollout.held_up:
+            if window is None or (stretch.since <= window[1] and stretch.until >= window[0]):
+                stretches.setdefault(stretch.vehicle, []).append(stretch)
+        for vehicle, found in stretches.items():
+            met.setdefault(vehicle, []).append(_Meeting(result, weight, found))
     return {vehicle: _summary(vehicle, met[vehicle]) for vehicle in sorted(met)}
 
 
 def colliding_choice(intervention: Intervention, vehicle: int) -> Choice | None:
     """The goal and trajectory under which a vehicle is collided with most."""
     met = [
-        (result, weight)
+        _Meeting(result, weight, [])
         for result, weight in zip(intervention.results, intervention.weights, strict=True)
         if result.rollout.outcome == "collision" and result.rollout.collided_with == vehicle
     ]
     return _likeliest_choice(vehicle, met)
 
 
-def _summary(vehicle: int, met: list[tuple[Result, float]]) -> VehicleHoldUp:
-    share = sum(weight for _, weight in met)
+@dataclass(frozen=True, slots=True)
+class _Meeting:
+    """A result in which a vehicle is in the way."""
+
+    result: Result
+    weight: float
+    stretches: list[HeldUp]
+
+
+def _summary(vehicle: int, met: list[_Meeting]) -> VehicleHoldUp:
+    share = sum(one.weight for one in met)
     lasted: dict[HoldUp, float] = {}
-    total = 0.0
-    for result, weight in met:
-        for stretch in _stretches(result, vehicle):
-            length = weight * (stretch.until - stretch.since)
+    for one in met:
+        for stretch in one.stretches:
+            length = one.weight * (stretch.until - stretch.since)
             lasted[stretch.how] = lasted.get(stretch.how, 0.0) + length
-            total += length
     how = max(lasted, key=lambda kind: lasted[kind])
     longest = [
-        (max(stretches, key=lambda s: s.until - s.since), weight)
-        for result, weight in met
-        if (stretches := [s for s in _stretches(result, vehicle) if s.how == how])
+        (max(alike, key=lambda s: s.until - s.since), one.weight)
+        for one in met
+        if (alike := [stretch for stretch in one.stretches if stretch.how == how])
     ]
     mass = sum(weight for _, weight in longest)
     return VehicleHoldUp(
         vehicle=vehicle,
         how=how,
         share=min(share, 1.0),
-        duration=total / share,
+        duration=sum(lasted.values()) / share,
         speed_from=sum(weight * s.speed_from for s, weight in longest) / mass,
         speed_to=sum(weight * s.speed_to for s, weight in longest) / mass,
         choice=_likeliest_choice(vehicle, met) or (0, 0),
     )
 
 
-def _stretches(result: Result, vehicle: int) -> list[HeldUp]:
-    return [stretch for stretch in result.rollout.held_up if stretch.vehicle == vehicle]
-
-
-def _likeliest_choice(vehicle: int, met: list[tuple[Result, float]]) -> Choice | None:
+def _likeliest_choice(vehicle: int, met: list[_Meeting]) -> Choice | None:
     mass: dict[Choice, float] = {}
-    for result, weight in met:
-        for name, goal, way in result.joint:
+    for one in met:
+        for name, goal, way in one.result.joint:
             if name == vehicle:
-                mass[goal, way] = mass.get((goal, way), 0.0) + weight
+                mass[goal, way] = mass.get((goal, way), 0.0) + one.weight
     return max(mass, key=lambda choice: mass[choice], default=None)

@@ -14,7 +14,7 @@ Errors:
     └── InconsistentTrace   a rollout refers to what its trace does not predict
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
@@ -53,8 +53,10 @@ class Result:
 class Intervention:
     """p(R, O | do(plan)): the results under a plan with their weights.
 
-    A plan that leaves some samples unfinished at a depth passes their mass on to those samples
-    of which the next action is recorded; otherwise samples that end early would weigh too much.
+    A sample weighs its prior. The prior mass of samples that were not drawn is shared out among
+    those that were, in proportion to how easily samples like them go undrawn (Horvitz and
+    Thompson 1952): with the prior alone, an average over few draws from many samples would lean
+    towards the likely ones. At every depth of the plan the mass that goes on is shared out so.
     """
 
     plan: Actions
@@ -129,9 +131,8 @@ class CausalModel:
         self.given = dict(given or {})
         self._choices = _choices(trace, self.given)
         self._priors: dict[Joint, float] = {}
-        self._reached: dict[Actions, dict[Joint, None]] = {(): {}}
+        self._reached: dict[Actions, dict[Joint, int]] = {(): {}}  # node -> sample -> draws
         self._ended: dict[Actions, dict[Joint, Result]] = {}
-        self._beyond: dict[Actions, float] = {}
         for rollout in trace.rollouts:
             self._add(rollout)
 
@@ -183,7 +184,8 @@ class CausalModel:
             self._priors[joint] = self._probability(joint, rollout.index)
         plan: Actions = tuple(timed.action for timed in rollout.actions)
         for depth in range(len(plan) + 1):
-            self._reached.setdefault(plan[:depth], {})[joint] = None
+            reached = self._reached.setdefault(plan[:depth], {})
+            reached[joint] = reached.get(joint, 0) + 1
         ended = self._ended.setdefault(plan, {})
         known = ended.get(joint)
         if known is not None and known.rollout.reward != rollout.reward:
@@ -208,31 +210,42 @@ class CausalModel:
 
     def _follow(self, plan: Actions) -> Intervention | None:
         """The results under a complete plan; None where the record stops in the middle of it."""
-        if self._going_on(plan) > 0.0:
+        if self._reached[plan].keys() - self._ended[plan].keys():
             return None
-        factor, results, weights = 1.0, [], []
+        mass, results, weights = 1.0, [], []
         for depth in range(len(plan) + 1):
             node = plan[:depth]
-            for result in self._ended.get(node, {}).values():
+            ended = self._ended.get(node, {})
+            shares = self._shares(node, mass)
+            for joint, result in ended.items():
                 results.append(result)
-                weights.append(factor * self._priors[result.joint])
-            followed = self._mass(self._reached[plan[: depth + 1]])
-            factor *= self._going_on(node) / followed if followed > 0.0 else 0.0
+                weights.append(shares[joint])
+            mass = sum(share for joint, share in shares.items() if joint not in ended)
         total = sum(weights)
         if total <= 0.0:
             return None
-        coverage = self._mass(result.joint for result in results)
+        coverage = sum(self._priors[result.joint] for result in results)
         return Intervention(plan, tuple(results), tuple(w / total for w in weights), coverage)
 
-    def _going_on(self, node: Actions) -> float:
-        """Prior mass of the samples that are known to go on beyond a node."""
-        if node not in self._beyond:
-            ended = self._ended.get(node, {})
-            self._beyond[node] = self._mass(j for j in self._reached[node] if j not in ended)
-        return self._beyond[node]
+    def _shares(self, node: Actions, mass: float) -> dict[Joint, float]:
+        """The weights of the samples drawn at a node, of which the population has some mass."""
+        reached = self._reached[node]
+        draws = sum(reached.values())
+        priors = {joint: self._priors[joint] for joint in reached}
+        missing = max(mass - sum(priors.values()), 0.0)
+        if missing <= 1e-9:
+            return priors
+        odds = {joint: _undrawn(prior / mass, draws) for joint, prior in priors.items()}
+        total = sum(odds.values())
+        if total <= 0.0:
+            return priors
+        return {joint: prior + missing * odds[joint] / total for joint, prior in priors.items()}
 
-    def _mass(self, joints: Iterable[Joint]) -> float:
-        return sum(self._priors[joint] for joint in joints)
+
+def _undrawn(prior: float, draws: int) -> float:
+    """Prior mass of undrawn samples for which one drawn sample of a given prior stands."""
+    drawn = 1.0 - (1.0 - min(prior, 1.0)) ** draws
+    return prior * (1.0 - drawn) / drawn if drawn > 0.0 else 0.0
 
 
 def _choices(

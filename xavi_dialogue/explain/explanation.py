@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from planner.trace import Action, Component, HoldUp, Outcome
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.query import Query, QueryAction
 
 Reason = Literal[
     "not-understood",
@@ -87,7 +87,7 @@ class Activity(msgspec.Struct, frozen=True):
     """What a vehicle is, was or will be doing: the content of answers to "what"."""
 
     vehicle: int
-    actions: tuple[Action, ...]  # under way or planned, in order
+    actions: tuple[QueryAction, ...]  # done, under way or planned, in order
     probability: float | None  # of a prediction; None where it is known
     speed: float | None  # [m/s] at the time asked about
     trend: Literal["slowing", "steady", "speeding-up", "standing"] | None
@@ -113,9 +113,9 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     - Why the ego slowed down, stopped or gave way: no counterfactual, no effects; the causes are
       the vehicles that hold it up under its own plan, and `activity` is the ego's at that time.
     - What if another vehicle did otherwise: the counterfactual is what the ego would then plan,
-      outcome and effects are those of that plan then, against the plan as it was; the one cause
-      is that vehicle, with the prior probability of what was supposed, and `decision_changes`
-      tells whether the ego would begin otherwise.
+      outcome and effects are those of that plan then, against its plan as things were; the one
+      cause is that vehicle, with the prior probability of what was supposed, and
+      `decision_changes` tells whether the two plans differ.
     - Why or what about another vehicle: `activity` holds what it is expected to do, or what its
       track shows (probability None); `destination` the goal under which that is rational.
     - Where: `destination`. When: `moment`, or `arrival` for the way to the goal.

@@ -1,0 +1,57 @@
+"""The engine: a query and the record in; an explanation, a refusal or a request out."""
+
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+from xavi_dialogue.explain import ego, present, suppositions, vehicles
+from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
+from xavi_dialogue.explain.query import Query, QueryType
+from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.ride import Ride, Unanswered, decline
+
+Explainer: TypeAlias = Callable[[Query, Ride], Explanation]
+
+#: What is asked about the ego.
+EGO: Mapping[QueryType, Explainer] = {
+    "why": ego.why,
+    "why_not": ego.why_not,
+    "what_if": ego.what_if,
+    "compare": ego.why_not,
+    "what": present.what,
+    "where_goal": present.where,
+    "when": present.when,
+    "confidence": present.confidence,
+}
+#: What is asked about another vehicle.
+OTHERS: Mapping[QueryType, Explainer] = {
+    "why": vehicles.why,
+    "why_not": vehicles.why_not,
+    "what_if": suppositions.what_if,
+    "what": vehicles.what,
+    "where_goal": vehicles.where,
+    "confidence": vehicles.confidence,
+}
+
+
+def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:
+    """Answer a query from the record of the ride.
+
+    Pure: the same query and record give the same result. A NeedRollout is answered by asking
+    again with the plan made anew among `record.extra`.
+    """
+    try:
+        return _explainer(query)(query, Ride(record))
+    except Unanswered as unanswered:
+        return unanswered.result
+
+
+def _explainer(query: Query) -> Explainer:
+    if query.type == "out_of_scope" and query.reason == "not-an-action":
+        raise decline("not-an-action")
+    if query.type == "ambiguous":
+        raise decline("ambiguous")
+    table = EGO if query.actor in ("ego", "vehicle:0") else OTHERS
+    found = table.get(query.type)
+    if found is None:
+        raise decline("out-of-scope", what=query.reason or query.type)
+    return found

@@ -1,0 +1,86 @@
+"""Premises: which decision of the ego a question is about ("what" before "why")."""
+
+from dataclasses import dataclass
+
+from planner.trace import PlanTrace
+from xavi_dialogue.causal.model import Actions
+from xavi_dialogue.explain.actions import means, same, to_macros
+from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened, was_done
+from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.ride import Deed, Ride, chose, planned
+from xavi_dialogue.explain.slowing import decision_of
+
+
+@dataclass(frozen=True, slots=True)
+class Premise:
+    """The decision that a question is about."""
+
+    trace: PlanTrace
+    deed: Deed | None  # that it led to; None for what is planned, or only a way of driving
+    node: Actions = ()  # the actions of its plan that come before the one asked about
+
+
+def premise(ride: Ride, query: Query) -> Premise:
+    """The decision that led to what the question says happened, or takes to be planned.
+
+    Without such an action: about the past the last manoeuvre, else the latest decision.
+
+    Raises:
+        Unanswered: it did not happen, or is not in the record.
+    """
+    if not query.factual:
+        if query.tense == "past" and ride.manoeuvre is not None:
+            return Premise(ride.choice_of(ride.manoeuvre), ride.manoeuvre)
+        return Premise(ride.latest, None)
+    found = [_premise_of(ride, action, query) for action in query.factual]
+    return min(found, key=lambda one: (one.trace.sim_time, len(one.node)))
+
+
+def about_foil(ride: Ride, query: Query) -> Premise:
+    """The decision at which a foil was an alternative.
+
+    That is the one of the premise; where the question names no deed and the foil did not apply
+    there, the last one at which it did.
+
+    Raises:
+        Unanswered: as for the premise, or the foil is what was done.
+    """
+    found = premise(ride, query)
+    foil = query.counterfactual
+    if query.factual or not foil or query.tense != "past":
+        return found
+    done = was_done(ride, foil)
+    if done is not None:
+        raise done
+    if _open(ride, found.trace, foil):
+        return found
+    others = [t for t in ride.traces if _open(ride, t, foil) and not _begins(t, foil)]
+    return Premise(others[-1], None) if others else found
+
+
+def _premise_of(ride: Ride, action: QueryAction, query: Query) -> Premise:
+    deed = happened(ride, action)
+    if query.tense != "past" and (deed is None or deed.ended is not None):
+        trace = ride.latest
+        for depth, step in enumerate(planned(trace)):
+            if same(action, step) and trace.under_way is None:
+                return Premise(trace, None, planned(trace)[:depth])
+    if deed is None and action in DRIVING:
+        return Premise(decision_of(ride, (action,), query.tense), None)
+    if deed is None:
+        raise did_not_happen(ride, query.factual or ())
+    if query.tense == "future" and deed.ended is not None:
+        raise did_not_happen(ride, query.factual or ())
+    return Premise(ride.choice_of(deed), deed)
+
+
+def _open(ride: Ride, trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:
+    """Whether a foil could be begun at a decision."""
+    if trace.under_way is not None or not means(foil[0]):
+        return False
+    model = ride.model(trace)
+    return to_macros(model, foil[:1])[0] in model.options()
+
+
+def _begins(trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:
+    return any(chose(trace, action) for action in means(foil[0]))

@@ -1,0 +1,113 @@
+"""Questions about the ego's own plan and way: what, where, when, how sure."""
+
+from sim.scene import EGO
+from xavi_dialogue.explain.contrast import evidence, factual, outcome
+from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened
+from xavi_dialogue.explain.explanation import (
+    Activity,
+    Destination,
+    Evidence,
+    Explanation,
+    OutcomeEstimate,
+)
+from xavi_dialogue.explain.premise import premise
+from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.ride import Ride, decline, planned
+from xavi_dialogue.explain.slowing import explain_driving
+
+
+def what(query: Query, ride: Ride) -> Explanation:
+    """What the ego did, is doing, or will do."""
+    trace = ride.latest
+    driving = tuple(action for action in query.factual or () if action in DRIVING)
+    if driving and not ("stop" in driving and happened(ride, "stop")):
+        return explain_driving(ride, driving, query.tense)
+    if query.factual:
+        found = premise(ride, query)
+        actions: tuple[QueryAction, ...] = query.factual
+        moment = found.deed.started if found.deed else None
+        return _activity(ride, actions, moment)
+    deed = ride.manoeuvre
+    if query.tense == "past" and deed is not None:
+        return _activity(ride, (deed.action,), deed.started)
+    if ride.ended:
+        raise did_not_happen(ride, ())
+    under_way = ride.deeds[-1].action if ride.deeds and ride.deeds[-1].ended is None else None
+    plan = planned(trace)
+    if query.tense == "future" and under_way == plan[0] and len(plan) > 1:
+        plan = plan[1:]
+    return _activity(ride, plan, None)
+
+
+def where(query: Query, ride: Ride) -> Explanation:
+    """Where the ego is going."""
+    del query
+    goal = ride.latest.goal
+    return _of_plan(ride, destination=Destination(EGO, goal.edge))
+
+
+def when(query: Query, ride: Ride) -> Explanation:
+    """When something happened; about what is to come, when the ego arrives."""
+    if query.factual:
+        found = what(query, ride)
+        if found.moment is None:
+            raise decline("out-of-scope", what="when")
+        return found
+    if query.tense == "past" or ride.ended:
+        return what(query, ride)
+    return _of_plan(ride)
+
+
+def confidence(query: Query, ride: Ride) -> Explanation:
+    """How sure the ego is that its plan works out."""
+    trace = premise(ride, query).trace if query.factual else ride.latest
+    model = ride.model(trace)
+    plan = factual(model, trace)
+    done = OutcomeEstimate("done", min(plan.outcomes["done"], 1.0))
+    return Explanation(
+        factual=plan.plan,
+        counterfactual=(),
+        outcome=done,
+        effects=(),
+        causes=(),
+        evidence=evidence(model, ride, plan),
+        sim_time=trace.sim_time,
+        arrival=plan.expectation("time"),
+    )
+
+
+def _activity(ride: Ride, actions: tuple[QueryAction, ...], moment: float | None) -> Explanation:
+    """Actions that are known, with the ego's speed now."""
+    trace, motion = ride.latest, ride.motion(EGO)
+    speed = motion.speed[-1] if motion.speed else None
+    return Explanation(
+        factual=planned(trace),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=Evidence("tree", 0, 0, (trace.trace_id,)),
+        activity=Activity(EGO, actions, None, speed, motion.trend),
+        sim_time=ride.now,
+        moment=moment,
+    )
+
+
+def _of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
+    """The latest plan, and how long it probably still takes."""
+    trace = ride.latest
+    model = ride.model(trace)
+    plan = factual(model, trace)
+    expected = plan.expectation("time")
+    left = None if expected is None else max(trace.sim_time + expected - ride.now, 0.0)
+    return Explanation(
+        factual=plan.plan,
+        counterfactual=(),
+        outcome=outcome(plan),
+        effects=(),
+        causes=(),
+        evidence=evidence(model, ride, plan),
+        sim_time=ride.now,
+        arrival=left,
+        destination=destination,
+    )

@@ -1,0 +1,216 @@
+"""Ride: the record as it stood when the question was asked, indexed for explaining.
+
+Errors:
+
+    ExplainError
+    └── Unanswered   an answer other than an Explanation; carries it, and never leaves this room
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from planner.events import Event
+from planner.trace import Action, PlanTrace, VehiclePrediction
+from sim.scene import EGO
+from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
+from xavi_dialogue.explain.explanation import Facts, NeedRollout, NoExplanation, Reason
+from xavi_dialogue.explain.motion import Motion, join
+from xavi_dialogue.explain.record import Record
+
+#: Evidence is enough if the samples behind it cover this share of the prior mass ...
+MIN_COVERAGE = 0.5
+#: ... or are this many: what happens with probability 1/4 goes unseen in 11 draws with less than
+#: 5 % (0.75^11 = 0.042).
+MIN_DISTINCT = 11
+ROUNDING = 1e-6  # [s]
+
+
+class ExplainError(Exception):
+    """A query that has no explanation."""
+
+
+class Unanswered(ExplainError):
+    """Ends the work on a query with a refusal or a request for rollouts."""
+
+    def __init__(self, result: NoExplanation | NeedRollout) -> None:
+        super().__init__(result)
+        self.result = result
+
+
+def decline(
+    reason: Reason, /, **facts: str | float | int | bool | tuple[str, ...] | None
+) -> Unanswered:
+    """A refusal, to be raised."""
+    known: Facts = {name: value for name, value in facts.items() if value is not None}
+    return Unanswered(NoExplanation(reason=reason, facts=known))
+
+
+@dataclass(frozen=True, slots=True)
+class Deed:
+    """One macro action of the ego, from its events."""
+
+    action: Action
+    decision: int | None  # that chose it
+    started: float  # [s]
+    committed: float | None = None  # [s] when it could no longer be taken back
+    ended: float | None = None  # [s] None while it is under way
+
+    @property
+    def time(self) -> float:
+        """When it was decided for good [s]."""
+        return self.started if self.committed is None else self.committed
+
+    @property
+    def carried_out(self) -> bool:
+        """Whether it was done or is being done; a turn given up before it began was not."""
+        endless = self.action in ("continue", "stop")
+        return endless or self.committed is not None or self.ended is None
+
+
+class Ride:
+    """A record up to its `now`."""
+
+    def __init__(self, record: Record) -> None:
+        self.now = record.now
+        self.traces = tuple(t for t in record.traces if t.sim_time <= record.now + ROUNDING)
+        self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
+        self.ended = record.ended
+        self._extra = record.extra
+        self._models: dict[int, CausalModel] = {}
+
+    @property
+    def latest(self) -> PlanTrace:
+        """The last decision.
+
+        Raises:
+            Unanswered: there is none yet.
+        """
+        if not self.traces:
+            raise decline("trace-gap", time=self.now)
+        return self.traces[-1]
+
+    @cached_property
+    def deeds(self) -> tuple[Deed, ...]:
+        """What the ego carried out, oldest first."""
+        return tuple(deed for deed in _deeds(self.events) if deed.carried_out)
+
+    @property
+    def manoeuvre(self) -> Deed | None:
+        """The last deed that was more than driving on; else the last one."""
+        moves = tuple(deed for deed in self.deeds if deed.action != "continue")
+        return next(reversed(moves or self.deeds), None)
+
+    @cached_property
+    def vehicles(self) -> tuple[int, ...]:
+        """All other vehicles seen so far."""
+        return tuple(sorted({v for trace in self.traces for v in trace.scene} - {EGO}))
+
+    def model(self, trace: PlanTrace) -> CausalModel:
+        """The causal model of a trace."""
+        if id(trace) not in self._models:
+            self._models[id(trace)] = CausalModel(trace)
+        return self._models[id(trace)]
+
+    def motion(self, vehicle: int) -> Motion:
+        """The recorded motion of a vehicle, joined over all traces."""
+        return join([t.history[vehicle] for t in self.traces if vehicle in t.history])
+
+    def at(self, time: float, vehicle: int = EGO) -> PlanTrace | None:
+        """The last decision at or before a time [s] that knows a vehicle."""
+        known = [t for t in self.traces if t.sim_time <= time + ROUNDING and vehicle in t.scene]
+        return known[-1] if known else None
+
+    def choice_of(self, deed: Deed) -> PlanTrace:
+        """The last decision for a deed that still had alternatives.
+
+        Where that is not in the record, the first one that decided so again.
+
+        Raises:
+            Unanswered: it is not in the record.
+        """
+        chosen = [t for t in self.traces if chose(t, deed.action)]
+        named = [t for t in chosen if t.decision == deed.decision]
+        before = [t for t in chosen if t.sim_time <= deed.time + ROUNDING]
+        end = self.now if deed.ended is None else deed.ended
+        again = [t for t in chosen if deed.time <= t.sim_time <= end]
+        found = named[-1:] or before[-1:] or again[:1]
+        if not found:
+            raise decline("trace-gap", time=deed.time)
+        return found[0]
+
+    def variants(self, trace: PlanTrace, removed: int | None = None) -> tuple[PlanTrace, ...]:
+        """The plans made again from a decision, without a vehicle or with all of them."""
+        vehicles = set(trace.scene) - {removed}
+        return tuple(
+            extra
+            for extra in self._extra
+            if (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
+            and set(extra.scene) == vehicles
+        )
+
+    def evidence(self, trace: PlanTrace, actions: Actions) -> tuple[CausalModel, Intervention]:
+        """Enough rollouts of leading actions, from the search or from planning again.
+
+        Raises:
+            Unanswered: rollouts are needed; or they have been made and are still too few.
+        """
+        again = self.variants(trace)
+        found = [(m, m.intervene(actions)) for m in map(self.model, (trace, *again))]
+        for model, intervention in found:
+            if intervention is not None and enough(intervention):
+                return model, intervention
+        draws = [0 if i is None else i.draws for _, i in found]
+        if max(draws[1:], default=0) <= draws[0]:
+            raise Unanswered(NeedRollout(trace_id=trace.trace_id, actions=actions))
+        raise thin(actions, max((i for _, i in found if i is not None), key=lambda i: i.draws))
+
+
+def enough(intervention: Intervention) -> bool:
+    """Whether there is enough evidence to speak of an intervention."""
+    return intervention.coverage >= MIN_COVERAGE or len(intervention.results) >= MIN_DISTINCT
+
+
+def thin(actions: Sequence[str], found: Intervention | None) -> Unanswered:
+    """The refusal where there is not enough evidence."""
+    return decline(
+        "too-little-evidence",
+        asked=tuple(actions),
+        rollouts=found.draws if found else 0,
+        distinct=len(found.results) if found else 0,
+        needed=MIN_DISTINCT,
+        coverage=found.coverage if found else 0.0,
+    )
+
+
+def chose(trace: PlanTrace, action: Action) -> bool:
+    """Whether a decision chose an action and had alternatives to it."""
+    return trace.under_way is None and bool(trace.plan) and trace.plan[0].action == action
+
+
+def planned(trace: PlanTrace) -> Actions:
+    """The actions of a decision's plan."""
+    return tuple(step.action for step in trace.plan)
+
+
+def prediction(trace: PlanTrace, vehicle: int) -> VehiclePrediction | None:
+    """What a decision expects of a vehicle."""
+    return next((p for p in trace.predictions if p.vehicle == vehicle), None)
+
+
+def _deeds(events: Sequence[Event]) -> list[Deed]:
+    found: list[Deed] = []
+    for event in events:
+        last = found[-1] if found and found[-1].ended is None else None
+        if event.kind == "action-started" and event.action is not None:
+            if last is not None:
+                found[-1] = replace(last, ended=event.sim_time)
+            found.append(Deed(event.action, event.decision, event.sim_time))
+        elif last is None or event.action not in (None, last.action):
+            continue
+        elif event.kind == "action-committed":
+            chosen = last.decision if event.decision is None else event.decision
+            found[-1] = replace(last, committed=event.sim_time, decision=chosen)
+        elif event.kind in ("action-ended", "arrived", "collided", "ended"):
+            found[-1] = replace(last, ended=event.sim_time)
+    return found

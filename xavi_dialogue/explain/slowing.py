@@ -1,0 +1,107 @@
+"""Why the ego slowed down, stopped, gave way or sped up: who held it up under its own plan."""
+
+from planner.trace import PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.causal.model import CausalModel, Intervention
+from xavi_dialogue.explain.causes import expected_actions, holding_up
+from xavi_dialogue.explain.contrast import evidence, factual, outcome
+from xavi_dialogue.explain.deeds import did_not_happen
+from xavi_dialogue.explain.explanation import Activity, Cause, Explanation
+from xavi_dialogue.explain.motion import Motion, Sighting
+from xavi_dialogue.explain.query import QueryAction, Tense
+from xavi_dialogue.explain.ride import Ride, decline
+
+RECENT = 2.0  # [s] since when something is still going on
+LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
+
+
+def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> Explanation:
+    """Why the ego drove as described.
+
+    Raises:
+        Unanswered: it did not, or the record lacks the decision.
+    """
+    motion = ride.motion(EGO)
+    seen, waited_for = _find(ride, motion, asked, tense)
+    trace = _decision(ride, seen)
+    model = ride.model(trace)
+    plan = factual(model, trace)
+    # What freed the way is not recorded: only braking and waiting have causes among the others.
+    braked = seen.action != "speed-up"
+    window = (seen.start - LEEWAY, seen.end + LEEWAY)
+    causes = holding_up(model, plan, window) if braked else ()
+    return _explanation(ride, model, plan, _first(model, causes, waited_for), motion, seen)
+
+
+def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> PlanTrace:
+    """The decision under which the ego last drove as described.
+
+    Raises:
+        Unanswered: it did not, or the record lacks the decision.
+    """
+    return _decision(ride, _find(ride, ride.motion(EGO), asked, tense)[0])
+
+
+def _explanation(
+    ride: Ride,
+    model: CausalModel,
+    plan: Intervention,
+    causes: tuple[Cause, ...],
+    motion: Motion,
+    seen: Sighting,
+) -> Explanation:
+    then = motion.until(seen.end)
+    return Explanation(
+        factual=plan.plan,
+        counterfactual=(),
+        outcome=outcome(plan),
+        effects=(),
+        causes=causes,
+        evidence=evidence(model, ride, plan),
+        activity=Activity(EGO, plan.plan, None, then.speed[-1], then.trend),
+        sim_time=model.trace.sim_time,
+        arrival=plan.expectation("time"),
+        moment=seen.start,
+    )
+
+
+def _find(
+    ride: Ride, motion: Motion, asked: tuple[QueryAction, ...], tense: Tense
+) -> tuple[Sighting, int | None]:
+    """When it happened, and the vehicle given way to where it was that."""
+    waits = [event for event in ride.events if event.kind == "gave-way"]
+    found: list[tuple[Sighting, int | None]] = []
+    for action in asked:
+        if action == "give-way":
+            found += [(Sighting(action, e.sim_time, e.sim_time), e.vehicle) for e in waits[-1:]]
+        elif (sighting := motion.last(action)) is not None:
+            near = [e for e in waits if sighting.start - 3.0 <= e.sim_time <= sighting.end]
+            found.append((sighting, near[-1].vehicle if near else None))
+    if tense != "past":
+        found = [pair for pair in found if pair[0].end >= ride.now - RECENT]
+    if not found:
+        raise did_not_happen(ride, asked)
+    return max(found, key=lambda pair: pair[0].end)
+
+
+def _decision(ride: Ride, seen: Sighting) -> PlanTrace:
+    """The last decision before the middle of what was seen."""
+    trace = ride.at((seen.start + seen.end) / 2.0)
+    if trace is None:
+        raise decline("outside-record", vehicle=EGO, time=seen.start)
+    return trace
+
+
+def _first(
+    model: CausalModel, causes: tuple[Cause, ...], waited_for: int | None
+) -> tuple[Cause, ...]:
+    """The vehicle that was given way to goes first."""
+    if waited_for is None:
+        return causes
+    known = [cause for cause in causes if cause.vehicle == waited_for]
+    if not known and waited_for in model.vehicles:
+        choices = model.choices(waited_for)
+        likeliest = max(choices, key=lambda choice: choices[choice])
+        actions, probability = expected_actions(model, waited_for, likeliest)
+        known = [Cause(waited_for, actions, probability, None, None, None)]
+    return (*known, *(cause for cause in causes if cause.vehicle != waited_for))

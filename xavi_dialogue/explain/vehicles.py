@@ -1,0 +1,216 @@
+"""Questions about another vehicle: what it does, why, where it goes, how sure that is."""
+
+from msgspec.structs import replace
+
+from planner.trace import PlanTrace
+from xavi_dialogue.causal.model import CausalModel, Choice
+from xavi_dialogue.explain.causes import expected_actions
+from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
+from xavi_dialogue.explain.motion import foresees
+from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.ride import Ride, Unanswered, decline, prediction
+
+EXPECTED = 0.3  # probability from which something may be said to be expected
+RECENT = 2.0  # [s] since when something is still going on
+
+
+def vehicle_of(query: Query) -> int | None:
+    """The number of the vehicle asked about; None for the ego and for descriptions."""
+    kind, _, number = query.actor.partition(":")
+    return int(number) if kind == "vehicle" and number.isdecimal() else None
+
+
+def check_known(ride: Ride, vehicle: int) -> None:
+    """Decline a vehicle that was never seen.
+
+    Raises:
+        Unanswered: it is unknown.
+    """
+    if vehicle not in ride.vehicles:
+        known = tuple(str(name) for name in ride.vehicles)
+        raise decline("unknown-vehicle", vehicle=vehicle, known=known)
+
+
+def what(query: Query, ride: Ride) -> Explanation:
+    """What a vehicle did, does or will probably do."""
+    vehicle = actor_of(query, ride)
+    if query.factual:
+        return _why(query, ride, vehicle, query.factual)
+    motion = ride.motion(vehicle)
+    trace = _last_with(ride, vehicle)
+    seen = motion.sightings()
+    if query.tense != "past" or not seen:
+        return _expectation(ride, trace, vehicle, ())
+    actions = tuple(s.action for s in seen)
+    activity = Activity(vehicle, actions[-2:], None, motion.speed[-1], motion.trend)
+    return Explanation(
+        factual=(),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=_recorded(trace),
+        activity=activity,
+        sim_time=trace.sim_time,
+        moment=seen[-1].start,
+    )
+
+
+def why(query: Query, ride: Ride) -> Explanation:
+    """Why a vehicle does what it does: the goal under which that is rational."""
+    return _why(query, ride, actor_of(query, ride), query.factual or ())
+
+
+def why_not(query: Query, ride: Ride) -> Explanation:
+    """Why a vehicle did not do something: what it is expected to do instead."""
+    vehicle = actor_of(query, ride)
+    asked = query.counterfactual or ()
+    if asked and query.tense == "past":
+        check_contrary(ride, vehicle, asked, done=False)
+    return _expectation(ride, _last_with(ride, vehicle), vehicle, ())
+
+
+def where(query: Query, ride: Ride) -> Explanation:
+    """Where a vehicle is probably going."""
+    vehicle = actor_of(query, ride)
+    return _expectation(ride, _last_with(ride, vehicle), vehicle, ())
+
+
+def confidence(query: Query, ride: Ride) -> Explanation:
+    """How probable it is that a vehicle does something."""
+    vehicle = actor_of(query, ride)
+    trace = _last_with(ride, vehicle)
+    asked = query.factual or query.counterfactual or ()
+    if not asked:
+        return _expectation(ride, trace, vehicle, ())
+    model = ride.model(trace)
+    chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
+    found = _expectation(ride, trace, vehicle, asked)
+    motion = ride.motion(vehicle).until(trace.sim_time)
+    activity = Activity(vehicle, asked, min(chance, 1.0), motion.speed[-1], motion.trend)
+    return replace(found, activity=activity)
+
+
+def matching(model: CausalModel, vehicle: int, asked: tuple[QueryAction, ...]) -> frozenset[Choice]:
+    """The goals and trajectories of a vehicle in which all actions asked about occur."""
+    known = prediction(model.trace, vehicle)
+    if known is None:
+        return frozenset()
+    return frozenset(
+        (g, t)
+        for g, t in model.choices(vehicle)
+        if all(foresees(known.goals[g].trajectories[t], action) for action in asked)
+    )
+
+
+def check_contrary(ride: Ride, vehicle: int, asked: tuple[QueryAction, ...], *, done: bool) -> None:
+    """Decline a question about the contrary of what a vehicle did, if that is what it did.
+
+    Args:
+        ride: the record.
+        vehicle: whose actions they are.
+        asked: the actions.
+        done: whether the question takes for granted that they were done.
+
+    Raises:
+        Unanswered: they were not done, or were.
+    """
+    seen = [ride.motion(vehicle).last(action) for action in asked]
+    trace = _last_with(ride, vehicle)
+    if done and not any(seen):
+        raise _not_seen(ride, trace, vehicle, asked, 0.0)
+    if not done and all(seen):
+        time = min(s.start for s in seen if s)
+        raise decline(
+            "did-not-happen", vehicle=vehicle, asked=asked, did=True, happened=asked, time=time
+        )
+
+
+def actor_of(query: Query, ride: Ride) -> int:
+    """The vehicle asked about.
+
+    Raises:
+        Unanswered: it is only described, or unknown.
+    """
+    vehicle = vehicle_of(query)
+    if vehicle is None:
+        raise decline("ambiguous", vehicle=query.actor)
+    check_known(ride, vehicle)
+    return vehicle
+
+
+def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Explanation:
+    motion = ride.motion(vehicle)
+    found = [motion.last(action) for action in asked]
+    if query.tense == "present":
+        found = [s if s and s.end >= ride.now - RECENT else None for s in found]
+    if asked and query.tense != "future" and all(found):
+        last = max((s for s in found if s), key=lambda s: s.end)
+        known = [t for t in ride.traces if t.sim_time >= last.end and prediction(t, vehicle)]
+        trace = known[0] if known else _last_with(ride, vehicle)
+        return _expectation(ride, trace, vehicle, asked, last.start)
+    trace = _last_with(ride, vehicle)
+    model = ride.model(trace)
+    chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
+    if asked and (query.tense == "past" or chance < EXPECTED):
+        raise _not_seen(ride, trace, vehicle, asked, chance)
+    return _expectation(ride, trace, vehicle, asked)
+
+
+def _not_seen(
+    ride: Ride, trace: PlanTrace, vehicle: int, asked: tuple[QueryAction, ...], chance: float
+) -> Unanswered:
+    seen = ride.motion(vehicle).sightings()
+    return decline(
+        "did-not-happen",
+        vehicle=vehicle,
+        asked=asked,
+        did=False,
+        planned=True if chance >= EXPECTED else None,
+        probability=chance,
+        happened=(seen[-1].action,) if seen else None,
+        time=seen[-1].start if seen else trace.sim_time,
+    )
+
+
+def _last_with(ride: Ride, vehicle: int) -> PlanTrace:
+    """The last decision that expects something of a vehicle."""
+    for trace in reversed(ride.traces):
+        if prediction(trace, vehicle) is not None:
+            return trace
+    raise decline("outside-record", vehicle=vehicle, time=ride.now)
+
+
+def _expectation(
+    ride: Ride,
+    trace: PlanTrace,
+    vehicle: int,
+    asked: tuple[QueryAction, ...],
+    moment: float | None = None,
+) -> Explanation:
+    """What a decision expects of a vehicle: its likeliest actions, and the likeliest goal."""
+    model = ride.model(trace)
+    known = prediction(trace, vehicle)
+    assert known is not None
+    goal = max(range(len(known.goals)), key=lambda g: known.goals[g].probability)
+    ways = {c: p for c, p in model.choices(vehicle).items() if c[0] == goal}
+    actions, probability = expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
+    aim = known.goals[goal]
+    motion = ride.motion(vehicle).until(trace.sim_time)
+    return Explanation(
+        factual=tuple(a for a in actions if a in asked),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=_recorded(trace),
+        activity=Activity(vehicle, actions, probability, motion.speed[-1], motion.trend),
+        sim_time=trace.sim_time,
+        destination=Destination(vehicle, aim.edge, aim.kind, aim.place, aim.probability),
+        moment=moment,
+    )
+
+
+def _recorded(trace: PlanTrace) -> Evidence:
+    """The evidence of what rests on the record and its predictions alone."""
+    return Evidence("tree", 0, 0, (trace.trace_id,))
