@@ -109,6 +109,8 @@ def test_what_is_not_an_action() -> None:
     query = Query(type="out_of_scope", reason="not-an-action")
     assert refuse(query, "not-an-action", verb="fly") == "I cannot fly, so I never considered it."
     assert "never considered it" in refuse(query, "not-an-action")
+    said = Query(type="out_of_scope", reason="not-an-action", event="do a U-turn")
+    assert refuse(said, "not-an-action") == "I cannot do a U-turn, so I never considered it."
 
 
 def test_unfit_facts_are_left_out() -> None:
@@ -152,7 +154,7 @@ def test_clarification_numbers_its_choices() -> None:
     assert said.text.endswith("(1) Why? (2) Where?")
 
 
-@pytest.mark.parametrize("cause", ["empty", "too-long", "gibberish", "anything"])
+@pytest.mark.parametrize("cause", ["empty", "too-long", "gibberish", "no-question", "anything"])
 def test_what_is_not_understood_gets_a_suggestion(cause: str) -> None:
     said = realise_not_understood(cause, AFTER_A_CHANGE)
     assert said.suggestions

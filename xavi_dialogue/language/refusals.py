@@ -124,7 +124,7 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
     return Refusal(
         reason=refusal.reason,
         topic=_text(facts, "what") or query.reason,
-        verb=_text(facts, "verb"),
+        verb=_text(facts, "verb") or query.event,
         past=query.tense == "past",
         who=Vehicle(actor) if actor else None,
         asked=doing(actor or EGO, asked, query.tense),
