@@ -145,7 +145,7 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
 def _same_kind(
     asked: tuple[QueryAction, ...], before: tuple[QueryAction, ...]
 ) -> tuple[QueryAction, ...]:
-    """"Why not right?" after a lane change speaks of a lane change."""
+    """ "Why not right?" after a lane change speaks of a lane change."""
     if len(asked) == 1 and len(before) == 1 and before[0].startswith("change-"):
         side = asked[0].rpartition("-")[2]
         if asked[0] in ("exit-left", "exit-right"):

@@ -15,6 +15,7 @@ from functools import cache
 from importlib import resources
 
 import lark
+from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from xavi_dialogue.language.tokens import Token
@@ -43,7 +44,7 @@ STARTS = (
     "correction",
 )
 _BUILTIN_TERMINALS = frozenset({"BREAK", "NUMBER", "UNKNOWN"})
-_NOT_IN_GRAMMAR = frozenset({"NOISE"})
+_END = "$END"
 
 Tree = lark.Tree[lark.Token]
 
@@ -72,7 +73,7 @@ def grammar() -> lark.Lark:
     """
     files = resources.files("grammars")
     source = [files.joinpath(name).read_text(encoding="utf-8") for name in GRAMMAR_FILES]
-    terminals = {phrase.sense.terminal for phrase in vocabulary().phrases} - _NOT_IN_GRAMMAR
+    terminals = vocabulary().terminals
     declared = "%declare " + " ".join(sorted(terminals | _BUILTIN_TERMINALS))
     try:
         return lark.Lark(
@@ -102,33 +103,66 @@ def settings() -> dict[str, dict[str, float]]:
 
 
 def parses(rule: str, tokens: tuple[Token, ...], begin: int, ends: frozenset[int]) -> list[Parse]:
-    """All parses by one start rule that begin at `begin` and end at one of `ends`."""
+    """All parses by one start rule that begin at `begin` and end at one of `ends`, or at the end."""
     skip = settings()["skip"]
     limit = settings()["limits"]["cost"]
     parser = grammar().parse_interactive(start=rule)
+    fed: list[lark.Token] = []
     found: list[Parse] = []
     cost = 0.0
     for position in range(begin, len(tokens)):
-        if position in ends and position > begin:
-            found.extend(_finished(rule, parser, begin, position, cost))
+        if position in ends and fed and _fits(parser, _END):
+            found.append(Parse(rule, _tree(rule, fed), begin, position, cost))
         token = tokens[position]
-        price = skip.get(token.terminal)
-        before = parser.copy(deepcopy_values=False) if price is not None else None
-        try:
-            parser.feed_token(lark.Token(token.terminal, token.value, start_pos=position))
-        except lark.exceptions.UnexpectedToken:
-            if price is None or before is None or cost + price > limit:
-                return found
-            parser, cost = before, cost + price
-    found.extend(_finished(rule, parser, begin, len(tokens), cost))
+        shifted = _shift(parser, token, position)
+        if shifted is not None:
+            fed.append(shifted)
+            continue
+        price = min((skip[t] for t in token.terminals if t in skip), default=None)
+        if price is None or cost + price > limit:
+            return found
+        cost += price
+    if fed and _fits(parser, _END):
+        found.append(Parse(rule, _tree(rule, fed), begin, len(tokens), cost))
     return found
 
 
-def _finished(
-    rule: str, parser: InteractiveParser, begin: int, end: int, cost: float
-) -> Iterator[Parse]:
-    try:
-        tree = parser.copy(deepcopy_values=False).feed_eof()
-    except lark.exceptions.UnexpectedToken:
-        return
-    yield Parse(rule, tree, begin, end, cost)
+def _shift(parser: InteractiveParser, token: Token, position: int) -> lark.Token | None:
+    """Shift the token in the first sense that fits; None, and no change, where none does."""
+    for terminal, value in token.senses:
+        if _fits(parser, terminal):
+            shifted = lark.Token(terminal, value, start_pos=position)
+            parser.feed_token(shifted)
+            return shifted
+    return None
+
+
+def _fits(parser: InteractiveParser, terminal: str) -> bool:
+    """Whether the terminal can be shifted, after the reductions it calls for.
+
+    `InteractiveParser.accepts` says the same of every terminal at once, at a hundred times the
+    price; feeding a copy is no way either, as copies share the lists that lark appends to.
+    """
+    state = parser.parser_state
+    end = state.parse_conf.end_state
+    table = state.parse_conf.states
+    stack = list(state.state_stack)
+    while not (terminal == _END and stack[-1] == end):
+        entry = table[stack[-1]].get(terminal)
+        if entry is None:
+            return False
+        action, argument = entry
+        if action is Shift:
+            return True
+        if argument.expansion:
+            del stack[-len(argument.expansion) :]
+        stack.append(table[stack[-1]][argument.origin.name][1])
+    return True
+
+
+def _tree(rule: str, fed: list[lark.Token]) -> Tree:
+    """The tree of tokens that are known to be a sentence of the rule."""
+    parser = grammar().parse_interactive(start=rule)
+    for token in fed:
+        parser.feed_token(token)
+    return parser.feed_eof()

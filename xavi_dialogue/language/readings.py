@@ -183,7 +183,7 @@ def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
 
 
 def _compare(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
-    """"Would X be better than Y" asks about X; "was X better than Y" starts from X."""
+    """ "Would X be better than Y" asks about X; "was X better than Y" starts from X."""
     one, other = first(tree, "first"), first(tree, "second")
     at_junction = any(t.terminal == "JUNCTION" for t in whole)
     aux = {v for t in whole if t.terminal in AUXILIARIES for v in t.value.split()}
@@ -253,7 +253,7 @@ def _bare_side(tree: Tree) -> str | None:
 
 
 def _no_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """"How could you have stopped": only with "could" it asks how to get there."""
+    """ "How could you have stopped": only with "could" it asks how to get there."""
     return first(tree, "wanted") is not None and whole[1].terminal != "COULD"
 
 
@@ -271,7 +271,7 @@ def _not_imperative(tree: Tree, whole: tuple[Token, ...]) -> bool:
 
 
 def _already_happened(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """"Could you turn left?" is no question about an event."""
+    """ "Could you turn left?" is no question about an event."""
     own = first(tree, "actions") is not None
     asks = whole[0].text.split()[0] in ("can", "could", "would", "should", "might")
     return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")

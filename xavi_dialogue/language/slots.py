@@ -14,7 +14,12 @@ STRAIGHT_ON = "straight-on"  # "carry straight on": continue, unless a junction 
 
 #: Which word says most about a vehicle, most first.
 _DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
-_PRONOUNS = {"EGO": "ego", "IT": "vehicle:it", "BOTH": "vehicle:both", "WHICHCAR": "vehicle:unknown"}
+_PRONOUNS = {
+    "EGO": "ego",
+    "IT": "vehicle:it",
+    "BOTH": "vehicle:both",
+    "WHICHCAR": "vehicle:unknown",
+}
 _SIDES = {"LEFT": "left", "RIGHT": "right", "ONLEFT": "left", "ONRIGHT": "right"}
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from xavi_dialogue.language.normalise import BREAK, Normalised
+from xavi_dialogue.language.phrases import Sense
 from xavi_dialogue.language.spelling import correct
 from xavi_dialogue.language.wordlists import english, vocabulary
 
@@ -22,6 +23,17 @@ class Token:
     value: str  # what it means within its terminal: "left", "3", "off-topic"
     text: str  # the words
     form: str = ""  # of a verb: base, third, past, part, gerund
+    others: tuple[Sense, ...] = ()  # what else it may stand for, likeliest first
+
+    @property
+    def senses(self) -> tuple[tuple[str, str], ...]:
+        """(terminal, value) of all that it may stand for, likeliest first."""
+        return ((self.terminal, self.value), *self.others)
+
+    @property
+    def terminals(self) -> tuple[str, ...]:
+        """The terminals among `senses`."""
+        return (self.terminal, *(sense.terminal for sense in self.others))
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +48,7 @@ class Tokenised:
         """What is parsed: no noise, neighbouring auxiliaries as one token."""
         heard: list[Token] = []
         for token in self.tokens:
-            if token.terminal == "NOISE":
+            if token.terminal == "NOISE" and not token.others:
                 continue
             last = heard[-1] if heard else None
             if last and last.terminal in AUXILIARIES and token.terminal in AUXILIARIES:
@@ -115,15 +127,15 @@ def _tokens(words: tuple[str, ...]) -> tuple[Token, ...]:
     position = 0
     while position < len(words):
         word = words[position]
-        found = known.longest(words, position)
+        found = known.phrases.longest(words, position)
         if word == BREAK:
             tokens.append(Token("BREAK", word, word))
             position += 1
         elif found is not None:
-            end, sense = found
+            end, (sense, *others) = found
             text = words[position:end]
             form = next((known.forms[w] for w in text if w in known.forms), "")
-            tokens.append(Token(sense.terminal, sense.value, " ".join(text), form))
+            tokens.append(Token(*sense, " ".join(text), form, tuple(others)))
             position = end
         else:
             kind = "NUMBER" if word.isdigit() else "UNKNOWN"

@@ -2,18 +2,16 @@
 
 Errors::
 
-    WordListError   a word list breaks the notation; names file, terminal and phrase
-
-A phrase is a sequence of slots: `a|b` one of several words, `x?` may be left out, `~x` in any
-inflection. All phrases together form one automaton, which `longest` walks: the longest phrase
-wins, and among equally long ones the one that the files name first.
+    WordListError   a phrase breaks the notation; names file, terminal and phrase
 """
 
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from typing import Any, NamedTuple
+from typing import Any
+
+from xavi_dialogue.language.phrases import Automaton, PhraseError, Sense
 
 WORD_FILES = (
     "words_actions.toml",
@@ -22,27 +20,23 @@ WORD_FILES = (
     "words_talk.toml",
     "words_english.toml",
 )
+PLAIN_RANK = 9  # of words that are English and no more
 _TABLES = frozenset({"contractions", "numbers", "homophones", "irregular", "languages"})
 _VOWELS = frozenset("aeiou")
 
 
 class WordListError(ValueError):
-    """A word list breaks the notation."""
+    """A phrase of a word list breaks the notation."""
 
 
-class Sense(NamedTuple):
-    """What a phrase stands for: a terminal of the grammar, with a value."""
+@dataclass(frozen=True, slots=True)
+class Vocabulary:
+    """Every phrase the parser knows, and every word in them."""
 
-    terminal: str
-    value: str
-
-
-class _Phrase(NamedTuple):
-    slots: tuple[tuple[frozenset[str], bool], ...]  # (words, may be left out)
-    sense: Sense
-
-
-_State = tuple[tuple[int, int], ...]  # (phrase, slot) pairs, in order
+    phrases: Automaton
+    terminals: frozenset[str]
+    words: dict[str, int]  # word -> rank of the first list that has it, actions first
+    forms: dict[str, str]  # word -> form of a verb: base, third, past, part, gerund
 
 
 @cache
@@ -54,6 +48,39 @@ def load(name: str) -> dict[str, Any]:
 def english() -> dict[str, Any]:
     """Contractions, numbers, irregular verbs and the like."""
     return load("words_english.toml")
+
+
+@cache
+def vocabulary() -> Vocabulary:
+    """The vocabulary of all word lists.
+
+    Raises:
+        WordListError: a phrase that breaks the notation.
+    """
+    forms: dict[str, str] = {}
+    words: dict[str, int] = {}
+    terminals: set[str] = set()
+
+    def expand(verb: str) -> frozenset[str]:
+        for form, name in inflections(verb).items():
+            forms.setdefault(form, name)
+        return frozenset(inflections(verb))
+
+    automaton = Automaton(expand)
+    for rank, file in enumerate(WORD_FILES):
+        for terminal, values in load(file).items():
+            if terminal in _TABLES:
+                continue
+            terminals.add(terminal)
+            for value, phrases in values.items():
+                for phrase in phrases:
+                    try:
+                        found = automaton.add(phrase, Sense(terminal, value))
+                    except PhraseError as error:
+                        raise WordListError(f"{file} [{terminal}] {phrase!r}: {error}") from error
+                    for word in sorted(found):
+                        words.setdefault(word, PLAIN_RANK if terminal == "PLAIN" else rank)
+    return Vocabulary(automaton, frozenset(terminals), words, forms)
 
 
 @cache
@@ -102,118 +129,3 @@ def _with_ed(verb: str) -> str:
     if verb.endswith("y") and verb[-2] not in _VOWELS:
         return verb[:-1] + "ied"
     return verb + (verb[-1] if _doubles(verb) else "") + "ed"
-
-
-@dataclass(slots=True)
-class Vocabulary:
-    """Every phrase the parser knows, and every word in them."""
-
-    phrases: tuple[_Phrase, ...]
-    words: dict[str, int]  # word -> rank: domain words before plain English
-    forms: dict[str, str]  # word -> form of a verb
-    _first: dict[str, _State]
-    _next: dict[tuple[_State, str], _State] = field(default_factory=dict)
-    _ends: dict[_State, Sense | None] = field(default_factory=dict)
-
-    def longest(self, words: tuple[str, ...], start: int) -> tuple[int, Sense] | None:
-        """The longest phrase that begins at `start`: (where it ends, its sense)."""
-        state = self._first.get(words[start])
-        best = None
-        position = start + 1
-        while state:
-            sense = self._end(state)
-            if sense is not None:
-                best = (position, sense)
-            if position == len(words):
-                break
-            state = self._step(state, words[position])
-            position += 1
-        return best
-
-    def _step(self, state: _State, word: str) -> _State:
-        key = (state, word)
-        if key not in self._next:
-            self._next[key] = self._advance(state, word)
-        return self._next[key]
-
-    def _advance(self, state: _State, word: str) -> _State:
-        reached: set[tuple[int, int]] = set()
-        for index, slot in state:
-            slots = self.phrases[index].slots
-            for position in range(slot, len(slots)):
-                accepted, optional = slots[position]
-                if word in accepted:
-                    reached.add((index, position + 1))
-                if not optional:
-                    break
-        return tuple(sorted(reached))
-
-    def _end(self, state: _State) -> Sense | None:
-        if state not in self._ends:
-            done = (
-                self.phrases[index].sense
-                for index, slot in state
-                if all(optional for _, optional in self.phrases[index].slots[slot:])
-            )
-            self._ends[state] = next(done, None)
-        return self._ends[state]
-
-
-@cache
-def vocabulary() -> Vocabulary:
-    """The vocabulary of all word lists.
-
-    Raises:
-        WordListError: a phrase that breaks the notation.
-    """
-    phrases: list[_Phrase] = []
-    forms: dict[str, str] = {}
-    words: dict[str, int] = {}
-    for rank, name in enumerate(WORD_FILES):
-        for terminal, values in load(name).items():
-            if terminal in _TABLES:
-                continue
-            for value, templates in values.items():
-                for template in templates:
-                    slots = _slots(template, f"{name} [{terminal}] {template!r}", forms)
-                    phrases.append(_Phrase(slots, Sense(terminal, value)))
-                    plain = 9 if terminal == "PLAIN" else rank
-                    for accepted, _ in slots:
-                        for word in sorted(accepted):
-                            words.setdefault(word, plain)
-    return Vocabulary(tuple(phrases), words, forms, _first_states(phrases))
-
-
-def _first_states(phrases: list[_Phrase]) -> dict[str, _State]:
-    """For each word, the phrases that may begin with it."""
-    first: dict[str, list[tuple[int, int]]] = {}
-    for index, phrase in enumerate(phrases):
-        for slot, (accepted, optional) in enumerate(phrase.slots):
-            for word in accepted:
-                first.setdefault(word, []).append((index, slot + 1))
-            if not optional:
-                break
-    return {word: tuple(sorted(set(state))) for word, state in first.items()}
-
-
-def _slots(
-    template: str, where: str, forms: dict[str, str]
-) -> tuple[tuple[frozenset[str], bool], ...]:
-    """Read one phrase; the verb forms met on the way are added to `forms`."""
-    slots = []
-    for slot in template.split():
-        optional = slot.endswith("?")
-        accepted: set[str] = set()
-        for word in slot.removesuffix("?").split("|"):
-            if not word or "?" in word:
-                raise WordListError(f"{where}: slot {slot!r} has an empty word or a stray '?'")
-            if word.startswith("~"):
-                for form, name in inflections(word[1:]).items():
-                    forms.setdefault(form, name)
-                    accepted.add(form)
-            else:
-                accepted.add(word)
-        slots.append((frozenset(accepted), optional))
-    if all(optional for _, optional in slots):
-        raise WordListError(f"{where}: at least one slot must not be optional")
-    return tuple(slots)
