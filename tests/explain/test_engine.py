@@ -118,7 +118,7 @@ def test_what_before_why():
         "asked": ("exit-left",),
         "did": False,
         "happened": ("change-left",),
-        "time": 4.0,
+        "time": 4.1,
     }
 
 

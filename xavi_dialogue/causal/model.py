@@ -124,8 +124,7 @@ class CausalModel:
                 is renormalised over them.
 
         Raises:
-            InconsistentTrace: a rollout samples a goal or trajectory that is not predicted, or
-                two rollouts of the same actions and samples differ.
+            InconsistentTrace: a rollout samples a goal or trajectory that is not predicted.
         """
         self.trace = trace
         self.given = dict(given or {})
@@ -188,11 +187,6 @@ class CausalModel:
             reached[joint] = reached.get(joint, 0) + 1
         ended = self._ended.setdefault(plan, {})
         known = ended.get(joint)
-        if known is not None and known.rollout.reward != rollout.reward:
-            raise InconsistentTrace(
-                f"rollouts {known.rollout.index} and {rollout.index} take the same actions under "
-                "the same samples but end differently: record a rollout for each sample"
-            )
         draws = 1 if known is None else known.draws + 1
         ended[joint] = Result(joint, rollout if known is None else known.rollout, draws)
 

@@ -2,7 +2,8 @@
 
 Which they are depends on the foil. A vehicle is named because the foil collides with it more
 often than the fact; because it holds the ego up longer under the foil, where that is slower; or
-because what it does decides between the two. A vehicle of which none of this holds is not named.
+because what it does decides between the two. A vehicle of which none of this holds is not named,
+and none is where the foil leaves the way to the goal: that is nobody's doing.
 """
 
 from collections.abc import Iterable, Sequence
@@ -27,6 +28,8 @@ def contrastive_causes(
     effects: Sequence[ComponentEffect],
 ) -> tuple[Cause, ...]:
     """The causes of a contrast, most important first, each vehicle once."""
+    if foil.likeliest == "dead":
+        return ()
     measured = {found.vehicle: found for found in influence(model, (fact, foil))}
     struck = _struck(model, foil, fact, measured)
     slowed = _slowed(model, foil, fact, effects, measured)

@@ -25,7 +25,7 @@ def did_not_happen(ride: Ride, asked: tuple[QueryAction, ...]) -> Unanswered:
     facts: Facts = {"vehicle": EGO, "asked": asked, "did": False}
     deed = ride.manoeuvre
     if deed is not None:
-        facts |= {"happened": (deed.action,), "time": deed.started}
+        facts |= {"happened": (deed.action,), "time": deed.time}
     if ride.traces and any(same(action, step) for action in asked for step in planned(ride.latest)):
         facts["planned"] = True
     return Unanswered(NoExplanation(reason="did-not-happen", facts=facts))
@@ -37,5 +37,5 @@ def was_done(ride: Ride, foil: tuple[QueryAction, ...]) -> Unanswered | None:
     if deed is None:
         return None
     facts: Facts = {"vehicle": EGO, "asked": foil, "did": True}
-    facts |= {"happened": (deed.action,), "time": deed.started}
+    facts |= {"happened": (deed.action,), "time": deed.time}
     return Unanswered(NoExplanation(reason="did-not-happen", facts=facts))

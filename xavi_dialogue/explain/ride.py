@@ -161,9 +161,10 @@ class Ride:
             if intervention is not None and enough(intervention):
                 return model, intervention
         draws = [0 if i is None else i.draws for _, i in found]
-        if max(draws[1:], default=0) <= draws[0]:
+        if max(draws[1:], default=0) <= draws[0] and trace.under_way is None:
             raise Unanswered(NeedRollout(trace_id=trace.trace_id, actions=actions))
-        raise thin(actions, max((i for _, i in found if i is not None), key=lambda i: i.draws))
+        known = [intervention for _, intervention in found if intervention is not None]
+        raise thin(actions, max(known, key=lambda i: i.draws, default=None))
 
 
 def enough(intervention: Intervention) -> bool:

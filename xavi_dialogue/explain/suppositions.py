@@ -4,9 +4,19 @@ from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.contrast import evidence, factual, outcome, to_effects
-from xavi_dialogue.explain.explanation import Cause, Explanation, NeedRollout
+from xavi_dialogue.explain.explanation import Cause, Evidence, Explanation, NeedRollout
 from xavi_dialogue.explain.query import Query, Tense
-from xavi_dialogue.explain.ride import Ride, Unanswered, decline, enough, planned, prediction, thin
+from xavi_dialogue.explain.ride import (
+    ROUNDING,
+    Deed,
+    Ride,
+    Unanswered,
+    decline,
+    enough,
+    planned,
+    prediction,
+    thin,
+)
 from xavi_dialogue.explain.vehicles import actor_of, check_contrary, matching
 
 
@@ -20,16 +30,21 @@ def what_if(query: Query, ride: Ride) -> Explanation:
     past = query.tense == "past"
     if past:
         check_contrary(ride, vehicle, asked, done=query.negated)
+    deed = ride.manoeuvre if past else None
+    refused: Unanswered = thin(asked, None)
     for trace in reversed(ride.traces):
-        if trace.sim_time > moment + 1e-6 or prediction(trace, vehicle) is None:
+        if trace.sim_time > moment + ROUNDING or prediction(trace, vehicle) is None:
             continue
         model = ride.model(trace)
         every = frozenset(model.choices(vehicle))
         matched = matching(model, vehicle, asked)
         if matched and (matched != every or not query.negated):
             supposed = every - matched if query.negated else matched
-            return _supposing(ride, model, vehicle, supposed, every - supposed if past else every)
-    raise thin(asked, None)
+            try:
+                return _supposing(ride, model, vehicle, supposed, deed)
+            except Unanswered as unanswered:
+                refused = unanswered
+    raise refused
 
 
 def _moment(ride: Ride, tense: Tense) -> float:
@@ -45,43 +60,69 @@ def _supposing(
     model: CausalModel,
     vehicle: int,
     supposed: frozenset[Choice],
-    actual: frozenset[Choice],
+    deed: Deed | None,
 ) -> Explanation:
-    """The ego's best plan given what is supposed of a vehicle, against that given the actual.
+    """The ego's best plan given what is supposed of a vehicle, against what it did or plans.
 
-    Where the vehicle did the contrary, or nothing is known of it, the latter is the plan itself.
+    About the past, the latter is its best plan given that the vehicle does the contrary. Where
+    the deed was decided on later than in this trace, it is the plan of that later decision, and
+    there are no effects, since the two are not seen from the same moment.
+
+    Raises:
+        Unanswered: there is too little evidence.
     """
     trace, chances = model.trace, model.choices(vehicle)
-    every = frozenset(chances)
+    contrary = frozenset(chances) - supposed
     there = _best(CausalModel(trace, {vehicle: supposed}), planned(trace))
-    here = factual(model, trace)
-    if actual not in (every, frozenset()):
-        here = _best(CausalModel(trace, {vehicle: actual}), planned(trace))
+    later = deed is not None and planned(trace)[0] != deed.action
+    if deed is not None and later:
+        chosen = ride.choice_of(deed)
+        here = factual(ride.model(chosen), chosen)
+    elif deed is not None and contrary:
+        here = _best(CausalModel(trace, {vehicle: contrary}), planned(trace))
+    else:
+        here = factual(model, trace)
     likeliest = max(supposed, key=lambda choice: (chances[choice], choice))
     actions, _ = expected_actions(model, vehicle, likeliest)
     chance = min(sum(chances[choice] for choice in supposed), 1.0)
     cause = Cause(vehicle, actions, chance, None, None, there.plan != here.plan)
-    return _compared(ride, model, here, there, cause)
+    return Explanation(
+        factual=here.plan,
+        counterfactual=there.plan,
+        outcome=outcome(there),
+        effects=() if later else to_effects(effects(there, here)),
+        causes=(cause,),
+        evidence=evidence(model, ride, there, *(() if later else (here,))),
+        sim_time=trace.sim_time,
+        arrival=here.expectation("time"),
+    )
 
 
 def _best(given: CausalModel, plan: Actions) -> Intervention:
     """The best of the plans that there is evidence for; of equals, what is planned anyway.
 
     Raises:
-        Unanswered: there is too little evidence.
+        Unanswered: there is too little evidence, if only of what is planned.
     """
     found = [i for a in given.options() if (i := given.intervene((a,))) is not None]
     options = [intervention for intervention in found if enough(intervention)]
-    if not options:
-        raise thin(plan[:1], max(found, key=lambda i: i.draws, default=None))
+    if not any(intervention.plan[:1] == plan[:1] for intervention in options):
+        raise thin(plan[:1], given.intervene(plan[:1]))
     return max(options, key=lambda i: (i.value, i.plan[:1] == plan[:1]))
 
 
 def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
     """The plan made again without a vehicle, against the plan as it was."""
-    trace = ride.at(moment, vehicle)
-    if trace is None or prediction(trace, vehicle) is None:
+    known = [
+        trace
+        for trace in ride.traces
+        if trace.sim_time <= moment + ROUNDING
+        and trace.under_way is None
+        and prediction(trace, vehicle) is not None
+    ]
+    if not known:
         raise decline("outside-record", vehicle=vehicle, time=moment)
+    trace = known[-1]
     again = ride.variants(trace, removed=vehicle)
     if not again:
         raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=vehicle))
@@ -90,19 +131,19 @@ def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
     choices = model.choices(vehicle)
     actions, chance = expected_actions(model, vehicle, max(choices, key=lambda c: choices[c]))
     cause = Cause(vehicle, actions, chance, None, None, there.plan != here.plan)
-    return _compared(ride, other, here, there, cause)
-
-
-def _compared(
-    ride: Ride, model: CausalModel, here: Intervention, there: Intervention, cause: Cause
-) -> Explanation:
+    there_rests, here_rests = evidence(other, ride, there), evidence(model, ride, here)
     return Explanation(
         factual=here.plan,
         counterfactual=there.plan,
         outcome=outcome(there),
         effects=to_effects(effects(there, here)),
         causes=(cause,),
-        evidence=evidence(model, ride, here, there),
-        sim_time=model.trace.sim_time,
+        evidence=Evidence(
+            "rollouts",
+            there_rests.rollouts + here_rests.rollouts,
+            there_rests.distinct_samples + here_rests.distinct_samples,
+            (*here_rests.traces, *there_rests.traces),
+        ),
+        sim_time=trace.sim_time,
         arrival=here.expectation("time"),
     )
