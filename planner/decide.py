@@ -23,6 +23,7 @@ from planner.trace import (
     Track,
     TrajectoryPrediction,
     VehiclePrediction,
+    fitted,
 )
 from planner.tracks import Observed
 from planner.trajectory import Array, Roads
@@ -117,7 +118,7 @@ def record(
 ) -> PlanTrace:
     """The trace of a decision."""
     under_way = moment.root.under_way
-    return PlanTrace(
+    trace = PlanTrace(
         schema=SCHEMA,
         vehicle=frame.vehicle,
         sim_time=moment.time,
@@ -137,6 +138,7 @@ def record(
         not_applicable=search.not_applicable(),
         plan=search.plan(),
     )
+    return fitted(trace)
 
 
 def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:

@@ -144,7 +144,8 @@ class Rollout(msgspec.Struct, frozen=True):
     """One simulation of the search.
 
     Many rollouts drive the very same line at the same speeds. It is recorded once: the later
-    ones carry `same_as`, the index of the first, and null path and speed.
+    ones carry `same_as`, the index of the first, and null path and speed. In a crowd, where a
+    trace would grow beyond MAX_BYTES, further rollouts go without their line (see `fitted`).
     """
 
     index: int
@@ -212,6 +213,44 @@ def encode(trace: PlanTrace) -> bytes:
     Vehicles stand in increasing order of their names, as in `Scene`.
     """
     return msgspec.json.encode(trace)
+
+
+def fitted(trace: PlanTrace) -> PlanTrace:
+    """The trace without the lines that it has no room for.
+
+    Where it is larger than MAX_BYTES, the rollouts recorded last lose path and speed, then all
+    predictions do; what rollouts came to, and why, always stays.
+    """
+    excess = len(encode(trace)) - MAX_BYTES
+    if excess <= 0:
+        return trace
+    rollouts = list(trace.rollouts)
+    for k in range(len(rollouts) - 1, -1, -1):
+        if excess > 0 and rollouts[k].path is not None:
+            bare = msgspec.structs.replace(rollouts[k], path=None, speed=None)
+            excess -= len(msgspec.json.encode(rollouts[k])) - len(msgspec.json.encode(bare))
+            rollouts[k] = bare
+    trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
+    if excess <= 0:
+        return trace
+    return msgspec.structs.replace(
+        trace, predictions=tuple(_without_lines(known) for known in trace.predictions)
+    )
+
+
+def _without_lines(known: VehiclePrediction) -> VehiclePrediction:
+    return VehiclePrediction(
+        known.vehicle,
+        tuple(
+            msgspec.structs.replace(
+                goal,
+                trajectories=tuple(
+                    msgspec.structs.replace(way, path=(), speed=()) for way in goal.trajectories
+                ),
+            )
+            for goal in known.goals
+        ),
+    )
 
 
 def decode(data: bytes) -> PlanTrace:

@@ -10,7 +10,7 @@ import msgspec
 
 from planner.decide import Frame, Moment, decide, predict, prepare, rollouts, root_at
 from planner.search import Root
-from planner.trace import Action, PlanTrace
+from planner.trace import Action, PlanTrace, fitted
 from planner.trajectory import Roads
 from sim.network import Network
 from sim.scene import EGO
@@ -49,11 +49,12 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
     known = {(entry.node, entry.action) for entry in trace.not_applicable}
     fresh = (e for e in search.not_applicable() if (e.node, e.action) not in known)
     more = rollouts(search.rollouts, moment.time, offset=len(trace.rollouts))
-    return msgspec.structs.replace(
+    larger = msgspec.structs.replace(
         trace,
         rollouts=trace.rollouts + more,
         not_applicable=trace.not_applicable + tuple(fresh),
     )
+    return fitted(larger)
 
 
 def _restore(trace: PlanTrace, network: Network, request: WhatIf) -> tuple[Frame, Moment]:

@@ -73,26 +73,22 @@ class Seen:
     track: Track
 
 
-def driven(
-    name: str,
-    lanes: tuple[str, ...],
-    until: float,
-    speeds: Sequence[float],
-    *,
-    time: float = 0.0,
-    signals: tuple[str, ...] = (),
-) -> Seen:
-    """A vehicle that drove along lanes at the given speeds [m/s] at 5 Hz.
+def changing(name: str, lane: str, onto: str, at: float, length: float = 25.0) -> Path:
+    """The line of a lane change that begins at an offset [m] on a lane."""
+    here = situation(name, lane, at)
+    lanes = (onto, *row(name, onto, "straight")[1:])
+    return roads(name).path(lanes, here.position, here.heading, length, 200.0)
+
+
+def driven(line: Path, until: float, speeds: Sequence[float], time: float = 0.0) -> Seen:
+    """A vehicle that drove along a line at the given speeds [m/s] at 5 Hz.
 
     Args:
-        name: of the scenario.
-        lanes: connected lanes.
-        until: [m] arc from the start of the first lane at which it is now.
+        line: a path, or the centreline of connected lanes.
+        until: [m] arc at which it is now.
         speeds: of all samples, now last.
         time: [s] now.
-        signals: lights shown now.
     """
-    line = roads(name).line(lanes)
     steps = [0.5 * (a + b) * DT for a, b in itertools.pairwise(speeds)]
     arcs = until - np.concatenate((np.cumsum(steps[::-1])[::-1], [0.0]))
     poses = [line.pose(float(arc)) for arc in arcs]
@@ -102,15 +98,13 @@ def driven(
         tuple(round(heading, 4) for _, heading in poses),
         tuple(speeds),
     )
-    state = VehicleState(
-        track.position[-1], track.heading[-1], speeds[-1], 0.0, LENGTH, WIDTH, signals=signals
-    )
+    state = VehicleState(track.position[-1], track.heading[-1], speeds[-1], 0.0, LENGTH, WIDTH)
     return Seen(state, track)
 
 
 def still(name: str, lanes: tuple[str, ...], at: float, speed: float = 8.0) -> Seen:
     """A vehicle that comes into view now."""
-    return driven(name, lanes, at, (speed,))
+    return driven(roads(name).line(lanes), at, (speed,))
 
 
 def frame(name: str, settings: Settings = QUICK, seed: int = 0) -> Frame:

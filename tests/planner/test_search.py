@@ -1,0 +1,135 @@
+import random
+
+import pytest
+
+from planner.decide import predict, prepare
+from planner.forward import Motion
+from planner.search import Root, Search, Simulated
+from planner.trace import ACTIONS, Settings
+from planner.tree import Tree
+from tests.planner.worlds import (
+    before_end,
+    changing,
+    driven,
+    frame,
+    moment,
+    plan_of,
+    situation,
+    still,
+)
+
+FEW = Settings(rollouts=25, min_rollouts=6)
+EGO = still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0))
+LINE = changing("s1", "main_in_1", "main_in_0", before_end("s1", "main_in_1", 85.0))
+CUTS_IN = driven(LINE, 12.0, [8.0] * 8)
+
+
+def search(settings: Settings = FEW, seed: int = 0) -> Search:
+    """A search for an ego of s1 before which vehicle 1 changes to its lane."""
+    scene = moment("s1", {0: EGO, 1: CUTS_IN})
+    constant = frame("s1", settings, seed)
+    return prepare(constant, scene, predict(constant, scene))
+
+
+def ran(settings: Settings = FEW, seed: int = 0) -> Search:
+    one = search(settings, seed)
+    one.run()
+    return one
+
+
+def visits(tree: Tree) -> dict[str, int]:
+    return {action: edge.visits for action, edge in tree.edges[()].items()}
+
+
+def test_the_budget_is_spent_and_topped_up_where_it_was_thin() -> None:
+    one = ran()
+    drawn = [rollout for rollout in one.rollouts if not rollout.forced]
+    assert len(drawn) == FEW.rollouts
+    assert sum(visits(one.tree).values()) == FEW.rollouts
+    for action in ACTIONS:
+        first = sum(1 for rollout in one.rollouts if rollout.actions[0] == action)
+        refused = ((), action) in one.refusals
+        assert refused == (first == 0)
+        assert refused or first >= FEW.min_rollouts
+
+
+def test_forced_rollouts_teach_the_search_nothing() -> None:
+    thin = ran(Settings(rollouts=25, min_rollouts=0))
+    full = ran(Settings(rollouts=25, min_rollouts=25))
+    assert thin.tree == full.tree
+    assert thin.plan() == full.plan()
+    assert len(full.rollouts) > len(thin.rollouts)
+    before = full.tree.copy()
+    full.force(("stop",), 5)
+    assert full.tree == before
+
+
+def test_forcing_begins_with_the_given_actions() -> None:
+    one = search()
+    one.force(("change-left", "continue"), 4)
+    assert [rollout.actions[:2] for rollout in one.rollouts] == [("change-left", "continue")] * 4
+    assert all(rollout.forced for rollout in one.rollouts)
+
+
+def test_forcing_what_does_not_apply_adds_no_rollout_but_a_reason() -> None:
+    one = search()
+    one.force(("change-right",), 3)
+    assert one.rollouts == []
+    assert one.refusals[(), "change-right"] == "there is no lane to the right"
+
+
+def test_the_same_samples_and_actions_give_the_same_drive() -> None:
+    one = ran()
+    drives: dict[object, Simulated] = {}
+    for rollout in one.rollouts:
+        before = drives.setdefault((rollout.samples, rollout.actions), rollout)
+        assert (before.reward, before.outcome) == (rollout.reward, rollout.outcome)
+    assert len(drives) < len(one.rollouts)
+
+
+def test_samples_follow_the_beliefs() -> None:
+    one = search(Settings(rollouts=300, min_rollouts=0))
+    one.run()
+    beliefs = one.beliefs[1]
+    for index, belief in enumerate(beliefs):
+        drawn = sum(1 for rollout in one.rollouts if rollout.samples[0].goal == index)
+        assert drawn / 300 == pytest.approx(belief.probability, abs=0.08)
+
+
+def test_nobody_stops_twice_in_a_row() -> None:
+    one = search(Settings(rollouts=0, min_rollouts=0))
+    one.force(("stop", "stop"), 2)
+    assert one.rollouts == []
+    assert one.refusals[("stop",), "stop"] == "it is standing already"
+
+
+def test_depth_ends_a_rollout() -> None:
+    one = ran(Settings(rollouts=20, min_rollouts=0, depth=1))
+    assert {len(rollout.legs) for rollout in one.rollouts} == {1}
+    ended = {rollout.actions[0]: rollout.outcome for rollout in one.rollouts}
+    assert ended["stop"] == ended["change-left"] == "termination"
+    assert ended["continue"] == "done"
+    assert ended["exit-right"] == "dead"
+
+
+def test_only_the_action_under_way_applies_at_the_root() -> None:
+    here = situation("s1", "main_in_0", before_end("s1", "main_in_0", 95.0))
+    plan = plan_of("s1", here, "change-left", aim=True)
+    one = search()
+    one.root = Root(here, (plan, Motion(8.0, here.speed, 0.0)))
+    one.run()
+    assert {rollout.actions[0] for rollout in one.rollouts} == {"change-left"}
+    assert one.refusals[(), "continue"] == "another manoeuvre is under way"
+    start = plan.path.pose(8.0)[0]
+    for rollout in one.rollouts:
+        assert rollout.legs[0].position[0] == pytest.approx(start)
+
+
+def test_randomness_comes_from_seed_and_decision_alone() -> None:
+    assert ran(seed=3).plan() == ran(seed=3).plan()
+    samples = {seed: [rollout.samples for rollout in ran(seed=seed).rollouts] for seed in (1, 2)}
+    assert samples[1] != samples[2]
+    random.seed(1)
+    one = [rollout.actions for rollout in ran(seed=1).rollouts]
+    random.seed(2)
+    assert one == [rollout.actions for rollout in ran(seed=1).rollouts]
