@@ -4,11 +4,11 @@ from typing import get_args
 
 import pytest
 
-from xavi_dialogue.explain.explanation import NoExplanation, Reason
+from xavi_dialogue.explain.explanation import Facts, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext
 from xavi_dialogue.language.questions import question
-from xavi_dialogue.language.realise import realise
+from xavi_dialogue.language.realise import MAX_WORDS, realise
 from xavi_dialogue.language.refusals import (
     realise_clarification,
     realise_help,
@@ -42,6 +42,16 @@ def test_every_reason_has_its_own_words() -> None:
     query = Query(type="why", factual=("change-left",))
     texts = {reason: refuse(query, reason) for reason in get_args(Reason)}
     assert len(set(texts.values())) == len(texts)
+
+
+def test_refusals_are_short_too() -> None:
+    query = Query(type="why", actor="vehicle:1", factual=("change-left", "exit-left"))
+    facts: Facts = {"time": 71.5, "distinct": 3, "needed": 11, "reason": "there is no such road"}
+    for reason in get_args(Reason):
+        refusal = NoExplanation(reason=reason, facts=facts)
+        text = realise(query, refusal, AFTER_A_CHANGE).text
+        assert len(text.split()) <= MAX_WORDS
+        assert text[-1] in ".?"
 
 
 def test_every_kind_of_out_of_scope_has_its_own_words() -> None:
