@@ -165,3 +165,20 @@ def test_inconsistent_traces_are_named():
     stray = msgspec.structs.replace(first, samples=(Sample(1, 9, 0),))
     with pytest.raises(InconsistentTrace, match="rollout 0 samples goal 9"):
         CausalModel(msgspec.structs.replace(trace, rollouts=(stray,)))
+
+
+def test_a_continuation_seen_once_in_a_lucky_sample_is_not_the_best():
+    aims = {1: (Aim("stop", 0.8, (Way(("stop",)),)), Aim("continue", 0.2, (Way(("continue",)),)))}
+
+    def simulate(plan, chosen):
+        lucky = chosen[1][0] == "continue"
+        return End(time=5.0 if lucky else 30.0 if plan[1] == "exit-right" else 10.0), 2
+
+    world = World(aims, (("continue", "continue"), ("continue", "exit-right")), simulate)
+    full = trace_of(world)
+    rare = [r for r in full.rollouts if r.actions[1].action == "continue" or r.samples[0].goal == 1]
+    model = CausalModel(msgspec.structs.replace(full, rollouts=tuple(rare)))
+    found = model.intervene(("continue",))
+    assert found is not None
+    assert found.plan == ("continue", "continue")
+    assert found.expectation("time") == pytest.approx(9.0)
