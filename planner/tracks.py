@@ -13,6 +13,7 @@ from planner.trajectory import Array, Path, Roads
 from sim.network import Location
 from sim.scene import Point
 
+TREND = 5  # steps over which a change of speed is read off a track
 AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
 
@@ -68,7 +69,7 @@ def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
 
 
 def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstacle:
-    """The vehicle as an obstacle that goes on along its lane at its present speed.
+    """The vehicle as an obstacle that goes on along its lane as it does now.
 
     Args:
         roads: the road network.
@@ -77,8 +78,8 @@ def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstac
         past: whether step 0 is the first sample of the track (else it is now).
     """
     now = observed.situation(roads, -1, 0.0)
-    speed = float(observed.speed[-1])
-    arcs: Array = speed * DT * np.arange(1, steps + 1, dtype=np.float64)
+    speed = _speeds(roads, observed, now, steps)
+    arcs: Array = np.cumsum(speed) * DT
     if now:
         here = now[0]
         row = onward(roads, (here.location.lane,), here.location.offset + arcs[-1] + 5.0)
@@ -98,7 +99,7 @@ def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstac
         observed.width,
         np.vstack((observed.position[first:], position)),
         np.concatenate((observed.heading[first:], heading)),
-        np.concatenate((observed.speed[first:], np.full(steps, speed))),
+        np.concatenate((observed.speed[first:], speed)),
         links,
     )
 
@@ -158,6 +159,18 @@ def sample_path(path: Path, arcs: Array) -> tuple[Array, Array]:
     x = np.interp(arcs, path.arc, path.points[:, 0])
     y = np.interp(arcs, path.arc, path.points[:, 1])
     return np.column_stack((x, y)), np.interp(arcs, path.arc, path.heading)
+
+
+def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps: int) -> Array:
+    """The speeds [m/s] at which a vehicle coasts: speeding up goes on, to the speed limit."""
+    speed = float(observed.speed[-1])
+    back = min(TREND, observed.elapsed)
+    gained = (speed - float(observed.speed[-1 - back])) / (back * DT) if back else 0.0
+    limit = roads.network.lanes[now[0].location.lane].speed_limit if now else speed
+    if gained < 0.3 or speed >= limit:
+        return np.full(steps, speed)
+    growing: Array = speed + gained * DT * np.arange(1, steps + 1, dtype=np.float64)
+    return np.minimum(growing, limit)
 
 
 def _links_seen(roads: Roads, observed: Observed) -> frozenset[tuple[str, int]]:
