@@ -28,6 +28,7 @@ DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 CarState = Literal["driving", "paused", "ended"]
 
 KIB = 1024
+MAX_TEXT = 4096  # characters of a question
 
 
 class MessageError(ValueError):
@@ -104,7 +105,7 @@ class AskRequest(Message, frozen=True, kw_only=True):
     schema: Literal["xavi.ask/1"] = "xavi.ask/1"
     request: Name
     session: Name
-    text: Annotated[str, msgspec.Meta(max_length=4096)]
+    text: Annotated[str, msgspec.Meta(max_length=MAX_TEXT)]
     style: Style = "passenger"
     deadline_ms: DeadlineMs = 10_000.0
     at: Seconds | None = None  # simulation time; null: now

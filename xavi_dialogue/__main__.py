@@ -1,0 +1,253 @@
+"""The command line `xavi`.
+
+Commands import what they need when they run, so that the small ones start fast.
+"""
+
+import contextlib
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
+
+import typer
+
+from xavi_dialogue.app.exit_status import ExitStatus
+
+if TYPE_CHECKING:
+    from sim.scenario import Scenario
+
+app = typer.Typer(
+    name="xavi",
+    help="A car that drives in SUMO and answers its passengers.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a folder.")]
+Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Control = Annotated[bool, typer.Option("--control", hidden=True)]
+SpeedFactor = Annotated[
+    float | None,
+    typer.Option(min=0.0, max=1000.0, help="Simulated seconds per second; 0: as fast as possible."),
+]
+
+
+@app.command()
+def chat(
+    scenario: ScenarioName = "s1",
+    seed: Seed = None,
+    speed: SpeedFactor = None,
+    session: Annotated[str, typer.Option(help="Name of the conversation.")] = "passenger",
+    as_json: AsJson = False,
+) -> None:
+    """Ride and talk."""
+    from xavi_dialogue.app.chat import Ride, at_terminal, through_pipe
+
+    with _errors():
+        loaded = _load(scenario)
+        ride = Ride(str(loaded.folder), loaded.name, _seed(seed, loaded), session)
+        if sys.stdin.isatty() and not as_json:
+            at_terminal(ride, _history_file(), speed=1.0 if speed is None else speed)
+        else:
+            through_pipe(ride, _lines(), _write, _note, speed=speed or 0.0, as_json=as_json)
+
+
+@app.command()
+def ask(
+    text: str,
+    scenario: ScenarioName = "s1",
+    seed: Seed = None,
+    at: Annotated[float | None, typer.Option(min=0.0, help="Simulation time [s].")] = None,
+    style: Annotated[Literal["passenger", "paper"], typer.Option()] = "passenger",
+    as_json: AsJson = False,
+) -> None:
+    """Drive up to a moment, answer one question, and exit."""
+    from xavi_dialogue.app.ask import ask_once
+    from xavi_dialogue.app.exit_status import status_of
+    from xavi_dialogue.dialogue.reply import encode
+
+    with _errors():
+        loaded = _load(scenario)
+        reply = ask_once(loaded, _seed(seed, loaded), text, at, style)
+    _write(encode(reply) if as_json else reply.text)
+    raise typer.Exit(status_of(reply))
+
+
+@app.command()
+def parse(
+    text: Annotated[str | None, typer.Argument()] = None,
+    jsonl: Annotated[bool, typer.Option("--jsonl", help="Read question lines.")] = False,
+    vehicles: Annotated[str, typer.Option(help="Names there are, such as 0-5 or 0,2.")] = "0-5",
+    explain: Annotated[bool, typer.Option("--explain", help="Show how.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Show the query that a question means."""
+    from xavi_dialogue.app import parsing
+
+    with _errors():
+        names = parsing.vehicle_names(vehicles)
+        if jsonl:
+            for line in _lines():
+                _write(parsing.parse_line(line, names))
+            return
+        if text is None:
+            raise parsing.ParseUsageError("a question is missing; or read lines with --jsonl")
+        shown, understood = parsing.parse_text(text, names, explain=explain, as_json=as_json)
+        _write(shown)
+    if not understood:
+        raise typer.Exit(ExitStatus.NOT_UNDERSTOOD)
+
+
+@app.command()
+def drive(
+    scenario: ScenarioName = "s1",
+    seed: Seed = None,
+    duration: Annotated[float | None, typer.Option(min=0.1, help="At most so long [s].")] = None,
+    speed: SpeedFactor = 0.0,
+    connect: Annotated[str | None, typer.Option(help="Report to the hub at an endpoint.")] = None,
+    as_json: AsJson = False,
+    control: Control = False,
+) -> None:
+    """Drive a scenario."""
+    from xavi_dialogue.app.drive import Manner, drive
+    from xavi_dialogue.app.narration import story
+
+    with _errors():
+        loaded = _load(scenario)
+        manner = Manner(speed or 0.0, duration, connect, control)
+        summary = drive(loaded, _seed(seed, loaded), manner)
+    if not control:
+        _write(_json(summary) if as_json else story(summary.events))
+
+
+@app.command()
+def serve(
+    listen: Annotated[str, typer.Option(help="Endpoint.")] = "tcp/127.0.0.1:7447",
+    control: Control = False,
+) -> None:
+    """Run the dialogue service, and the hub that the others join."""
+    from xavi_dialogue.app.hub import serve
+
+    with _errors():
+        _note(f"serving at {listen}")
+        serve(listen, controlled=control)
+
+
+@app.command()
+def scenarios(as_json: AsJson = False) -> None:
+    """List the scenarios that come with the program."""
+    from sim.scenario import available, load
+
+    with _errors():
+        found = [load(name) for name in available()]
+    if as_json:
+        _write(_json([{"name": s.name, "description": s.description} for s in found]))
+    else:
+        for one in found:
+            _write(f"{one.name:12} {one.description}")
+
+
+@app.command()
+def transcripts(
+    accept: Annotated[bool, typer.Option("--accept", help="Rewrite what differs.")] = False,
+    folder: Annotated[Path, typer.Option(help="Where the transcripts lie.")] = Path("transcripts"),
+) -> None:
+    """Replay the golden conversations in SUMO; show, or accept, what differs."""
+    from xavi_dialogue.app.golden import replay_all
+
+    with _errors():
+        differing = replay_all(folder, accept=accept, note=_note)
+    raise typer.Exit(ExitStatus.FAILED if differing and not accept else ExitStatus.ANSWERED)
+
+
+@app.command()
+def bench(name: str, as_json: AsJson = False) -> None:
+    """Measure: plan, or dialogue."""
+    from xavi_dialogue.app.bench import measure
+
+    with _errors():
+        figures = measure(name)
+    _write(_json(figures) if as_json else figures.table())
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        _write(f"xavi {version('xavi-dialogue')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+@contextlib.contextmanager
+def _errors() -> Iterator[None]:
+    """What goes wrong as one clear line and an exit status; our own faults as they are."""
+    try:
+        yield
+    except Exception as error:
+        from xavi_dialogue.app.failures import failure
+
+        known = failure(error)
+        if known is None:
+            raise
+        _note(known.message)
+        raise typer.Exit(known.status) from None
+
+
+def _load(name: str) -> "Scenario":
+    from sim.scenario import load
+
+    return load(name)
+
+
+def _seed(asked: int | None, scenario: "Scenario") -> int:
+    return scenario.seed if asked is None else asked
+
+
+def _history_file() -> Path:
+    from platformdirs import user_state_path
+
+    return user_state_path("xavi-dialogue") / "history"
+
+
+def _json(value: object) -> str:
+    import msgspec
+
+    return msgspec.json.encode(value).decode()
+
+
+def _lines() -> Iterator[str]:
+    """Lines of standard input, whatever bytes they hold."""
+    sys.stdin.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
+    yield from iter(sys.stdin.readline, "")
+
+
+def _write(text: str) -> None:
+    print(text, flush=True)
+
+
+def _note(text: str) -> None:
+    print(f"xavi: {text}", file=sys.stderr, flush=True)
+
+
+def main() -> NoReturn:
+    """Run the command line; SIGTERM ends it like an exception, so that all is cleaned up."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(ExitStatus.TERMINATED))
+    app()
+    sys.exit(ExitStatus.ANSWERED)
+
+
+if __name__ == "__main__":
+    main()

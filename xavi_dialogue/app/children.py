@@ -1,0 +1,132 @@
+"""Child processes that end when their parent does.
+
+Each listens on its standard input, whose other end only the parent holds: it closes with the
+parent, even when the parent is killed, and then the child ends (see control.listen).
+"""
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from xavi_dialogue.app import control
+
+TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or installed
+REMEMBERED = 20  # lines of a child's standard error
+ORDERLY = 3.0  # [s] that a child may take to end by itself
+FORCED = 1.0  # [s] and after SIGTERM
+
+
+class ChildFailed(Exception):
+    """A child process ended when it should not."""
+
+
+class Child:
+    """One process of ours, started with a command of `xavi`."""
+
+    def __init__(self, name: str, arguments: Sequence[str]) -> None:
+        """Start the process.
+
+        Args:
+            name: in messages: "the car".
+            arguments: of `xavi`; `--control` is added.
+        """
+        self.name = name
+        self.ordered = 0  # orders given
+        # -P keeps the working directory off the path: it may hold packages of our names.
+        command = [sys.executable, "-P", "-m", "xavi_dialogue", *arguments, "--control"]
+        path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env={**os.environ, "PYTHONPATH": path},
+            text=True,
+            errors="replace",
+            start_new_session=True,  # the terminal's signals are for the parent
+        )
+        self._said: deque[str] = deque(maxlen=REMEMBERED)
+        self._ear = threading.Thread(target=self._listen, daemon=True)
+        self._ear.start()
+
+    @property
+    def pid(self) -> int:
+        """The process's number."""
+        return self._process.pid
+
+    def order(self, order: control.Order) -> int:
+        """Give an order.
+
+        Returns:
+            The number of orders given so far.
+
+        Raises:
+            ChildFailed: the process is gone.
+        """
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(control.write(order) + "\n")
+            self._process.stdin.flush()
+        except (BrokenPipeError, ValueError):
+            self.check()
+            raise ChildFailed(f"{self.name} takes no orders any more") from None
+        self.ordered += 1
+        return self.ordered
+
+    def check(self) -> None:
+        """Make sure that the process is there.
+
+        Raises:
+            ChildFailed: it has ended; with its last words.
+        """
+        code = self._process.poll()
+        if code is not None:
+            self._ear.join(FORCED)
+            words = next((line for line in reversed(self._said) if line.strip()), "")
+            raise ChildFailed(
+                f"{self.name} has ended ({_manner(code)})" + f": {words}" * bool(words)
+            )
+
+    def stop(self) -> None:
+        """End the process: by closing its input, else by SIGTERM, else by SIGKILL."""
+        process = self._process
+        assert process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            process.stdin.close()
+        for patience, end in ((ORDERLY, process.terminate), (FORCED, process.kill)):
+            try:
+                process.wait(patience)
+                break
+            except subprocess.TimeoutExpired:
+                end()
+        process.wait()
+        self._ear.join(FORCED)
+        assert process.stderr is not None
+        process.stderr.close()
+
+    def _listen(self) -> None:
+        assert self._process.stderr is not None
+        with contextlib.suppress(ValueError):  # closed meanwhile
+            self._said.extend(line.rstrip() for line in self._process.stderr)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+
+def _manner(code: int) -> str:
+    return f"signal {-code}" if code < 0 else f"exit status {code}"

@@ -1,0 +1,120 @@
+"""Orders to a child process over its standard input.
+
+One order a line. The end of the input ends the process, so that none is left behind when its
+parent is gone, however that came about.
+"""
+
+import math
+import os
+import queue
+import signal
+import threading
+from dataclasses import dataclass
+from typing import IO, TypeAlias
+
+PATIENCE = 5.0  # [s] that a process told to end may take before it is ended
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """Halt where the ride is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Resume:
+    """Go on until further notice."""
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """Simulated seconds per second; 0 is as fast as possible."""
+
+    factor: float
+
+
+@dataclass(frozen=True, slots=True)
+class Until:
+    """Go on up to a moment [s] and halt; None stands for the end of the first manoeuvre."""
+
+    time: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Quit:
+    """End the process."""
+
+
+Order: TypeAlias = Pause | Resume | Speed | Until | Quit
+Orders: TypeAlias = "queue.SimpleQueue[Order]"
+
+
+class OrderError(ValueError):
+    """A line that is no order."""
+
+
+def write(order: Order) -> str:
+    """The order as a line."""
+    match order:
+        case Speed(factor):
+            return f"speed {factor!r}"
+        case Until(time):
+            return "until default" if time is None else f"until {time!r}"
+        case _:
+            return type(order).__name__.lower()
+
+
+def read(line: str) -> Order:
+    """The order in a line.
+
+    Raises:
+        OrderError: the line is no order.
+    """
+    match line.split():
+        case ["pause"]:
+            return Pause()
+        case ["resume"]:
+            return Resume()
+        case ["quit"]:
+            return Quit()
+        case ["speed", factor]:
+            return Speed(_number(factor))
+        case ["until", "default"]:
+            return Until(None)
+        case ["until", time]:
+            return Until(_number(time))
+    raise OrderError(f"{line.strip()!r} is no order")
+
+
+def listen(stream: IO[str], orders: Orders) -> None:
+    """Put the orders that come in into a queue, from a thread; at the end of the stream, Quit.
+
+    The process ends by force if it is still there some seconds after that.
+    """
+
+    def follow() -> None:
+        for line in stream:
+            try:
+                orders.put(read(line))
+            except OrderError:
+                continue  # a newer parent may know more orders
+        orders.put(Quit())
+        threading.Event().wait(PATIENCE)
+        os._exit(os.EX_TEMPFAIL)
+
+    threading.Thread(target=follow, name="orders", daemon=True).start()
+
+
+def quit_on_signals(orders: Orders) -> None:
+    """Turn SIGTERM and SIGINT into an order to quit."""
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: orders.put(Quit()))
+
+
+def _number(text: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0.0 <= number < math.inf:
+        raise OrderError(f"{text!r} is no number from 0 on")
+    return number

@@ -1,0 +1,118 @@
+"""Car and service for one chat: started in order, stopped in order, none left behind."""
+
+import socket
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from xavi_dialogue.app import control
+from xavi_dialogue.app.children import Child, ChildFailed
+from xavi_dialogue.app.client import Client
+from xavi_dialogue.transports.bus import HubUnreachable
+from xavi_dialogue.transports.messages import SceneReport
+from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
+
+ATTEMPTS = 3  # to find a port that stays free until the service listens at it
+START_PATIENCE = 20.0  # [s] for the service, and for the first scene
+SILENCE = 20.0  # [s] without a scene after which the car counts as lost
+
+
+@dataclass(frozen=True)
+class Convoy:
+    """The processes behind a chat, and its own connection to them."""
+
+    car: Child
+    service: Child
+    bus: ZenohBus
+
+    def check(self) -> None:
+        """Make sure that both are there.
+
+        Raises:
+            ChildFailed: one has ended.
+        """
+        self.service.check()
+        self.car.check()
+
+    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+        """Give the car an order, and wait until it has obeyed it.
+
+        Args:
+            client: sees the car's scenes.
+            order: to give.
+            halt: wait until the car has halted or the ride is over, too.
+
+        Raises:
+            ChildFailed: a process has ended, or the car is not heard of any more.
+        """
+        number = self.car.order(order)
+
+        def done(scene: SceneReport) -> bool:
+            return scene.orders >= number and not (halt and scene.state == "driving")
+
+        scene = client.wait_for(done, self.check, SILENCE)
+        if scene is None:
+            raise ChildFailed("the car is not heard of any more")
+        return scene
+
+
+@contextmanager
+def convoy(scenario: str, seed: int, speed: float) -> Iterator[Convoy]:
+    """Start service and car; stop them in reverse.
+
+    Raises:
+        ChildFailed: one does not come up.
+    """
+    endpoint, service, bus = _start_service()
+    with service, bus:
+        arguments = ["drive", "--scenario", scenario, "--seed", str(seed)]
+        arguments += ["--speed", repr(speed), "--connect", endpoint]
+        with Child("the car", arguments) as car:
+            yield Convoy(car, service, bus)
+
+
+def first_scene(behind: Convoy, client: Client) -> SceneReport:
+    """Wait for the car to be on the road.
+
+    Raises:
+        ChildFailed: it does not come up.
+    """
+    scene = client.wait_for(lambda _: True, behind.check, START_PATIENCE)
+    if scene is None:
+        raise ChildFailed("the car does not start")
+    return scene
+
+
+def _start_service() -> tuple[str, Child, ZenohBus]:
+    """The service on a free port, and a connection to its hub."""
+    problem = ChildFailed("the dialogue service does not start")
+    for _ in range(ATTEMPTS):
+        endpoint = f"tcp/127.0.0.1:{_free_port()}"
+        service = Child("the dialogue service", ["serve", "--listen", endpoint])
+        try:
+            return endpoint, service, _join(service, endpoint)
+        except ChildFailed as error:  # another process may have taken the port
+            service.stop()
+            problem = error
+        except BaseException:
+            service.stop()
+            raise
+    raise problem
+
+
+def _join(service: Child, endpoint: str) -> ZenohBus:
+    waited = 0.0
+    while True:
+        try:
+            return join(endpoint, patience=0.2)
+        except HubUnreachable:
+            service.check()
+            waited += 0.2
+            if waited > START_PATIENCE:
+                raise ChildFailed("the dialogue service does not come up") from None
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

@@ -1,0 +1,106 @@
+"""`xavi drive`: the car by itself, or as a child that is told its pace."""
+
+import queue
+import sys
+import time
+from contextlib import nullcontext
+from dataclasses import dataclass
+
+import msgspec
+
+from planner.events import Event
+from sim.scenario import Scenario
+from sim.scene import EGO
+from xavi_dialogue.app import control
+from xavi_dialogue.app.car import Car, Pace, Replanner, serve
+from xavi_dialogue.app.local import planner_for
+from xavi_dialogue.app.report import Reporter
+from xavi_dialogue.app.ride import Ending, Moment, network_of, start
+from xavi_dialogue.transports.bus import Keys
+from xavi_dialogue.transports.zenoh_bus import join
+
+HARD_BRAKE = -4.0  # [m/s2]
+HUB_PATIENCE = 10.0  # [s] for the hub to come up
+
+
+class Summary(msgspec.Struct):
+    """A ride in figures: the object that `xavi drive --json` prints."""
+
+    scenario: str
+    seed: int
+    ended: Ending | None = None  # null: told to quit
+    goal_reached: bool = False
+    arrival_time: float | None = None  # [s]
+    decisions: int = 0
+    collisions: int = 0  # vehicles that the ego touched
+    hard_brakes: int = 0  # times that the ego began to brake harder than 4 m/s2
+    events: list[Event] = []
+    wall_s: float = 0.0
+
+
+@dataclass
+class Tally:
+    """Takes a ride's moments down as figures."""
+
+    summary: Summary
+    braking: bool = False
+
+    def record(self, moment: Moment) -> None:
+        """Count one moment."""
+        summary = self.summary
+        summary.decisions += moment.trace is not None
+        summary.events.extend(moment.events)
+        braking = moment.scene.vehicles[EGO].acceleration < HARD_BRAKE
+        summary.hard_brakes += braking and not self.braking
+        self.braking = braking
+        summary.collisions += len(moment.collisions)
+        summary.ended = moment.ending
+        for event in moment.events:
+            if event.kind == "arrived":
+                summary.goal_reached, summary.arrival_time = True, event.sim_time
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How to drive."""
+
+    speed: float = 0.0  # simulated seconds per second; 0 is as fast as possible
+    duration: float | None = None  # [s]; None: the scenario's
+    connect: str | None = None  # endpoint of a hub; None: nobody is told
+    controlled: bool = False  # by orders on standard input; waits for the first one
+
+
+def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
+    """Drive a scenario to its end, or until told to quit.
+
+    Raises:
+        SimulationError: SUMO is not installed or fails.
+        DriverError: the car cannot be driven on.
+        HubUnreachable: there is no hub at the endpoint.
+    """
+    began = time.monotonic()
+    orders: control.Orders = queue.SimpleQueue()
+    control.quit_on_signals(orders)
+    if manner.controlled:
+        control.listen(sys.stdin, orders)
+    network = network_of(scenario)
+    planning = Replanner(planner_for(network))
+    tally = Tally(Summary(scenario.name, seed))
+    bus = None if manner.connect is None else join(manner.connect, HUB_PATIENCE)
+    with bus or nullcontext():
+        reporter = None if bus is None else Reporter(bus, Keys())
+        if bus is not None:
+            serve(bus, Keys(), planning)
+        with start(scenario, seed, network, duration=manner.duration) as ride:
+            car = Car(
+                ride=ride,
+                step=scenario.step,
+                records=(tally.record, planning.record),
+                reporter=reporter,
+                orders=orders,
+                pace=Pace(manner.speed, running=not manner.controlled),
+                stays=manner.controlled,
+            )
+            car.run()
+    tally.summary.wall_s = round(time.monotonic() - began, 3)
+    return tally.summary

@@ -1,0 +1,39 @@
+"""What can go wrong, by whose fault: messages and exit statuses of the command line."""
+
+from dataclasses import dataclass
+
+from planner.driver import DriverError
+from planner.trace import TraceError
+from sim.scenario import ScenarioError
+from sim.sumo import SimulationError
+from xavi_dialogue.app.bench import BenchError
+from xavi_dialogue.app.children import ChildFailed
+from xavi_dialogue.app.client import ServiceLost
+from xavi_dialogue.app.exit_status import ExitStatus
+from xavi_dialogue.app.parsing import ParseUsageError
+from xavi_dialogue.transports.bus import BusError
+from xavi_dialogue.transports.transcript import TranscriptError
+
+_STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
+    ((ScenarioError, ParseUsageError, BenchError, TranscriptError), ExitStatus.USAGE),
+    (
+        (SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
+        ExitStatus.FAILED,
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Known:
+    """An error that is told in one line."""
+
+    message: str
+    status: ExitStatus
+
+
+def failure(error: Exception) -> Known | None:
+    """How to tell an error; None for a fault of our own, which deserves its traceback."""
+    for kinds, status in _STATUSES:
+        if isinstance(error, kinds):
+            return Known(" ".join(str(error).split()), status)
+    return None

@@ -1,0 +1,74 @@
+"""What the service has heard of one ride, put in order: the record may arrive in any order."""
+
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+from planner.events import Event
+from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceReport
+
+Item = TypeVar("Item")
+
+
+@dataclass
+class InOrder(Generic[Item]):
+    """Hands numbered items on in the order of their numbers, each once."""
+
+    next: int = 0  # number of the first item that has not been handed on
+    held: dict[int, Item] = field(default_factory=dict)
+
+    def add(self, number: int, item: Item) -> list[Item]:
+        """Take an item in; what can be handed on now."""
+        if number >= self.next:
+            self.held.setdefault(number, item)
+        ready = []
+        while self.next in self.held:
+            ready.append(self.held.pop(self.next))
+            self.next += 1
+        return ready
+
+
+@dataclass
+class Ledger:
+    """The reports of one ride."""
+
+    ride: str
+    traces: InOrder[PlanTrace] = field(default_factory=InOrder)
+    events: InOrder[Event] = field(default_factory=InOrder)
+    scene: SceneReport | None = None  # the latest
+    over: bool = False
+
+    def trace(self, report: TraceReport) -> list[Input]:
+        """What there is to tell the manager after a trace report."""
+        ready = self.traces.add(report.seq, report.trace)
+        return [*map(TraceRecorded, ready), *self._end()]
+
+    def event(self, report: EventReport) -> list[Input]:
+        """What there is to tell the manager after an event report."""
+        ready = self.events.add(report.seq, report.event)
+        return [*map(EventRecorded, ready), *self._end()]
+
+    def see(self, report: SceneReport) -> list[Input]:
+        """What there is to tell the manager after a scene report."""
+        if self.scene is None or report.seq > self.scene.seq:
+            self.scene = report
+        return self._end()
+
+    def complete(self, at: float) -> bool:
+        """Whether all that was recorded up to a moment [s] has arrived."""
+        scene = self.scene
+        if scene is None or not self._arrived(scene):
+            return False
+        return self.over or scene.sim_time >= at - EPSILON
+
+    def _arrived(self, scene: SceneReport) -> bool:
+        return self.traces.next >= scene.traces and self.events.next >= scene.events
+
+    def _end(self) -> list[Input]:
+        scene = self.scene
+        if self.over or scene is None or scene.state != "ended" or not self._arrived(scene):
+            return []
+        self.over = True
+        return [RideEnded(scene.sim_time)]

@@ -1,0 +1,38 @@
+"""Short lines about what the car does, as it does it."""
+
+import tomllib
+from collections.abc import Iterable, Mapping
+from functools import cache
+from importlib.resources import files
+
+from planner.events import Event
+from planner.trace import Action
+
+
+def narrate(event: Event) -> str | None:
+    """A line such as "0:04 I change to the left lane."; None for what goes without saying."""
+    table = _table()
+    phrase = table.get(event.kind, {}).get(event.action or "") or table["other"].get(event.kind)
+    return None if phrase is None else f"{clock(event.sim_time)} {phrase.format(event.vehicle)}"
+
+
+def story(events: Iterable[Event]) -> str:
+    """All that happened, a line each."""
+    return "\n".join(line for line in map(narrate, events) if line is not None)
+
+
+def clock(time: float) -> str:
+    """Simulation time [s] as minutes and seconds."""
+    minutes, seconds = divmod(int(time), 60)
+    return f"{minutes}:{seconds:02d}"
+
+
+def plan_in_words(plan: Iterable[Action]) -> str:
+    """What comes next, such as "change left, then go on"; empty without a plan."""
+    phrases = _table()["plan"]
+    return ", then ".join(phrases[action] for action in plan)
+
+
+@cache
+def _table() -> Mapping[str, Mapping[str, str]]:
+    return tomllib.loads(files("grammars").joinpath("narration.toml").read_text(encoding="utf-8"))

@@ -1,0 +1,89 @@
+"""`xavi parse`: the query that a question means."""
+
+import json
+
+import msgspec
+
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.parse import NotUnderstood, Parser, ParseReport, as_query
+from xavi_dialogue.transports.text import one_line
+
+MAX_VEHICLE = 10_000
+
+
+class ParseUsageError(ValueError):
+    """The command was used wrongly."""
+
+
+def vehicle_names(text: str) -> frozenset[int]:
+    """The names in "0-5" or "0,2,7".
+
+    Raises:
+        ParseUsageError: the text is neither.
+    """
+    names: set[int] = set()
+    for part in text.split(","):
+        first, _, last = part.strip().partition("-")
+        if not first.isdecimal() or not (last or first).isdecimal():
+            raise ParseUsageError(f"--vehicles takes names such as 0-5 or 0,2,7, not {text!r}")
+        names.update(range(int(first), min(int(last or first), MAX_VEHICLE) + 1))
+    return frozenset(names)
+
+
+def parse_text(
+    text: str, vehicles: frozenset[int], *, explain: bool, as_json: bool
+) -> tuple[str, bool]:
+    """What a question means, for people or as JSON, and whether it was understood."""
+    report = Parser().explain(one_line(text), vehicles=vehicles)
+    understood = isinstance(report.result, Query)
+    shown = msgspec.json.encode(report if explain else report.result).decode()
+    if not as_json:
+        shown = _steps(report) if explain else _lines(report.result)
+    return shown, understood
+
+
+def parse_line(line: str, vehicles: frozenset[int]) -> str:
+    """The answer line to a question line such as {"id": "q1", "text": "...", "context": []}.
+
+    Raises:
+        ParseUsageError: the line is no such object.
+    """
+    try:
+        question = json.loads(line)
+        text, context = question["text"], tuple(question.get("context") or ())
+    except (ValueError, TypeError, KeyError, AttributeError):
+        shown = one_line(line)[:60]
+        raise ParseUsageError(
+            f'each line must hold {{"id": .., "text": ..}}; got: {shown}'
+        ) from None
+    if not all(isinstance(turn, str) for turn in (text, *context)):
+        raise ParseUsageError(f"text and context must be text in {one_line(line)[:60]}")
+    result = Parser().parse(text, vehicles=vehicles, context=context)
+    answer = {"id": question.get("id"), "query": as_query(result)}
+    return msgspec.json.encode(answer).decode()
+
+
+def _lines(result: Query | NotUnderstood) -> str:
+    """The fields that say something, a line each."""
+    if isinstance(result, NotUnderstood):
+        unknown = f" ({', '.join(result.hints)})" if result.hints else ""
+        return f"not understood: {result.cause}{unknown}"
+    fields = msgspec.structs.asdict(result)
+    return "\n".join(f"{name:20} {_word(value)}" for name, value in fields.items() if value)
+
+
+def _word(value: object) -> str:
+    return ", ".join(value) if isinstance(value, tuple) else str(value)
+
+
+def _steps(report: ParseReport) -> str:
+    corrected = ", ".join(f"{a} -> {b}" for a, b in report.corrections)
+    lines = [
+        "tokens      " + "  ".join(f"{token.terminal}={token.text}" for token in report.tokens),
+        f"corrected   {corrected or '-'}",
+    ]
+    for reading in report.readings:
+        query = msgspec.structs.asdict(reading.query)
+        said = ", ".join(f"{name}={_word(value)}" for name, value in query.items() if value)
+        lines.append(f"reading     {reading.score:6.2f}  {reading.rule}: {said}")
+    return "\n".join((*lines, "result", _lines(report.result)))

@@ -1,0 +1,131 @@
+"""Transcripts: golden conversations as readable text.
+
+    scenario: s1
+    seed: 0
+
+    @ 8.0s
+    > Why did you change lanes?
+    I changed to the left lane to get us there sooner. ...
+
+A header, then moments that move time, questions, and replies of one or more lines. Before the
+first moment, the time is the end of the first lane change or turn. Lines with # are comments.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+_MOMENT = re.compile(r"@\s*(\d{1,6}(?:\.\d{1,6})?)\s*s?")
+_HEADER = re.compile(r"(\w+):\s*(.*)")
+KEYS = ("scenario", "seed", "style", "trace")
+
+
+class TranscriptError(ValueError):
+    """A transcript that cannot be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """Time moves."""
+
+    time: float  # [s]
+    text: str  # as written
+
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """A question and its reply."""
+
+    question: str
+    reply: str
+
+
+@dataclass(frozen=True, slots=True)
+class Comment:
+    """A line that is kept as it is."""
+
+    text: str
+
+
+Step: TypeAlias = At | Exchange | Comment
+
+
+@dataclass(frozen=True, slots=True)
+class Transcript:
+    """One conversation."""
+
+    header: tuple[tuple[str, str], ...]
+    steps: tuple[Step, ...]
+
+    def get(self, key: str, default: str | None = None) -> str | None:
+        """A value of the header."""
+        return dict(self.header).get(key, default)
+
+
+def moment(line: str) -> float | None:
+    """The time [s] in a line such as "@ 8.0s"; None for any other line."""
+    match = _MOMENT.fullmatch(line.strip())
+    return float(match[1]) if match else None
+
+
+def read(text: str) -> Transcript:
+    """Read a transcript.
+
+    Raises:
+        TranscriptError: with the number of the line that is wrong.
+    """
+    header: list[tuple[str, str]] = []
+    steps: list[Step] = []
+    lines = list(enumerate(text.splitlines(), 1))
+    rest = iter(lines)
+    for number, line in rest:
+        if not line.strip():
+            if header:
+                break
+            continue
+        if line.startswith("#"):
+            steps.append(Comment(line))
+            continue
+        match = _HEADER.fullmatch(line)
+        if match is None or match[1] not in KEYS:
+            raise TranscriptError(f"line {number}: the header has {', '.join(KEYS)}, not {line!r}")
+        header.append((match[1], match[2]))
+    steps += _steps(rest)
+    return Transcript(tuple(header), tuple(steps))
+
+
+def _steps(lines: Iterable[tuple[int, str]]) -> Iterator[Step]:
+    question, reply = None, list[str]()
+    for number, line in lines:
+        begins = line.startswith((">", "@", "#"))
+        if begins and question is not None:
+            yield Exchange(question, "\n".join(reply).strip())
+            question, reply = None, []
+        if line.startswith("@"):
+            time = moment(line)
+            if time is None:
+                raise TranscriptError(f"line {number}: a moment is written @ 8.0s, not {line!r}")
+            yield At(time, line)
+        elif line.startswith("#"):
+            yield Comment(line)
+        elif line.startswith(">"):
+            question = line[1:].strip()
+        elif question is not None:
+            reply.append(line)
+        elif line.strip():
+            raise TranscriptError(f"line {number}: a reply without a question: {line!r}")
+    if question is not None:
+        yield Exchange(question, "\n".join(reply).strip())
+
+
+def write(transcript: Transcript) -> str:
+    """The transcript as text; `read` gives it back."""
+    blocks = ["\n".join(f"{key}: {value}" for key, value in transcript.header)]
+    for step in transcript.steps:
+        match step:
+            case At(_, text) | Comment(text):
+                blocks.append(text)
+            case Exchange(question, reply):
+                blocks.append(f"> {question}\n{reply}")
+    return "\n\n".join(blocks) + "\n"
