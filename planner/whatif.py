@@ -34,15 +34,17 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
 
     With forced actions, the result is the trace with more rollouts, marked as forced; where an
     action does not apply, it has none more and says why. With a vehicle removed, it is the
-    decision that would have been taken without it.
+    decision that would have been taken without it, before any forced actions are added.
 
     Raises:
-        WhatIfError: the trace is of another network, the vehicle is not in it, or the ego was
-            in the middle of a manoeuvre.
+        WhatIfError: the trace is of another network, the vehicle is the ego or not in it, or the
+            ego was in the middle of a manoeuvre.
     """
     frame, moment = _restore(trace, network, request)
-    if request.removed is not None and not request.actions:
-        return decide(frame, moment).trace
+    if request.removed is not None:
+        trace = decide(frame, moment).trace
+        if not request.actions:
+            return trace
     beliefs = predict(frame, moment)
     search = prepare(frame, moment, beliefs, salt="/" + ",".join(request.actions))
     search.force(request.actions, request.rollouts)
@@ -63,6 +65,8 @@ def _restore(trace: PlanTrace, network: Network, request: WhatIf) -> tuple[Frame
         raise WhatIfError(f"the trace is of network {trace.network}, not of {network.hash}")
     if trace.under_way is not None:
         raise WhatIfError(f"{trace.under_way.action} was under way at {trace.sim_time} s")
+    if request.removed == EGO:
+        raise WhatIfError("the ego cannot be removed; name another vehicle")
     if request.removed is not None and request.removed not in trace.scene:
         raise WhatIfError(f"vehicle {request.removed} was not in view at {trace.sim_time} s")
     roads = Roads(network)

@@ -210,7 +210,7 @@ def test_alone_on_the_road_one_goes_on() -> None:
 
 
 def test_a_queue_ahead_is_not_run_into() -> None:
-    trace = decision("queue")
+    trace = decision("queue", Settings())
     assert "collision" not in {r.outcome for r in trace.rollouts}
     assert trace.plan[0].action == "change-left"
 

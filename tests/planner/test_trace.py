@@ -1,0 +1,148 @@
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from planner.decide import decide
+from planner.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, TraceError, decode, encode, fitted
+from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
+
+
+def decision() -> PlanTrace:
+    """A small decision on s1."""
+    line = changing("s1", "main_in_1", "main_in_0", before_end("s1", "main_in_1", 85.0))
+    scene = {
+        0: still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0)),
+        1: driven(line, 12.0, [8.0] * 8),
+    }
+    return decide(frame("s1", QUICK), moment("s1", scene, time=2.0)).trace
+
+
+@pytest.fixture(scope="module")
+def trace() -> PlanTrace:
+    return decision()
+
+
+def test_reading_gives_what_was_written(trace: PlanTrace) -> None:
+    assert decode(encode(trace)) == trace
+    assert encode(decode(encode(trace))) == encode(trace)
+
+
+def test_the_json_is_plain_and_holds_no_nan(trace: PlanTrace) -> None:
+    def refuse(constant: str) -> float:
+        raise AssertionError(constant)
+
+    plain = json.loads(encode(trace), parse_constant=refuse)
+    assert plain["schema"] == SCHEMA
+    assert plain["rollouts"][0]["index"] == 0
+    assert set(plain["scene"]) == {"0", "1"}
+
+
+def test_hold_ups_are_written_with_from_and_to(trace: PlanTrace) -> None:
+    stretches = [s for r in json.loads(encode(trace))["rollouts"] for s in r["held_up"]]
+    assert stretches
+    for stretch in stretches:
+        assert set(stretch) == {"vehicle", "from", "to", "how", "speed_from", "speed_to"}
+
+
+def test_the_id_is_sixteen_hex_digits_of_the_content(trace: PlanTrace) -> None:
+    assert len(trace.trace_id) == 16
+    int(trace.trace_id, 16)
+    assert decode(encode(trace)).trace_id == trace.trace_id
+    other = msgspec.structs.replace(trace, decision=trace.decision + 1)
+    assert other.trace_id != trace.trace_id
+
+
+def test_what_is_too_large_is_not_read() -> None:
+    with pytest.raises(TraceError, match=f"at most {MAX_BYTES}"):
+        decode(b" " * (MAX_BYTES + 1))
+
+
+@pytest.mark.parametrize("data", [b"", b"{", b"\xff", b"[]", b"null"])
+def test_what_is_no_trace_is_not_read(data: bytes) -> None:
+    with pytest.raises(TraceError, match="not a plan trace"):
+        decode(data)
+
+
+def test_another_schema_is_named(trace: PlanTrace) -> None:
+    other = msgspec.structs.replace(trace, schema="xavi.plan_trace/2")
+    with pytest.raises(TraceError, match=r"'xavi\.plan_trace/2'; this version reads"):
+        decode(encode(other))
+
+
+@pytest.mark.parametrize("key", ["schema", "scene", "rollouts", "plan", "settings"])
+def test_a_missing_key_is_named(trace: PlanTrace, key: str) -> None:
+    plain = json.loads(encode(trace))
+    del plain[key]
+    with pytest.raises(TraceError, match=f"`{key}`"):
+        decode(json.dumps(plain).encode())
+
+
+def test_a_wrong_value_is_located(trace: PlanTrace) -> None:
+    plain = json.loads(encode(trace))
+    plain["rollouts"][3]["outcome"] = "arrived"
+    with pytest.raises(TraceError, match=r"'arrived' - at `\$\.rollouts\[3\]\.outcome`"):
+        decode(json.dumps(plain).encode())
+
+
+def test_what_fits_stays_as_it_is(trace: PlanTrace) -> None:
+    assert fitted(trace) is trace
+
+
+def crowded(trace: PlanTrace, rollouts: int) -> PlanTrace:
+    """The trace with many rollouts, each with a line of its own."""
+    first = trace.rollouts[0]
+    lines = [msgspec.structs.replace(first, index=k) for k in range(rollouts)]
+    return msgspec.structs.replace(trace, rollouts=tuple(lines))
+
+
+def bare(trace: PlanTrace) -> list[Rollout]:
+    return [msgspec.structs.replace(r, path=None, speed=None) for r in trace.rollouts]
+
+
+def test_what_does_not_fit_loses_the_lines_recorded_last(trace: PlanTrace) -> None:
+    large = crowded(trace, 150)
+    assert len(encode(large)) > MAX_BYTES
+    small = fitted(large)
+    assert MAX_BYTES - 5_000 < len(encode(small)) <= MAX_BYTES
+    assert bare(small) == bare(large)
+    assert small.rollouts[0] == large.rollouts[0]
+    assert small.rollouts[-1].path is None
+    assert small.predictions == trace.predictions
+
+
+def test_in_a_great_crowd_predictions_lose_their_lines_too(trace: PlanTrace) -> None:
+    large = crowded(trace, 150)
+    many = tuple(msgspec.structs.replace(trace.predictions[0], vehicle=k) for k in range(1, 40))
+    small = fitted(msgspec.structs.replace(large, predictions=many))
+    assert len(encode(small)) <= MAX_BYTES
+    assert bare(small) == bare(large)
+    for known, before in zip(small.predictions, many, strict=True):
+        assert [goal.probability for goal in known.goals] == [
+            goal.probability for goal in before.goals
+        ]
+        assert {way.path for goal in known.goals for way in goal.trajectories} == {()}
+
+
+def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -> None:
+    program = (
+        "from tests.planner.test_trace import decision; import sys;"
+        "sys.stdout.write(decision().trace_id)"
+    )
+    found = set()
+    for seed in ("0", "1"):
+        environment = os.environ | {"PYTHONHASHSEED": seed, "PYTHONPATH": str(root)}
+        done = subprocess.run(
+            [sys.executable, "-c", program],
+            cwd=root,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        found.add(done.stdout)
+    assert found == {trace.trace_id}

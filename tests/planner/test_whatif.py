@@ -1,0 +1,136 @@
+from dataclasses import replace
+
+import msgspec
+import pytest
+
+from planner.decide import decide
+from planner.trace import PlanTrace, TimedAction, encode
+from planner.whatif import WhatIf, WhatIfError, replan
+from sim.network import Network
+from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
+
+
+@pytest.fixture(scope="module")
+def trace() -> PlanTrace:
+    """A decision on s1, before which vehicle 1 cuts in, while vehicle 4 waits aside."""
+    line = changing("s1", "main_in_1", "main_in_0", before_end("s1", "main_in_1", 85.0))
+    waits = roads("s1").line(("from_s_0",))
+    scene = {
+        0: still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0)),
+        1: driven(line, 14.0, [8.0] * 8),
+        4: driven(waits, before_end("s1", "from_s_0", 2.0), [0.0] * 8),
+    }
+    return decide(frame("s1", QUICK, seed=5), moment("s1", scene, time=2.0, number=3)).trace
+
+
+@pytest.fixture(scope="module")
+def network() -> Network:
+    return roads("s1").network
+
+
+def test_planning_again_without_a_change_gives_the_same_trace(
+    trace: PlanTrace, network: Network
+) -> None:
+    assert encode(replan(trace, network, WhatIf(rollouts=0))) == encode(trace)
+
+
+def test_forced_actions_add_forced_rollouts_and_nothing_else(
+    trace: PlanTrace, network: Network
+) -> None:
+    more = replan(trace, network, WhatIf(("change-left", "exit-left"), rollouts=12))
+    assert more.rollouts[: len(trace.rollouts)] == trace.rollouts
+    fresh = more.rollouts[len(trace.rollouts) :]
+    assert len(fresh) == 12
+    for index, rollout in enumerate(fresh, len(trace.rollouts)):
+        assert rollout.index == index
+        assert rollout.forced
+        assert [step.action for step in rollout.actions][:2] == ["change-left", "exit-left"]
+        assert rollout.outcome == "dead"
+        assert rollout.same_as is None or rollout.same_as >= len(trace.rollouts)
+    assert more.plan == trace.plan
+    assert more.predictions == trace.predictions
+    same = msgspec.structs.replace(
+        more, rollouts=trace.rollouts, not_applicable=trace.not_applicable
+    )
+    assert same == trace
+
+
+def test_the_same_request_gives_the_same_trace(trace: PlanTrace, network: Network) -> None:
+    one, other = (replan(trace, network, WhatIf(("stop",), rollouts=6)) for _ in range(2))
+    assert encode(one) == encode(other)
+
+
+def test_what_does_not_apply_adds_no_rollout_but_its_reason(
+    trace: PlanTrace, network: Network
+) -> None:
+    refused = replan(trace, network, WhatIf(("exit-left",)))
+    assert refused.rollouts == trace.rollouts
+    reasons = {(e.node, e.action): e.reason for e in refused.not_applicable}
+    assert reasons[(), "exit-left"] == "its lane does not lead to the left"
+    deep = replan(trace, network, WhatIf(("change-left", "exit-right")))
+    assert deep.rollouts == trace.rollouts
+    reasons = {(e.node, e.action): e.reason for e in deep.not_applicable}
+    assert reasons[("change-left",), "exit-right"] == "its lane does not lead to the right"
+
+
+def test_a_reason_is_told_once(trace: PlanTrace, network: Network) -> None:
+    more = replan(trace, network, WhatIf(("change-left", "continue"), rollouts=5))
+    entries = [(e.node, e.action) for e in more.not_applicable]
+    assert len(entries) == len(set(entries))
+
+
+def test_a_removed_vehicle_is_nowhere(trace: PlanTrace, network: Network) -> None:
+    without = replan(trace, network, WhatIf(removed=1))
+    assert list(without.scene) == list(without.history) == [0, 4]
+    assert [prediction.vehicle for prediction in without.predictions] == [4]
+    for rollout in without.rollouts:
+        assert [sample.vehicle for sample in rollout.samples] == [4]
+        assert rollout.collided_with != 1
+        assert all(stretch.vehicle != 1 for stretch in rollout.held_up)
+    assert without.plan[0].action == "continue"
+    assert (without.decision, without.sim_time, without.seed) == (3, 2.0, 5)
+
+
+def test_actions_can_be_forced_where_a_vehicle_is_removed(
+    trace: PlanTrace, network: Network
+) -> None:
+    without = replan(trace, network, WhatIf(removed=1))
+    more = replan(trace, network, WhatIf(("stop",), removed=1, rollouts=6))
+    assert more.rollouts[: len(without.rollouts)] == without.rollouts
+    assert len(more.rollouts) == len(without.rollouts) + 6
+    assert more.scene == without.scene
+    for rollout in more.rollouts:
+        assert [sample.vehicle for sample in rollout.samples] == [4]
+
+
+def test_who_had_nothing_to_do_with_it_can_be_missed(trace: PlanTrace, network: Network) -> None:
+    without = replan(trace, network, WhatIf(removed=4))
+    assert without.plan[0].action == trace.plan[0].action
+
+
+def test_a_trace_of_elsewhere_is_refused(trace: PlanTrace) -> None:
+    with pytest.raises(WhatIfError, match="the trace is of network"):
+        replan(trace, roads("s2").network, WhatIf())
+
+
+def test_an_unknown_vehicle_is_refused(trace: PlanTrace, network: Network) -> None:
+    with pytest.raises(WhatIfError, match="vehicle 9 was not in view"):
+        replan(trace, network, WhatIf(removed=9))
+
+
+def test_the_ego_cannot_be_removed(trace: PlanTrace, network: Network) -> None:
+    with pytest.raises(WhatIfError, match="the ego cannot be removed"):
+        replan(trace, network, WhatIf(removed=0))
+
+
+def test_a_manoeuvre_under_way_is_not_planned_again(trace: PlanTrace, network: Network) -> None:
+    busy = msgspec.structs.replace(trace, under_way=TimedAction("change-left", trace.sim_time))
+    with pytest.raises(WhatIfError, match="change-left was under way"):
+        replan(busy, network, WhatIf())
+
+
+def test_an_ego_off_the_road_is_refused(trace: PlanTrace, network: Network) -> None:
+    away = replace(trace.scene[0], position=(1e4, 1e4))
+    lost = msgspec.structs.replace(trace, scene={**trace.scene, 0: away})
+    with pytest.raises(WhatIfError, match="on no lane"):
+        replan(lost, network, WhatIf())
