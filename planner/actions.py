@@ -20,6 +20,7 @@ AHEAD = 80.0  # [m] of path beyond the end of an action, to see leaders and bend
 FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 STANDING_TIME = 3.0  # [s] that Stop stays at a standstill
+COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,6 +230,9 @@ def _stop(roads: Roads, here: Situation) -> ActionPlan | Refusal:
     if roads.network.lanes[here.location.lane].internal:
         return Refusal("it must not stop inside a junction")
     path = _along(roads, here, (here.location.lane,), AHEAD)
+    rest = here.speed**2 / (2.0 * COMFORT) + here.speed * 0.5
+    if roads.network.lanes[path.lane_at(rest)[0]].internal:
+        return Refusal("it would come to a stop inside the junction")
     return _finish(roads, "stop", path, (Stop(0.0),), path.length, math.inf, None)
 
 

@@ -25,7 +25,7 @@ from planner.trace import (
     VehiclePrediction,
     fitted,
 )
-from planner.tracks import Observed
+from planner.tracks import Observed, lanes_at
 from planner.trajectory import Array, Roads
 from sim.scene import EGO, Point, VehicleState
 
@@ -216,7 +216,7 @@ def _trajectory(way: Trajectory) -> TrajectoryPrediction:
 
 def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
     """Where the ego is, from its pose alone; None off the road."""
-    found = roads.network.locate(ego.position, ego.heading)
+    found = lanes_at(roads, ego.position, ego.heading)
     if not found:
         return None
     return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, found[0])

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.actions import STANDING_TIME, ActionPlan, GiveWay
+from planner.actions import COMFORT, STANDING_TIME, ActionPlan, GiveWay
 from planner.obstacles import Obstacle, Occupancy, occupancy
 from planner.trace import SAMPLE_PERIOD, HoldUp
 from planner.trajectory import Path
@@ -19,7 +19,6 @@ from planner.trajectory import Path
 DT = SAMPLE_PERIOD  # [s] step of the simulation
 
 ACCELERATION = 2.0  # [m/s2] most when speeding up
-COMFORT = 2.0  # [m/s2] braking for bends and waiting lines
 FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
 EMERGENCY = 7.0  # [m/s2] the hardest braking
 JERK_UP, JERK_DOWN = 3.0, 12.0  # [m/s3] change of acceleration upwards and downwards

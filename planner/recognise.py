@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from planner.actions import ActionPlan, Situation, Stop
+from planner.actions import COMFORT, ActionPlan, Situation, Stop
 from planner.astar import LANE_CHANGE_COST, SOLUTIONS, Solution, ways
-from planner.forward import ACCELERATION, COMFORT, DT, Motion, drive
+from planner.forward import ACCELERATION, DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view, stopping_time
 from planner.obstacles import Obstacle
 from planner.rollout import Task
