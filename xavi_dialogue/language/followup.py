@@ -75,8 +75,8 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
         return _refer(previous, detail=query.detail)
     if reading.rule == "again":
         return _again(reading, previous)
-    if reading.side is not None:
-        return _turned(reading.side, previous)
+    if reading.heading is not None:
+        return _turned(reading.heading, previous)
     if query.factual:
         return _with_actions(previous, query.factual)
     if query.time and not reading.named_actor:
@@ -137,6 +137,8 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
             changes["counterfactual"] = previous.counterfactual
         if not reading.tensed:
             changes["tense"] = previous.tense
+    if query.actor == "vehicle:unknown" and not reading.tensed:
+        changes["tense"] = previous.tense
     if not changes:
         return query
     return _refer(query, **changes)

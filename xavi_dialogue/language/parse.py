@@ -165,8 +165,15 @@ def _outside(found: Parse, tokens: tuple[Token, ...]) -> float:
     prices = settings()["outside"]
     before = sum(t.terminal not in _WEIGHTLESS for t in tokens[: found.begin])
     after = sum(t.terminal not in _WEIGHTLESS for t in tokens[found.end :])
-    return min(before * prices["before"], prices["before_limit"]) + min(
-        after * prices["after"], prices["after_limit"]
+    behind = min(after * prices["after"], prices["after_limit"])
+    if found.end < len(tokens) and "SUBORD" in tokens[found.end].terminals:
+        behind = prices["subordinate"]
+    follows = set(settings()["boundary"]["begin_after"])
+    midway = found.begin > 0 and not follows & set(tokens[found.begin - 1].terminals)
+    return (
+        min(before * prices["before"], prices["before_limit"])
+        + behind
+        + (prices["midway"] if midway else 0.0)
     )
 
 

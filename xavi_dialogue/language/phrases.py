@@ -16,7 +16,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 _SYMBOLS = re.compile(r"[()?+]|[^\s()?+]+")
-_BARE_BAR = re.compile(r"\|")
+_BARE = re.compile(r"\S*\|\S*")
+_BRACKETS = re.compile(r"\([^()]*\)")  # innermost
 
 
 class PhraseError(ValueError):
@@ -59,8 +60,14 @@ class Automaton:
         """Add a phrase; returns its words.
 
         Raises:
-            PhraseError: unbalanced brackets, an empty word, or a phrase that may be empty.
+            PhraseError: unbalanced brackets, an empty word, a phrase that may be empty, or one
+            in which it is unclear what a bar separates.
         """
+        outside = phrase
+        while (shorter := _BRACKETS.sub("", outside)) != outside:
+            outside = shorter
+        if len(_BARE.findall(outside)) > 1:
+            raise PhraseError("two words with '|' outside brackets: bracket one of them")
         start = len(self.accepts)
         part, rest = self._sequence(_SYMBOLS.findall(phrase), nested=False)
         if rest or part.nullable:
@@ -116,7 +123,7 @@ class Automaton:
             if symbol in "?+":
                 raise PhraseError(f"{symbol!r} follows nothing")
             if nested and "|" in symbol:
-                pieces = _BARE_BAR.split(symbol)
+                pieces = symbol.split("|")
                 for index, piece in enumerate(pieces):
                     if index:
                         alternatives.append(current)

@@ -44,12 +44,12 @@ _ROLES: dict[str, dict[str, str]] = {
         "own": "counterfactual",
         "contrast": "factual",
     },
-    "how_avoid": {"bare": "factual", "wanted": "counterfactual"},
+    "how_avoid": {"bare": "factual", "undone": "factual", "wanted": "counterfactual"},
     "sensitivity": {"own": "factual", "said": "factual", "wanted": "counterfactual"},
     "compare": {"first": "factual", "second": "counterfactual"},
 }
 _ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
-_CLAUSES = ("said", "denied", "bare", "wanted", "contrast", "first", "second")
+_CLAUSES = ("said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
 _DEFAULT_TENSE = {"what": "present", "where_goal": "present", "smalltalk": "present",
                   "help": "present", "confidence": "present", "command": "present"}  # fmt: skip
 
@@ -65,7 +65,7 @@ class Reading:
     anaphoric: bool = False  # "do that": the actions stand in an earlier turn
     elided: bool = False  # "and if you hadn't?": likewise
     named_actor: bool = True  # the words name who acts
-    side: str | None = None  # "and the right lane?": a direction alone
+    heading: str | None = None  # "and left?": a direction alone
 
 
 def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
@@ -95,7 +95,7 @@ def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
         anaphoric=any(ANAPHOR in c.actions for c in clauses),
         elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
         named_actor=named,
-        side=_bare_side(parse.tree),
+        heading=_heading(parse.tree),
     )
 
 
@@ -171,7 +171,8 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
             return fields | {"actor": "vehicle:new", "intervention": "add"}
         return fields | {"negated": rule == "elided_not"}
     if {"WITHOUT", "NO"} & set(terminals(tree)):
-        return _actor_of(tree) | {"negated": True, "intervention": "remove"}
+        *_, missing = children(tree, "actor")
+        return {"actor": actor(missing)} | {"negated": True, "intervention": "remove"}
     return {}
 
 
@@ -244,9 +245,12 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
 }
 
 
-def _bare_side(tree: Tree) -> str | None:
-    part = first(tree, "bare_side")
-    return side(part) if part else None
+def _heading(tree: Tree) -> str | None:
+    """The direction, where a question has no more of an action than that."""
+    spoken = [a for a in tree.find_data("action")]
+    if len(spoken) == 1 and first(spoken[0], "heading"):
+        return side(spoken[0])
+    return None
 
 
 # --- readings that make no sense -----------------------------------------------------------------

@@ -12,6 +12,8 @@ ANAPHOR = "that"  # stands for the actions of an earlier turn, until these are k
 STRAIGHT = "straight"  # "go straight", until it is known whether a junction comes first
 STRAIGHT_ON = "straight-on"  # "carry straight on": continue, unless a junction is named
 
+TOWARDS = "towards-"  # "right" alone: a lane change beside lane changes, else a turn
+
 #: Which word says most about a vehicle, most first.
 _DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
 _PRONOUNS = {
@@ -98,6 +100,8 @@ def action(tree: Tree) -> tuple[str, bool]:
     (inner,) = (c for c in tree.children if isinstance(c, lark.Tree))
     kind = str(inner.data)
     where = side(inner)
+    if kind == "heading":
+        return (f"change-{where}" if "LANE" in terminals(inner) else f"{TOWARDS}{where}"), False
     if kind == "lane_change":
         return f"change-{where or 'left'}", where is None
     if kind == "turn":
@@ -127,6 +131,9 @@ def settle(
             beside_turn = any(o.startswith("exit-") for o in others)
             on = name == STRAIGHT_ON and not beside_turn
             name = "continue" if (beside_change or on) and not at_junction else "exit-straight"
+        if name.startswith(TOWARDS):
+            beside_change = any(o.startswith("change-") for o in others)
+            name = name.replace(TOWARDS, "change-" if beside_change else "exit-")
         if name != ANAPHOR:
             settled.append(name)  # type: ignore[arg-type]
     return tuple(settled)

@@ -1,6 +1,7 @@
 """Tense: when what a question speaks of happened, from its auxiliaries and verb forms."""
 
 from collections.abc import Iterable
+from typing import cast
 
 from xavi_dialogue.explain.query import Tense
 from xavi_dialogue.language.tokens import AUXILIARIES, Token
@@ -55,6 +56,10 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
         return _of_what_if(whole)
     if rule in ("how", "confidence"):
         return _of_complement(clause, whole)
+    if rule == "where_goal":
+        return tense_of(tuple(t for t in whole if t.terminal in AUXILIARIES))
+    if named := [t.value for t in whole if t.terminal in ("HAPPENED", "PLAN")]:
+        return cast(Tense, named[0])
     if rule == "compare":
         if hypothetical(whole):
             return "future"
@@ -88,6 +93,8 @@ def _of_what_if(whole: tuple[Token, ...]) -> Tense:
 def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
     """What was known or believed: seen from then, "was going to" lies ahead."""
     values = {v for t in clause if t.terminal in AUXILIARIES for v in t.value.split()}
+    if whole and whole[0].terminal == "DECIDE":
+        return "past" if head_tense(whole[:1]) == "past" else "present"
     if not clause:
         return head_tense(whole)
     if "future" in values or "would" in values:

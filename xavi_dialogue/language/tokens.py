@@ -9,10 +9,13 @@ from functools import cache
 from xavi_dialogue.language.normalise import BREAK, Normalised
 from xavi_dialogue.language.phrases import Sense
 from xavi_dialogue.language.spelling import correct
-from xavi_dialogue.language.wordlists import english, vocabulary
+from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
 
 
 AUXILIARIES = frozenset({"DO", "BE", "HAVE", "WILL", "WOULD", "CAN", "COULD", "BEGIN"})
+
+
+WEAK = frozenset({"PLAIN", "USER", "RUDE"})  # no second sense of a word that has a better one
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +89,20 @@ def tokenise(normalised: Normalised) -> Tokenised:
     return Tokenised(_tokens(tuple(_read_numbers(words))), tuple(corrections))
 
 
+_SUFFIXES = ("s", "es", "ed", "d", "ing", "ly", "er", "ers", "est", "ness", "ful", "ment")
+
+
+def _is_word(word: str) -> bool:
+    """Whether the word, or what it is derived from, stands in a word list."""
+    known = vocabulary().words
+    if word in known or word in _numbers():
+        return True
+    stems = (word.removesuffix(suffix) for suffix in _SUFFIXES if word.endswith(suffix))
+    return any(len(stem) > 3 and known.get(stem) == PLAIN_RANK for stem in stems)
+
+
 def _known(word: str) -> tuple[str, ...]:
-    if word == BREAK or word.isdigit() or word in vocabulary().words or word in _numbers():
+    if word == BREAK or word.isdigit() or _is_word(word):
         return (word,)
     parts = tuple(part for part in word.split("-") if part)
     if len(parts) > 1:
@@ -133,6 +148,7 @@ def _tokens(words: tuple[str, ...]) -> tuple[Token, ...]:
             position += 1
         elif found is not None:
             end, (sense, *others) = found
+            others = [o for o in others if o.terminal not in WEAK]
             text = words[position:end]
             form = next((known.forms[w] for w in text if w in known.forms), "")
             tokens.append(Token(*sense, " ".join(text), form, tuple(others)))
