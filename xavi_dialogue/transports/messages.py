@@ -229,7 +229,7 @@ class _Label(msgspec.Struct):
 
 def pack(message: AnyMessage) -> bytes:
     """The message as JSON."""
-    return msgspec.json.encode(message, order="deterministic")
+    return msgspec.json.encode(message)
 
 
 def unpack(data: bytes, kind: type[M]) -> M:

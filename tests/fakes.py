@@ -1,0 +1,130 @@
+"""Stand-ins for the slow or outside parts: a scripted mind, a fake world, a recorded ride."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+
+from planner.driver import DriveStep
+from planner.events import Event
+from planner.trace import PlanTrace
+from sim.scene import Command, Scene, VehicleState
+from tests.traces import Ride, s1_ride
+from xavi_dialogue.app.ride import Moment
+from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.explain.explanation import (
+    Activity,
+    Evidence,
+    Explanation,
+    NeedRollout,
+    NoExplanation,
+)
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.record import Record
+from xavi_dialogue.language.parse import NotUnderstood
+
+EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
+
+
+def activity(record: Record) -> Explanation:
+    """What the car is doing, according to the latest trace."""
+    traces = tuple(trace.trace_id for trace in record.traces[-1:])
+    return Explanation(
+        factual=("continue",),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=Evidence("tree", 1, 1, traces),
+        activity=Activity(0, ("continue",), None, 10.0, "steady"),
+    )
+
+
+def scripted_mind() -> Mind:
+    """Understands the names of what it shall do: "answer", "lack", "lack more", "refuse", "huh"."""
+
+    def parse(text: str, _: frozenset[int], __: tuple[str, ...]) -> Query | NotUnderstood:
+        if text == "huh":
+            return NotUnderstood("gibberish")
+        return Query(type="what", time=text, tense="present")
+
+    def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:
+        wanted = {"lack": 1, "lack more": 2, "lack forever": 99}.get(query.time or "", 0)
+        if query.time == "refuse":
+            return NoExplanation(reason="too-little-evidence")
+        if len(record.extra) < wanted:
+            return NeedRollout(trace_id="t", rollouts=len(record.extra) + 1)
+        return activity(record)
+
+    return Mind(parse, explain)
+
+
+def inputs_of(ride: Ride, *, ended: float | None = None) -> tuple[Input, ...]:
+    """The ride as inputs of the dialogue manager."""
+    over = () if ended is None else (RideEnded(ended),)
+    return (*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events), *over)
+
+
+def moments_of(ride: Ride, *, step: float = 0.5, until: float | None = None) -> Iterator[Moment]:
+    """The ride as moments, the last of which ends it."""
+    last = ride.now if until is None else until
+    for k in range(round(last / step) + 1):
+        time = round(k * step, 6)
+        due = lambda t, time=time: time - step / 2 < t <= time + step / 2  # noqa: E731
+        trace = next((trace for trace in ride.traces if due(trace.sim_time)), None)
+        events = tuple(event for event in ride.events if due(event.sim_time))
+        scene = Scene(time, {0: EGO, 1: replace(EGO, position=(20.0, 0.0))})
+        yield Moment(scene, ("continue",), trace, events, "duration" if time >= last else None)
+
+
+def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+    """Plan again without a planner: the same trace."""
+    return trace
+
+
+def s1_moments() -> Iterator[Moment]:
+    """A made-up ride through S1."""
+    return moments_of(s1_ride())
+
+
+@dataclass
+class FakeWorld:
+    """A straight road with nobody on it; the ego goes where it is told to."""
+
+    step_length: float = 0.5
+    collides_at: float = float("inf")
+    steps: int = 0
+    state: VehicleState = EGO
+
+    def scene(self) -> Scene:
+        return Scene(round(self.steps * self.step_length, 9), {0: self.state})
+
+    def step(self, command: Command | None) -> Scene:
+        assert command is not None
+        self.steps += 1
+        self.state = replace(
+            EGO, position=command.position, heading=command.heading, speed=command.speed
+        )
+        return self.scene()
+
+    def collisions(self) -> tuple[int, ...]:
+        return (2,) if self.scene().time >= self.collides_at else ()
+
+
+@dataclass
+class FakeDriver:
+    """Goes straight on at 10 m/s and arrives when told to."""
+
+    arrives_at: float = float("inf")
+    decide: Callable[[Scene], PlanTrace | None] = lambda _: None
+    finished: bool = False
+    seen: list[float] = field(default_factory=list)
+
+    def step(self, scene: Scene, dt: float) -> DriveStep:
+        self.seen.append(scene.time)
+        x, y = scene.ego.position
+        command = Command((x + 10.0 * dt, y), 0.0, 10.0)
+        events: tuple[Event, ...] = ()
+        if scene.time + dt >= self.arrives_at:
+            self.finished = True
+            events = (Event("arrived", scene.time + dt),)
+        return DriveStep(command, self.decide(scene), events)
