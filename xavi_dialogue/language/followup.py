@@ -37,8 +37,14 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
         known = previous.actor.startswith("vehicle:")
         query = _refer(query, actor=previous.actor if known else query.actor)
     if previous is not None:
-        query = _inherit(reading, query, previous)
+        return _inherit(reading, query, previous)
+    if reading.rule == "when" and not reading.named_actor and _empty(query):
+        return Query(type="ambiguous", tense=query.tense)
     return query
+
+
+def _empty(query: Query) -> bool:
+    return not (query.factual or query.counterfactual or query.intervention)
 
 
 def _refer(query: Query, **changes: object) -> Query:
@@ -85,7 +91,11 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
 
 
 def _again(reading: Reading, previous: Query) -> Query:
-    """A bare "why?" after another question."""
+    """A bare "why?" or "why not?" after another question."""
+    if reading.query.negated:
+        return _refer(
+            previous, type="why_not", factual=None, counterfactual=_asked(previous), negated=False
+        )
     if previous.type == "why":
         return _refer(previous, detail="more")
     if previous.type in ("why_not", "compare"):
@@ -126,8 +136,7 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
         if previous.factual and query.factual is None and query.counterfactual:
             changes["counterfactual"] = _same_kind(query.counterfactual, previous.factual)
             changes["factual"] = previous.factual
-    empty = not query.factual and not query.counterfactual and not query.intervention
-    if empty and query.type in ("confidence", "compare", "sensitivity", "when", "how"):
+    if _empty(query) and query.type in ("confidence", "compare", "sensitivity", "when", "how"):
         if not reading.named_actor:
             changes["actor"] = previous.actor
         if query.type == "compare":
@@ -147,7 +156,7 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
 def _same_kind(
     asked: tuple[QueryAction, ...], before: tuple[QueryAction, ...]
 ) -> tuple[QueryAction, ...]:
-    """ "Why not right?" after a lane change speaks of a lane change."""
+    """After a lane change, "why not right?" speaks of a lane change."""
     if len(asked) == 1 and len(before) == 1 and before[0].startswith("change-"):
         side = asked[0].rpartition("-")[2]
         if asked[0] in ("exit-left", "exit-right"):

@@ -18,8 +18,9 @@ import lark
 from lark.parsers.lalr_analysis import Shift
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
+from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.tokens import Token
-from xavi_dialogue.language.wordlists import load, vocabulary
+from xavi_dialogue.language.wordlists import vocabulary
 
 GRAMMAR_FILES = ("question.lark", "actors.lark", "actions.lark")
 STARTS = (
@@ -45,6 +46,7 @@ STARTS = (
 )
 _BUILTIN_TERMINALS = frozenset({"BREAK", "NUMBER", "UNKNOWN"})
 _END = "$END"
+_MAX_ENDS = 3  # parses kept of one rule from one beginning: the longest
 
 Tree = lark.Tree[lark.Token]
 
@@ -96,23 +98,17 @@ class _Tokens(lark.lexer.Lexer):
         return iter(())
 
 
-@cache
-def settings() -> dict[str, dict[str, float]]:
-    """The cost tables of parse.toml."""
-    return load("parse.toml")
-
-
 def parses(rule: str, tokens: tuple[Token, ...], begin: int, ends: frozenset[int]) -> list[Parse]:
-    """All parses by one start rule that begin at `begin` and end at one of `ends`, or at the end."""
-    skip = settings()["skip"]
-    limit = settings()["limits"]["cost"]
+    """All parses by one start rule from `begin` to one of `ends` or to the end of the tokens."""
+    skip = costs().skip
+    limit = costs().limits.cost
     parser = grammar().parse_interactive(start=rule)
     fed: list[lark.Token] = []
-    found: list[Parse] = []
+    found: list[tuple[int, int, float]] = []  # (end, tokens fed, cost)
     cost = 0.0
     for position in range(begin, len(tokens)):
         if position in ends and fed and _fits(parser, _END):
-            found.append(Parse(rule, _tree(rule, fed), begin, position, cost))
+            found.append((position, len(fed), cost))
         token = tokens[position]
         shifted = _shift(parser, token, position)
         if shifted is not None:
@@ -120,11 +116,15 @@ def parses(rule: str, tokens: tuple[Token, ...], begin: int, ends: frozenset[int
             continue
         price = min((skip[t] for t in token.terminals if t in skip), default=None)
         if price is None or cost + price > limit:
-            return found
+            break
         cost += price
-    if fed and _fits(parser, _END):
-        found.append(Parse(rule, _tree(rule, fed), begin, len(tokens), cost))
-    return found
+    else:
+        if fed and _fits(parser, _END):
+            found.append((len(tokens), len(fed), cost))
+    return [
+        Parse(rule, _tree(rule, fed[:count]), begin, end, price)
+        for end, count, price in found[-_MAX_ENDS:]
+    ]
 
 
 def _shift(parser: InteractiveParser, token: Token, position: int) -> lark.Token | None:
@@ -165,4 +165,5 @@ def _tree(rule: str, fed: list[lark.Token]) -> Tree:
     parser = grammar().parse_interactive(start=rule)
     for token in fed:
         parser.feed_token(token)
-    return parser.feed_eof()
+    tree: Tree = parser.feed_eof()  # type: ignore[no-untyped-call]
+    return tree

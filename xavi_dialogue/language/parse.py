@@ -12,8 +12,9 @@ from typing import Literal
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language import topics
+from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.followup import answerable, resolve
-from xavi_dialogue.language.grammar import STARTS, Parse, grammar, parses, settings
+from xavi_dialogue.language.grammar import STARTS, Parse, grammar, parses
 from xavi_dialogue.language.normalise import MAX_INPUT, Normalised, normalise
 from xavi_dialogue.language.readings import Reading, read
 from xavi_dialogue.language.tokens import Token, Tokenised, tokenise
@@ -71,7 +72,8 @@ class Parser:
 
         Args:
             text: what was typed; of more than 256 characters or 48 words only the end is read.
-            vehicles: names of the vehicles there are; others are kept for the answer to decline.
+            vehicles: names of the vehicles there are. Other numbers stand, for the answer to
+                decline; but only these are heard in "vehicle to" and the like.
             context: the passenger's earlier turns, oldest first.
         """
         return self.explain(text, vehicles=vehicles, context=context).result
@@ -84,7 +86,7 @@ class Parser:
         context: tuple[str, ...] = (),
     ) -> ParseReport:
         """The same, with tokens, corrections and the readings behind the result."""
-        return _explain(text, _last_question(context[-MAX_CONTEXT:]), bool(context))
+        return _explain(text, _last_question(context[-MAX_CONTEXT:], vehicles), vehicles)
 
 
 def as_query(result: Query | NotUnderstood) -> Query:
@@ -92,26 +94,26 @@ def as_query(result: Query | NotUnderstood) -> Query:
     return result if isinstance(result, Query) else Query(type="ambiguous", tense="present")
 
 
-@lru_cache(maxsize=256)
-def _last_question(context: tuple[str, ...]) -> Query | None:
+def _last_question(context: tuple[str, ...], vehicles: frozenset[int]) -> Query | None:
     """The last answerable query among the earlier turns, each resolved against those before."""
     previous: Query | None = None
     for turn in context:
-        result = _explain(turn, previous, previous is not None).result
+        result = _explain(turn, previous, vehicles).result
         if isinstance(result, Query) and answerable(result):
             previous = result
     return previous
 
 
-def _explain(text: str, previous: Query | None, talking: bool) -> ParseReport:
+@lru_cache(maxsize=512)  # the turns of a conversation are read again with each new one
+def _explain(text: str, previous: Query | None, vehicles: frozenset[int]) -> ParseReport:
     if len(text) > MAX_INPUT:
         return ParseReport((), (), True, (), NotUnderstood("too-long"))
     normalised = normalise(text)
-    tokenised = tokenise(normalised)
+    tokenised = tokenise(normalised, vehicles)
     if not normalised.words:
         return ParseReport((), (), False, (), NotUnderstood("empty"))
     readings = _readings(tokenised.heard, previous)
-    result = _decide(readings, normalised, tokenised, talking)
+    result = _decide(readings, normalised, tokenised)
     return ParseReport(
         tokenised.tokens, tokenised.corrections, normalised.shortened, readings, result
     )
@@ -120,8 +122,7 @@ def _explain(text: str, previous: Query | None, talking: bool) -> ParseReport:
 def _readings(tokens: tuple[Token, ...], previous: Query | None) -> tuple[Scored, ...]:
     """All readings within the cost limit, likeliest first."""
     scored: dict[tuple[str, Query], Scored] = {}
-    limit = settings()["limits"]["cost"]
-    base = settings()["base"]
+    limit, base = costs().limits.cost, costs().base
     for begin in _beginnings(tokens):
         ends = frozenset(_ends(tokens, begin))
         for rule in STARTS:
@@ -145,8 +146,7 @@ def _doubt(reading: Reading) -> float:
 
 
 def _beginnings(tokens: tuple[Token, ...]) -> list[int]:
-    boundary = settings()["boundary"]
-    after, at = frozenset(boundary["begin_after"]), frozenset(boundary["begin_at"])
+    after, at = costs().boundary.begin_after, costs().boundary.begin_at
     found = [
         index
         for index, token in enumerate(tokens)
@@ -156,41 +156,41 @@ def _beginnings(tokens: tuple[Token, ...]) -> list[int]:
 
 
 def _ends(tokens: tuple[Token, ...], begin: int) -> list[int]:
-    before = frozenset(settings()["boundary"]["end_before"])
+    before = costs().boundary.end_before
     return [i for i in range(begin + 1, len(tokens)) if tokens[i].terminal in before]
 
 
 def _outside(found: Parse, tokens: tuple[Token, ...]) -> float:
     """What the words before and behind the question cost."""
-    prices = settings()["outside"]
+    prices = costs().outside
     before = sum(t.terminal not in _WEIGHTLESS for t in tokens[: found.begin])
     after = sum(t.terminal not in _WEIGHTLESS for t in tokens[found.end :])
-    behind = min(after * prices["after"], prices["after_limit"])
+    behind = min(after * prices.after, prices.after_limit)
     if found.end < len(tokens) and "SUBORD" in tokens[found.end].terminals:
-        behind = prices["subordinate"]
-    follows = set(settings()["boundary"]["begin_after"])
+        behind = prices.subordinate
+    follows = costs().boundary.begin_after
     midway = found.begin > 0 and not follows & set(tokens[found.begin - 1].terminals)
     return (
-        min(before * prices["before"], prices["before_limit"])
+        min(before * prices.before, prices.before_limit)
         + behind
-        + (prices["midway"] if midway else 0.0)
+        + (prices.midway if midway else 0.0)
     )
 
 
 def _decide(
-    readings: tuple[Scored, ...], normalised: Normalised, tokenised: Tokenised, talking: bool
+    readings: tuple[Scored, ...], normalised: Normalised, tokenised: Tokenised
 ) -> Query | NotUnderstood:
     reason = topics.reason_for(tokenised.tokens, normalised.words)
     if reason == "non-english":
         return Query(type="out_of_scope", reason=reason, tense="present")
     best = readings[0] if readings else None
-    if best is None or (reason is not None and best.score > 0.9):
-        return _decline(reason, tokenised, normalised)
-    close = [r for r in readings if r.score - best.score <= settings()["limits"]["margin"]]
+    if best is None or (reason is not None and best.score > costs().limits.decline):
+        return _decline(reason, tokenised)
+    close = [r for r in readings if r.score - best.score <= costs().limits.margin]
     rivals = _distinct(close)
     if len(rivals) > 1:
-        limit = int(settings()["limits"]["readings"])
-        return NotUnderstood("ambiguous", tuple(r.query for r in rivals[:limit]))
+        shown = rivals[: costs().limits.readings]
+        return NotUnderstood("ambiguous", tuple(r.query for r in shown))
     return best.query
 
 
@@ -208,9 +208,7 @@ def _distinct(close: list[Scored]) -> list[Scored]:
     return [close[0], *different]
 
 
-def _decline(
-    reason: str | None, tokenised: Tokenised, normalised: Normalised
-) -> Query | NotUnderstood:
+def _decline(reason: str | None, tokenised: Tokenised) -> Query | NotUnderstood:
     if reason is not None:
         return Query(type="out_of_scope", reason=reason, tense="present")
     unknown = tuple(t.text for t in tokenised.tokens if t.terminal == "UNKNOWN")

@@ -50,8 +50,15 @@ _ROLES: dict[str, dict[str, str]] = {
 }
 _ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
 _CLAUSES = ("said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
-_DEFAULT_TENSE = {"what": "present", "where_goal": "present", "smalltalk": "present",
-                  "help": "present", "confidence": "present", "command": "present"}  # fmt: skip
+_DEFAULT_TENSE = {
+    "what": "present",
+    "where_goal": "present",
+    "confidence": "present",
+    "when": "future",
+    "smalltalk": "present",
+    "help": "present",
+    "command": "present",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,8 +190,8 @@ def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     return {} if said else _actor_of(tree)
 
 
-def _compare(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
-    """ "Would X be better than Y" asks about X; "was X better than Y" starts from X."""
+def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    """To ask "would X be better than Y" is to ask about X; "was X better" starts from X."""
     one, other = first(tree, "first"), first(tree, "second")
     at_junction = any(t.terminal == "JUNCTION" for t in whole)
     aux = {v for t in whole if t.terminal in AUXILIARIES for v in t.value.split()}
@@ -193,13 +200,21 @@ def _compare(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     if one and not other and len(said) == 2 and "COMPARE" in terminals(tree):
         said, against = said[:1], said[1:]
     mine, theirs = settle(said, against, at_junction), settle(against, said, at_junction)
+    who = _actor_of(tree).get("actor", "")
+    fields: dict[str, Any] = {"actor": who} if who[-1:].isdigit() else {}
     if "would" in aux or "could" in aux:
-        return {"counterfactual": mine or None, "factual": theirs or None}
-    return {"factual": mine or None, "counterfactual": theirs or None}
+        return fields | {"counterfactual": mine or None, "factual": theirs or None}
+    return fields | {"factual": mine or None, "counterfactual": theirs or None}
 
 
-def _where(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+def _named(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return _actor_of(tree)
+
+
+def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    """Who arrives; "when was that?" names nobody."""
+    named = first(tree, "said") is None and {"THAT", "IT"}.isdisjoint(terminals(tree))
+    return _actor_of(tree) if named else {}
 
 
 def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
@@ -232,13 +247,14 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "what_if": _what_if,
     "what": _what,
     "how_avoid": lambda _tree, _whole: {},
-    "where_goal": _where,
-    "when": lambda tree, _whole: {} if first(tree, "said") else _actor_of(tree),
-    "compare": _compare,
+    "where_goal": _named,
+    "confidence": _named,
+    "when": _when,
+    "compare": _comparison,
     "sensitivity": _sensitivity,
     "more": _detail("more"),
     "less": _detail("less"),
-    "again": _leaning,
+    "again": lambda tree, _whole: _leaning(tree, ()) | {"negated": "NOT" in terminals(tree)},
     "replace": _leaning,
     "correction": _leaning,
     "command": _command,
@@ -247,7 +263,7 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
 
 def _heading(tree: Tree) -> str | None:
     """The direction, where a question has no more of an action than that."""
-    spoken = [a for a in tree.find_data("action")]
+    spoken = list(tree.find_data("action"))
     if len(spoken) == 1 and first(spoken[0], "heading"):
         return side(spoken[0])
     return None
@@ -257,7 +273,7 @@ def _heading(tree: Tree) -> str | None:
 
 
 def _no_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """ "How could you have stopped": only with "could" it asks how to get there."""
+    """Only with "could" does "how could you have stopped" ask how to get there."""
     return first(tree, "wanted") is not None and whole[1].terminal != "COULD"
 
 
@@ -275,7 +291,7 @@ def _not_imperative(tree: Tree, whole: tuple[Token, ...]) -> bool:
 
 
 def _already_happened(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """ "Could you turn left?" is no question about an event."""
+    """Whether it is no question about an event: "could you turn left?"."""
     own = first(tree, "actions") is not None
     asks = whole[0].text.split()[0] in ("can", "could", "would", "should", "might")
     return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")

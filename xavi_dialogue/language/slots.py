@@ -7,6 +7,7 @@ import lark
 
 from xavi_dialogue.explain.query import QueryAction
 from xavi_dialogue.language.grammar import Tree
+from xavi_dialogue.language.tokens import AUXILIARIES
 
 ANAPHOR = "that"  # stands for the actions of an earlier turn, until these are known
 STRAIGHT = "straight"  # "go straight", until it is known whether a junction comes first
@@ -67,6 +68,9 @@ def clause(tree: Tree) -> Clause:
     spoken = [action(a) for a in children(listed, "action")] if listed else []
     who = first(tree, "actor")
     positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
+    pointing = who is not None and terminals(who) == ("THAT",)
+    if pointing and not set(terminals(tree)) & AUXILIARIES:
+        who = None  # "the reason for that lane change"
     return Clause(
         role=tree.data,
         actor=actor(who) if who else None,

@@ -71,8 +71,7 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
         return "past" if head_tense(whole) == "past" else "future"
     if rule == "when":
         found = tense_of(clause)
-        upcoming = found in ("present", None) or hypothetical(clause)
-        return "future" if upcoming else found
+        return "future" if found == "present" or hypothetical(clause) else found
     if hypothetical(clause):
         return "future" if rule == "what" else "past"
     found = tense_of(clause) or head_tense(tuple(t for t in whole if t.terminal not in AUXILIARIES))
@@ -81,13 +80,13 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
     return found
 
 
-def _of_what_if(whole: tuple[Token, ...]) -> Tense:
+def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
     if hypothetical(whole):
         return "future"
     words = {word for token in whole for word in token.text.split()}
     if tense_of(whole) == "past" or words & {"have", "happened"}:
         return "past"
-    return "future"
+    return "future" if any(t.form or t.terminal in AUXILIARIES for t in whole) else None
 
 
 def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
@@ -96,9 +95,9 @@ def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense
     if whole and whole[0].terminal == "DECIDE":
         return "past" if head_tense(whole[:1]) == "past" else "present"
     if not clause:
-        return head_tense(whole)
+        return "past" if head_tense(whole) == "past" else None
     if "future" in values or "would" in values:
         return "future"
-    found = tense_of(clause)
+    found = tense_of(clause) or tense_of(whole)
     third = any(t.form in ("third", "base") for t in clause) and "past" not in values
     return "future" if third and "present" not in values else found

@@ -11,7 +11,6 @@ from xavi_dialogue.language.phrases import Sense
 from xavi_dialogue.language.spelling import correct
 from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
 
-
 AUXILIARIES = frozenset({"DO", "BE", "HAVE", "WILL", "WOULD", "CAN", "COULD", "BEGIN"})
 
 
@@ -77,7 +76,7 @@ def _vehicle_nouns() -> frozenset[str]:
     return frozenset({"vehicle", "car", "number", "truck"})
 
 
-def tokenise(normalised: Normalised) -> Tokenised:
+def tokenise(normalised: Normalised, vehicles: frozenset[int]) -> Tokenised:
     """Correct the spelling, read numbers, and find the longest phrases from the left."""
     words: list[str] = []
     corrections: list[tuple[str, str]] = []
@@ -86,7 +85,7 @@ def tokenise(normalised: Normalised) -> Tokenised:
         if fixed != (word,):
             corrections.append((word, " ".join(fixed)))
         words.extend(fixed)
-    return Tokenised(_tokens(tuple(_read_numbers(words))), tuple(corrections))
+    return Tokenised(_tokens(tuple(_read_numbers(words, vehicles))), tuple(corrections))
 
 
 _SUFFIXES = ("s", "es", "ed", "d", "ing", "ly", "er", "ers", "est", "ness", "ful", "ment")
@@ -110,7 +109,7 @@ def _known(word: str) -> tuple[str, ...]:
     return correct(word) or (word,)
 
 
-def _read_numbers(words: list[str]) -> list[str]:
+def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
     """Number words after a vehicle noun or another number become digits."""
     read: list[str] = []
     homophones = english()["homophones"]
@@ -123,7 +122,9 @@ def _read_numbers(words: list[str]) -> list[str]:
                 read[-1] = str(tens + value)
             else:
                 read.append(str(value))
-        elif before == "vehicle" and word in homophones and _verb_follows(words, index):
+        elif (
+            before == "vehicle" and homophones.get(word) in vehicles and _verb_follows(words, index)
+        ):
             read.append(str(homophones[word]))
         else:
             read.append(word)
@@ -136,13 +137,24 @@ def _verb_follows(words: list[str], index: int) -> bool:
     return bool(following) and vocabulary().forms.get(following[0]) is not None
 
 
+def _longest(words: tuple[str, ...], start: int) -> tuple[int, tuple[Sense, ...]] | None:
+    """The longest phrase that leaves a numbered vehicle whole: "what vehicle 3 did"."""
+    find = vocabulary().phrases.longest
+    found = find(words, start)
+    if found is None or found[0] - start < 2:
+        return found
+    end = found[0]
+    numbered = words[end - 1] in _vehicle_nouns() and words[end : end + 1] and words[end].isdigit()
+    return find(words[: end - 1], start) if numbered else found
+
+
 def _tokens(words: tuple[str, ...]) -> tuple[Token, ...]:
     known = vocabulary()
     tokens: list[Token] = []
     position = 0
     while position < len(words):
         word = words[position]
-        found = known.phrases.longest(words, position)
+        found = _longest(words, position)
         if word == BREAK:
             tokens.append(Token("BREAK", word, word))
             position += 1

@@ -38,12 +38,12 @@ def reason_for(tokens: tuple[Token, ...], typed: tuple[str, ...]) -> str | None:
     if is_foreign(typed):
         return "non-english"
     found = {t.value for t in tokens if t.terminal in ("TOPIC", "NOTACTION")}
-    if "ABUSE" not in found and any(t.terminal == "RUDE" for t in tokens):
-        found |= {"abuse"} if addressed(tokens) else set()
+    if any(t.terminal == "RUDE" for t in tokens) and _addressed(tokens):
+        found.add("abuse")
     return next((reason for reason in PRECEDENCE if reason in found), None)
 
 
-def addressed(tokens: tuple[Token, ...]) -> bool:
+def _addressed(tokens: tuple[Token, ...]) -> bool:
     """Whether somebody is spoken to or about in words that are no question."""
     return any(t.terminal in ("EGO", "CAR") for t in tokens)
 
