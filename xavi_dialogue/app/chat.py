@@ -1,7 +1,6 @@
 """`xavi chat`: car, service and conversation in one go, at a terminal or through a pipe."""
 
 import asyncio
-import re
 import signal
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -16,8 +15,7 @@ from xavi_dialogue.dialogue.reply import Reply, encode
 from xavi_dialogue.transports.bus import Keys
 from xavi_dialogue.transports.messages import MAX_TEXT, EventReport
 from xavi_dialogue.transports.text import one_line
-
-MOMENT = re.compile(r"@\s*(\d{1,6}(?:\.\d{1,6})?)\s*s?")
+from xavi_dialogue.transports.transcript import moment
 
 Write = Callable[[str], None]
 
@@ -30,12 +28,6 @@ class Ride:
     name: str  # of the scenario
     seed: int
     session: str
-
-
-def moment(line: str) -> float | None:
-    """The time [s] in a line such as "@ 8.0s"; None for any other line."""
-    match = MOMENT.fullmatch(line.strip())
-    return float(match[1]) if match else None
 
 
 def through_pipe(

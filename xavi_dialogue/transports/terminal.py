@@ -9,20 +9,18 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from prompt_toolkit import PromptSession, print_formatted_text
-from prompt_toolkit.application import create_app_session
 from prompt_toolkit.completion import CompleteEvent, Completer, Completion
 from prompt_toolkit.document import Document
 from prompt_toolkit.formatted_text import FormattedText
 from prompt_toolkit.history import History, InMemoryHistory
-from prompt_toolkit.input import Input
 from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
-from prompt_toolkit.output import Output
 from prompt_toolkit.patch_stdout import patch_stdout
 
 PROMPT = "> "
 REFRESH = 0.25  # [s] of the status line
 WATCH = 0.5  # [s] between looks at whether all is well
 MAX_WIDTH = 100  # columns of an answer
+WELCOME = "Ask about the ride at any time. /help lists what else there is."
 HINT = "Ctrl-C cancels an answer; Ctrl-D or /quit ends the ride."
 
 HELP = """\
@@ -70,10 +68,10 @@ class Cabin(Protocol):
     def new_request(self) -> str: ...
 
 
-@dataclass
+@dataclass(frozen=True)
 class _Waiting:
     request: str
-    task: "asyncio.Task[None] | None" = None
+    task: "asyncio.Task[None]"
 
 
 class TerminalChat:
@@ -115,6 +113,7 @@ class TerminalChat:
         tasks = [asyncio.create_task(self._answer_all()), asyncio.create_task(self._watch())]
         try:
             with patch_stdout():
+                _dim(WELCOME)
                 await self._talk(tasks[1])
         finally:
             self._loop = None
@@ -163,9 +162,9 @@ class TerminalChat:
         while True:
             text = await self._questions.get()
             request = self._cabin.new_request()
-            self._waiting = _Waiting(request, asyncio.create_task(self._answer(text, request)))
-            assert self._waiting.task is not None
-            await asyncio.wait([self._waiting.task])
+            task = asyncio.create_task(self._answer(text, request))
+            self._waiting = _Waiting(request, task)
+            await asyncio.wait([task])
             self._waiting = None
 
     async def _answer(self, text: str, request: str) -> None:
@@ -184,7 +183,7 @@ class TerminalChat:
     def _interrupt(self) -> None:
         """Ctrl-C: the answer that is waited for, else what is typed, else a hint."""
         waiting, buffer = self._waiting, self._session.default_buffer
-        if waiting is not None and waiting.task is not None:
+        if waiting is not None:
             self._cabin.cancel(waiting.request)
             waiting.task.cancel()
             _dim("(cancelled)")
@@ -231,13 +230,6 @@ def _tails(line: str) -> Iterator[str]:
         tail = " ".join(words[first:])
         if tail:
             yield tail
-
-
-@contextlib.contextmanager
-def session_on(source: Input | None = None, sink: Output | None = None) -> Iterator[None]:
-    """Use another terminal than the process's own."""
-    with create_app_session(input=source, output=sink):
-        yield
 
 
 def _factor(text: str) -> float:

@@ -1,0 +1,230 @@
+"""The service within one process: reports and questions over the in-memory bus."""
+
+import json
+import time
+from collections.abc import Callable
+
+import pytest
+
+from planner import trace as plan_trace
+from tests.fakes import s1_moments, scripted_mind
+from xavi_dialogue.app.client import Client, ServiceLost
+from xavi_dialogue.app.ledger import InOrder
+from xavi_dialogue.app.report import Reporter
+from xavi_dialogue.app.service import Service
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.bus import Bus, Call, Keys, NoAnswer, Refused, call
+from xavi_dialogue.transports.memory_bus import MemoryHub
+from xavi_dialogue.transports.messages import (
+    MESSAGES,
+    AskReply,
+    AskRequest,
+    CancelReply,
+    CancelRequest,
+    Failure,
+    HistoryReply,
+    HistoryRequest,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
+
+KEYS = Keys()
+ASK = KEYS.of("@rpc/ask")
+
+
+class Bench:
+    """A service, a car that reports, and passengers, on one in-memory hub."""
+
+    def __init__(self) -> None:
+        self.hub = MemoryHub()
+        self.service = Service(self.hub.connect(), KEYS, scripted_mind())
+        self.service.open()
+        self.car = self.hub.connect()
+        self.passenger: Bus = self.hub.connect()
+
+    def drive(self, until: float = 7.0, *, appear: bool = True) -> None:
+        if appear:
+            self.car.appear(KEYS.of("alive/car"))
+        reporter = Reporter(self.car, KEYS)
+        for moment in s1_moments():
+            reporter.record(moment)
+            reporter.show(moment, "ended" if moment.ending else "driving", 1.0)
+            if moment.scene.time >= until:
+                break
+        self.service.work()
+
+    def send(self, text: str, **more: object) -> list[object]:
+        """Ask; the list gets what comes back."""
+        came: list[object] = []
+        fields = {"request": "q1", "session": "ada", "text": text, **more}
+        asked = AskRequest(**fields)  # type: ignore[arg-type]
+        self.passenger.request(ASK, pack(asked), 1.0, came.append)
+        for _ in range(3):  # the question, and what the car replied to the service
+            self.service.work()
+        return came
+
+    def ask(self, text: str, **more: object) -> Reply:
+        [came] = self.send(text, **more)
+        assert isinstance(came, bytes)
+        return unpack(came, AskReply).reply()
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_a_question_is_answered_from_the_reported_record(bench: Bench) -> None:
+    bench.drive()
+    reply = bench.ask("answer")
+    assert (reply.kind, reply.sim_time) == ("answer", 7.0)
+    assert reply.timing_ms is not None
+    assert reply.trace_id == bench.service.desk.dialogue.traces[-1].trace_id
+
+
+def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
+    bench.drive(until=3.0)
+    came = bench.send("answer", at=6.0)
+    assert came == []
+    bench.drive(appear=False)  # a new ride gets there
+    [payload] = came
+    assert unpack(payload, AskReply).sim_time == 6.0  # type: ignore[arg-type]
+
+
+def test_reports_may_come_in_any_order() -> None:
+    items: InOrder[str] = InOrder()
+    assert items.add(1, "b") == []
+    assert items.add(0, "a") == ["a", "b"]
+    assert items.add(0, "a") == []
+    assert items.add(2, "c") == ["c"]
+
+
+def test_without_a_car_there_is_no_planner(bench: Bench) -> None:
+    reply = bench.ask("answer")
+    assert (reply.kind, reply.reason) == ("refusal", "planner-unavailable")
+
+
+def test_when_the_car_is_gone_the_conversation_goes_on(bench: Bench) -> None:
+    bench.drive(until=3.0)
+    bench.car.close()
+    assert bench.ask("answer").kind == "answer"
+    assert bench.ask("answer", at=6.0).reason == "planner-unavailable"
+    assert bench.ask("lack").reason == "planner-unavailable"
+
+
+def test_no_reply_is_late(bench: Bench) -> None:
+    bench.drive(until=3.0)
+    came = bench.send("answer", at=6.0, deadline_ms=100.0)
+    began = time.monotonic()
+    while not came:
+        bench.service.work(1.0)
+    assert time.monotonic() - began < 0.1
+    assert unpack(came[0], AskReply).reason == "timed-out"  # type: ignore[arg-type]
+
+
+def test_the_car_plans_again_on_request(bench: Bench) -> None:
+    bench.drive()
+    trace = bench.service.desk.dialogue.traces[0]
+    wanted: list[WhatIfRequest] = []
+
+    def plan(asked: Call) -> None:
+        wanted.append(unpack(asked.payload, WhatIfRequest))
+        asked.reply(plan_trace.encode(trace))
+
+    bench.car.serve(KEYS.of("@rpc/whatif"), plan)
+    came = bench.send("lack more")
+    assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]
+    assert [w.rollouts for w in wanted] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("answer", "reason"),
+    [
+        (lambda asked: asked.refuse(pack(Failure(reason="outside-record"))), "outside-record"),
+        (lambda asked: asked.refuse(b"junk"), "planner-failed"),
+        (lambda asked: asked.reply(b"junk"), "planner-failed"),
+        (lambda asked: asked.drop(), "timed-out"),
+    ],
+)
+def test_what_the_car_cannot_plan_is_told(
+    bench: Bench, answer: Callable[[Call], None], reason: str
+) -> None:
+    bench.drive()
+    bench.car.serve(KEYS.of("@rpc/whatif"), answer)
+    came = bench.send("lack")
+    assert unpack(came[0], AskReply).reason == reason  # type: ignore[arg-type]
+
+
+def test_a_cancelled_question_gets_no_reply(bench: Bench) -> None:
+    bench.drive()
+    held: list[Call] = []
+    bench.car.serve(KEYS.of("@rpc/whatif"), held.append)
+    came = bench.send("lack")
+    wanted = pack(CancelRequest(request="q1", session="ada"))
+    outcomes: list[bytes] = []
+    bench.passenger.request(KEYS.of("@rpc/cancel"), wanted, 1.0, outcomes.append)  # type: ignore[arg-type]
+    bench.service.work()
+    assert unpack(outcomes[0], CancelReply).cancelled
+    assert [type(one).__mro__[1] for one in came] == [NoAnswer]
+    held[0].reply(plan_trace.encode(bench.service.desk.dialogue.traces[0]))
+    bench.service.work()  # too late, and no harm done
+    assert bench.ask("answer").kind == "answer"
+
+
+def test_another_ride_begins_another_record(bench: Bench) -> None:
+    bench.drive()
+    bench.drive(until=3.0, appear=False)
+    assert bench.ask("answer").sim_time == 3.0
+    assert len(bench.service.desk.dialogue.traces) == 1
+
+
+def test_the_history_of_a_session_can_be_read(bench: Bench) -> None:
+    bench.drive()
+    bench.ask("answer")
+    bench.ask("refuse", request="q2")
+    came: list[bytes] = []
+    wanted = pack(HistoryRequest(session="ada"))
+    bench.passenger.request(KEYS.of("@rpc/history"), wanted, 1.0, came.append)  # type: ignore[arg-type]
+    bench.service.work()
+    turns = unpack(came[0], HistoryReply).turns
+    assert [turn.text for turn in turns] == ["answer", "refuse"]
+
+
+@pytest.mark.parametrize("rpc", ["ask", "history", "cancel"])
+def test_nonsense_is_refused_with_its_reason(bench: Bench, rpc: str) -> None:
+    came: list[object] = []
+    bench.passenger.request(KEYS.of(f"@rpc/{rpc}"), b'{"schema": 3}', 1.0, came.append)
+    bench.service.work()
+    [refused] = came
+    assert isinstance(refused, Refused)
+    assert "no xavi." in unpack(refused.payload, Failure).detail
+
+
+def test_nonsense_in_the_record_is_counted_and_left_out(bench: Bench) -> None:
+    bench.car.publisher(KEYS.of("trace")).put(b"junk")
+    bench.drive()
+    assert bench.service.rejected == 1
+    assert bench.ask("answer").kind == "answer"
+
+
+def test_one_name_one_question(bench: Bench) -> None:
+    bench.drive()
+    bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
+    bench.send("lack")
+    [refused] = bench.send("answer")
+    assert isinstance(refused, Refused)
+    assert unpack(refused.payload, Failure).reason == "busy"
+
+
+def test_the_service_tells_its_schemas(bench: Bench) -> None:
+    told = [name for name in MESSAGES if KEYS.of(f"@schema/{name}") in bench.hub.servers]
+    assert {"ask", "reply", "history", "cancel", "whatif", "failure"} <= set(told)
+    schema = json.loads(call(bench.passenger, KEYS.of("@schema/ask"), b"", 1.0))
+    assert schema["properties"]["schema"] == {"const": "xavi.ask/1"}
+
+
+def test_a_client_without_a_service_is_told_so(bench: Bench) -> None:
+    alone = Client(MemoryHub().connect(), KEYS, "ada")
+    with pytest.raises(ServiceLost, match="does not answer"):
+        alone.ask("why?")

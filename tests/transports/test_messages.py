@@ -1,0 +1,124 @@
+import json
+
+import msgspec
+import pytest
+
+from planner.events import Event
+from tests.fakes import EGO
+from tests.traces import s1_ride
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.messages import (
+    MESSAGES,
+    AskReply,
+    AskRequest,
+    CancelRequest,
+    EventReport,
+    Failure,
+    Malformed,
+    MessageError,
+    SceneReport,
+    TooLarge,
+    TraceReport,
+    WhatIfRequest,
+    WrongSchema,
+    pack,
+    schema_name,
+    unpack,
+)
+from xavi_dialogue.transports.schema import schema_of
+
+TRACE = s1_ride(draws=10).traces[0]
+HEAD = {"ride": "r1", "seq": 3, "sim_time": 2.0, "wall_time": 1.0e9}
+EXAMPLES = (
+    SceneReport(
+        **HEAD, vehicles={0: EGO}, state="driving", speed_factor=1.0, plan=(), traces=1, events=0
+    ),
+    TraceReport(**HEAD, trace=TRACE),
+    EventReport(**HEAD, event=Event("arrived", 2.0)),
+    AskRequest(request="q1", session="ada", text="Why?"),
+    AskReply(text="So.", kind="answer", sim_time=2.0, request="q1", seq=0, wall_time=1.0),
+    CancelRequest(request="q1", session="ada"),
+    WhatIfRequest(request="q1", trace_id=TRACE.trace_id, actions=("stop",)),
+    Failure(reason="busy"),
+)
+ASK = json.loads(pack(EXAMPLES[3]))
+
+
+@pytest.mark.parametrize("message", EXAMPLES, ids=lambda m: type(m).__name__)
+def test_a_message_comes_through_as_it_was(message: AskRequest) -> None:
+    assert unpack(pack(message), type(message)) == message
+
+
+def test_a_trace_keeps_its_name_on_the_way() -> None:
+    report = unpack(pack(EXAMPLES[1]), TraceReport)
+    assert report.trace.trace_id == TRACE.trace_id
+
+
+def test_a_reply_can_be_told_from_what_surrounds_it() -> None:
+    reply = Reply(text="So.", kind="answer", sim_time=2.0)
+    assert EXAMPLES[4].reply() == reply
+
+
+@pytest.mark.parametrize("kind", MESSAGES.values(), ids=MESSAGES)
+def test_every_message_has_a_schema_of_its_own(kind: type[AskRequest]) -> None:
+    schema = json.dumps(schema_of(kind, schema_name(kind)))
+    assert "$ref" not in schema
+    assert schema_name(kind) in schema
+
+
+@pytest.mark.parametrize(
+    ("change", "error"),
+    [
+        ({"schema": "xavi.ask/2"}, WrongSchema),
+        ({"schema": None}, Malformed),
+        ({"request": ""}, Malformed),
+        ({"request": "a b"}, Malformed),
+        ({"session": "x" * 65}, Malformed),
+        ({"text": 7}, Malformed),
+        ({"text": "x" * 5000}, Malformed),
+        ({"text": "x" * 20000}, TooLarge),
+        ({"deadline_ms": -1}, Malformed),
+        ({"deadline_ms": 1e9}, Malformed),
+        ({"at": "noon"}, Malformed),
+        ({"style": "pirate"}, Malformed),
+    ],
+)
+def test_a_wrong_message_gets_its_error(
+    change: dict[str, object], error: type[MessageError]
+) -> None:
+    with pytest.raises(error):
+        unpack(json.dumps({**ASK, **change}).encode(), AskRequest)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"\x00\xff\xfe",
+        b"null",
+        b"[]",
+        b"{}",
+        b'{"schema": "xavi.ask/1"}',
+        b"[" * 15000,
+        json.dumps(ASK).replace("10000.0", "NaN").encode(),
+    ],
+)
+def test_what_is_no_message_gets_a_typed_error(data: bytes) -> None:
+    with pytest.raises(Malformed):
+        unpack(data, AskRequest)
+
+
+def test_the_schema_must_be_told() -> None:
+    unlabelled = {key: value for key, value in ASK.items() if key != "schema"}
+    with pytest.raises(Malformed, match="schema"):
+        unpack(json.dumps(unlabelled).encode(), AskRequest)
+
+
+def test_a_question_is_made_harmless_where_it_comes_in() -> None:
+    data = json.dumps({**ASK, "text": "\x1b[2JWhy\n did you?"}).encode()
+    assert unpack(data, AskRequest).text == "Why did you?"
+
+
+def test_a_reply_is_made_harmless_before_it_is_shown() -> None:
+    reply = msgspec.structs.replace(EXAMPLES[4], text="\x1b]0;evil\x07So.")
+    assert unpack(pack(reply), AskReply).reply().text == "So."
