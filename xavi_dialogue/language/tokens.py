@@ -116,8 +116,8 @@ def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
     for index, word in enumerate(words):
         before = read[-1] if read else ""
         value = _numbers().get(word)
-        if value is not None and (word != "one" or before in _vehicle_nouns()):
-            tens = int(before) if before.isdigit() else 0
+        tens = int(before) if before.isdigit() else 0
+        if value is not None and (word != "one" or before in _vehicle_nouns() or tens):
             if tens >= 20 and tens % 10 == 0 and value < 10:
                 read[-1] = str(tens + value)
             else:

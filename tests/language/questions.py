@@ -1,0 +1,43 @@
+"""Annotated questions, and how well the parser agrees with them."""
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from tests.language.score import judge
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.parse import NotUnderstood, Parser, as_query
+
+HERE = Path(__file__).parent
+
+
+@cache
+def parser() -> Parser:
+    return Parser()
+
+
+def parse(text: str, *context: str) -> Query | NotUnderstood:
+    return parser().parse(text, context=context)
+
+
+def query(text: str, *context: str) -> Query:
+    result = parse(text, *context)
+    assert isinstance(result, Query), f"{text!r}: {result}"
+    return result
+
+
+def lines(name: str) -> list[dict[str, Any]]:
+    text = (HERE / name).read_text(encoding="utf-8")
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def figures(name: str) -> dict[str, float]:
+    """Percentages, as score.py prints them for all questions of a file."""
+    verdicts = [
+        judge(gold, msgspec.to_builtins(as_query(parse(gold["text"], *gold.get("context", ())))))
+        for gold in lines(name)
+    ]
+    return {key: 100 * sum(v[key] for v in verdicts) / len(verdicts) for key in verdicts[0]}
