@@ -44,7 +44,7 @@ class LaneChange:
 class GiveWay:
     """Wait at a line until those who go first on the link's foes leave a gap."""
 
-    stop: float  # [m] arc of the waiting line, for the front bumper
+    stop: float  # [m] arc of the waiting line, for the front bumper; negative once passed
     clear: float  # [m] arc at which the junction is left
     link: Link
     yields_to: frozenset[tuple[str, int]]  # (junction, link index) of those who go first
@@ -261,16 +261,12 @@ def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | No
 
 
 def _give_way(link: Link, inside: int, begins: dict[str, float], enter: float) -> list[Manoeuvre]:
-    if not link.yields_to or inside >= 1:
+    waits = link.via[1] if link.waits_inside and len(link.via) > 1 else None
+    if not link.yields_to or (inside >= 0 and waits not in begins):
         return []
-    if link.waits_inside and len(link.via) > 1:
-        line = begins[link.via[1]]
-    elif inside >= 0:
-        return []
-    else:
-        line = enter
+    line = enter if waits is None else begins[waits]
     foes = frozenset((link.junction, index) for index in link.yields_to)
-    return [GiveWay(max(line - 0.5, 0.0), begins[link.to_lane], link, foes)]
+    return [GiveWay(line - 0.5, begins[link.to_lane], link, foes)]
 
 
 def _along(roads: Roads, here: Situation, lanes: tuple[str, ...], reach: float) -> Path:

@@ -14,6 +14,7 @@ from planner.trace import ACTIONS, Action
 LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
 DEPTH = 3  # macro actions in a row
 SOLUTIONS = 2
+SLOW = 2.0  # [m/s] below which a vehicle waits rather than drives
 SLACK = 8.0  # [s] by which a further solution may cost more than the best
 
 
@@ -28,6 +29,16 @@ class Solution:
     def actions(self) -> tuple[Action, ...]:
         """The macro actions, in order."""
         return tuple(leg.action for leg in self.legs)
+
+    @property
+    def waits(self) -> tuple[int, ...]:
+        """The steps in which it all but stands to let others go first."""
+        return tuple(
+            hindrance.step
+            for leg in self.legs
+            for hindrance in leg.hindrances
+            if hindrance.how == "right-of-way" and leg.speed[hindrance.step - leg.first] < SLOW
+        )
 
 
 def ways(

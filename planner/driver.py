@@ -21,7 +21,8 @@ from sim.network import Location, Network
 from sim.scene import EGO, Command, Scene, VehicleState
 
 MEMORY = 10.0  # [s] of history
-CAUTION = 0.05  # probability from which a motion of another vehicle must be given way to
+CAUTION = 0.05  # probability from which a motion of a standing vehicle must be given way to
+STANDING = 1.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
 class DriverError(Exception):
@@ -71,7 +72,7 @@ class Driver:
         self.finished = False
 
     def step(self, scene: Scene, dt: float) -> DriveStep:
-        """Drive on for one step.
+        """Drive on for one step; beyond the goal, without deciding anything any more.
 
         Args:
             scene: what is seen now.
@@ -84,7 +85,7 @@ class Driver:
         self._observe(scene)
         trace = None
         due = scene.time - self._decided >= self._frame.settings.period - 1e-6
-        if due or self._current is None:
+        if (due or self._current is None) and not self.finished:
             trace = self._decide(scene, events)
         command = self._drive(scene, dt, events)
         return DriveStep(command, trace, tuple(events))
@@ -200,10 +201,12 @@ class Driver:
         crossing = []
         if current.plan.give_ways and self._last is not None:
             elapsed = round((scene.time - self._last.trace.sim_time) / DT)
-            for beliefs in self._last.beliefs.values():
+            for vehicle, beliefs in self._last.beliefs.items():
+                here = scene.vehicles.get(vehicle)
+                least = CAUTION if here is None or here.speed < STANDING else 0.0
                 for belief in beliefs:
                     for way in belief.trajectories:
-                        if belief.probability * way.probability >= CAUTION:
+                        if belief.probability * way.probability >= least:
                             ahead = aligned(way.motion, -elapsed, GAP_HORIZON + 10)
                             crossing.append(occupancy(path, ahead, size, 0, GAP_HORIZON))
         return accelerate(

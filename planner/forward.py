@@ -26,6 +26,7 @@ REACTION = 0.9  # [s] of Krauss' model
 RELAXATION = 0.5  # [s] in which a wanted speed is approached
 MIN_GAP = 2.0  # [m] to a standing leader
 GAP_HORIZON = 40  # steps of DT that a gap at a waiting line must stay clear
+INTRUSION = 1.0  # [m] by which one may stand in a stretch that is shared: boxes are generous
 HINDERED = 0.5  # [m/s] below the free speed from which a vehicle counts as held up
 
 
@@ -219,6 +220,6 @@ def _blocker(
             begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
             if begin is not None:
                 stopping = motion.speed**2 / (2.0 * FOLLOWING)
-                late = motion.arc > line.stop and begin - motion.arc < stopping
+                late = motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION
                 return None if late else other
     return None

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.actions import COMFORT, ActionPlan, Situation, Stop
-from planner.astar import LANE_CHANGE_COST, SOLUTIONS, Solution, ways
+from planner.astar import LANE_CHANGE_COST, SLOW, SOLUTIONS, Solution, ways
 from planner.forward import ACCELERATION, DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view, stopping_time
 from planner.obstacles import Obstacle
@@ -53,6 +53,8 @@ class _Way:
     """One way on from now."""
 
     cost: float  # [s]
+    waiting: float  # [s] of it
+    waits_now: bool
     actions: tuple[Action, ...]
     motion: Obstacle
 
@@ -152,9 +154,15 @@ def _ways_on(
     if goal.target is None:
         return _stopping(frame, starts[0], observed, others)
     task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others, SOLUTIONS)
+    solutions = ways(task, starts, others, SOLUTIONS) or ways(task, starts, (), 1)
     return [
-        _Way(solution.cost, solution.actions, _motion(task, solution, observed, others))
+        _Way(
+            solution.cost,
+            len(solution.waits) * DT,
+            0 in solution.waits,
+            solution.actions,
+            _motion(task, solution, observed, others),
+        )
         for solution in solutions
     ]
 
@@ -203,7 +211,7 @@ def _stopping(
         np.concatenate((speed, np.zeros(rest))),
         links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
     )
-    return [_Way(here.speed / COMFORT, ("stop",), motion)]
+    return [_Way(here.speed / COMFORT, 0.0, False, ("stop",), motion)]
 
 
 def _excess(
@@ -213,18 +221,32 @@ def _excess(
     onwards: list[_Way],
     before: Sequence[Obstacle],
 ) -> float:
-    """By how much [s] the track and the best way on cost more than the best way from its start."""
+    """By how much [s] the track and the best way on cost more than the best way from its start.
+
+    Waiting for those who go first is never held against a goal: some drivers take a gap that
+    others let pass.
+    """
     if not onwards:
         return NO_WAY
     if goal.target is None:
         return _stop_excess(frame, observed)
     start = frame.start - observed.elapsed * DT
     task = replace(frame, goal=goal.target, start=start, horizon=frame.horizon + observed.elapsed)
-    best = ways(task, observed.situation(frame.roads, 0, start), before, 1)
+    then = observed.situation(frame.roads, 0, start)
+    best = ways(task, then, before, 1) or ways(task, then, (), 1)
     if not best:
         return NO_WAY
     spent = observed.elapsed * DT + LANE_CHANGE_COST * _sideways(frame.roads, observed)
-    return max(spent + onwards[0].cost - best[0].cost, 0.0)
+    if onwards[0].waits_now:
+        spent -= _standing(observed)
+    usual = best[0].cost - len(best[0].waits) * DT
+    return max(spent + onwards[0].cost - onwards[0].waiting - usual, 0.0)
+
+
+def _standing(observed: Observed) -> float:
+    """For how long [s] the vehicle has been all but standing up to now."""
+    driving = np.flatnonzero(observed.speed >= SLOW)
+    return (observed.elapsed - int(driving[-1]) if len(driving) else observed.elapsed) * DT
 
 
 def _stop_excess(frame: Task, observed: Observed) -> float:

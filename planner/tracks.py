@@ -1,12 +1,14 @@
 """Observed tracks, and how they are carried on: history, coasting, driving on."""
 
+import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.actions import ActionPlan, LaneFollow, Situation
-from planner.forward import DT, Motion, drive
+from planner.forward import DT, FOLLOWING, Motion, drive
 from planner.obstacles import Obstacle
 from planner.routes import onward
 from planner.trajectory import Array, Path, Roads
@@ -71,6 +73,9 @@ def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
 def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstacle:
     """The vehicle as an obstacle that goes on along its lane as it does now.
 
+    Where it comes to a line at which it must give way, it is taken to wait there: those who go
+    first need not reckon with it.
+
     Args:
         roads: the road network.
         observed: its track.
@@ -84,6 +89,9 @@ def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstac
         here = now[0]
         row = onward(roads, (here.location.lane,), here.location.offset + arcs[-1] + 5.0)
         path = roads.path(row, here.position, here.heading, 12.0, float(arcs[-1]) + 5.0)
+        line = _line_ahead(roads, row, here.location)
+        if line >= speed[0] ** 2 / (2.0 * FOLLOWING):
+            arcs, speed = np.minimum(arcs, line), np.where(arcs < line, speed, 0.0)
         position, heading = sample_path(path, arcs)
         links = links_of(roads, row)
     else:
@@ -171,6 +179,17 @@ def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps:
         return np.full(steps, speed)
     growing: Array = speed + gained * DT * np.arange(1, steps + 1, dtype=np.float64)
     return np.minimum(growing, limit)
+
+
+def _line_ahead(roads: Roads, row: Sequence[str], here: Location) -> float:
+    """Distance [m] to the first line on a row of lanes at which one must give way."""
+    ahead = -here.offset
+    for lane, after in itertools.pairwise(row):
+        ahead += roads.network.lanes[lane].length
+        link = roads.network.link_via(after)
+        if link is not None and link.yields_to and link.via[0] == after:
+            return max(ahead - 0.5, 0.0)
+    return math.inf
 
 
 def _links_seen(roads: Roads, observed: Observed) -> frozenset[tuple[str, int]]:

@@ -77,6 +77,7 @@ def reasons(name: str, lane: str, offset: float, speed: float = 8.0) -> dict[Act
                 "change-right": "there is no lane to the right",
                 "exit-left": "its lane does not lead to the left",
                 "exit-straight": NO_NEED,
+                "stop": "it would come to a stop inside the junction",
             },
         ),
         (

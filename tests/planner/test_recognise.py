@@ -153,6 +153,28 @@ def test_standing_inside_a_junction_is_nobodys_goal() -> None:
     assert probability(beliefs("s2", {1: waiting(4.0), 2: oncoming()})[1], "stop") == 0.0
 
 
+@pytest.mark.parametrize("away", [60.0, 40.0, 25.0, 12.0])
+def test_nobody_with_priority_is_foreseen_to_brake_for_the_ego(away: float) -> None:
+    line = roads("s2").line(("west_in_0",))
+    steady = driven(line, before_end("s2", "west_in_0", away), [9.0] * 20)
+    ego = still("s2", ("south_in_0",), before_end("s2", "south_in_0", 15.0), 7.0)
+    found = predict(frame("s2", Settings()), moment("s2", {0: ego, 1: steady}))[1]
+    (onward,) = [belief for belief in found if belief.goal.kind == "continue"]
+    assert onward.probability > 0.02
+    motion = onward.trajectories[0].motion
+    there = ~np.isnan(motion.position[:, 0])
+    assert np.min(motion.speed[there]) >= 9.0
+
+
+def test_a_goal_is_not_ruled_out_by_who_is_in_the_way() -> None:
+    line = roads("s1").line(row("s1", "main_in_0", "straight"))
+    here = before_end("s1", "main_in_0", 60.0)
+    blocked = driven(line, here, [10.0] * 5)
+    parked = driven(line, here + LENGTH + 3.0, [0.0] * 5)
+    found = beliefs("s1", {1: blocked, 2: parked})[1]
+    assert {belief.goal.kind for belief in found} >= {"continue", "exit-right"}
+
+
 def test_a_foreseen_motion_begins_where_the_vehicle_is() -> None:
     seen = changed(8)
     for belief in beliefs("s1", {1: seen})[1]:

@@ -1,0 +1,286 @@
+import itertools
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+
+import pytest
+
+from planner.driver import Driver, DriverError, DriveStep
+from planner.events import Event
+from planner.forward import ACCELERATION, EMERGENCY
+from planner.trace import EgoGoal, PlanTrace, Settings, encode
+from planner.trajectory import Path
+from sim.boxes import overlap
+from sim.network import angle_between
+from sim.scene import EGO, Scene, VehicleState
+from tests.planner.worlds import (
+    LENGTH,
+    START,
+    WIDTH,
+    before_end,
+    changing,
+    goal,
+    roads,
+    row,
+)
+
+STEP = 0.1  # [s]
+QUICK = Settings(rollouts=30, min_rollouts=4)
+
+
+@dataclass(frozen=True)
+class Coasting:
+    """A vehicle that drives along a line at a steady speed, while it is in view."""
+
+    line: Path
+    start: float  # [m] arc at 0 s
+    speed: float  # [m/s]
+    until: float = math.inf  # [s]
+
+    def at(self, time: float) -> VehicleState | None:
+        arc = self.start + self.speed * time
+        if time > self.until or arc > self.line.length:
+            return None
+        return VehicleState(*self.line.pose(arc), self.speed, 0.0, LENGTH, WIDTH)
+
+
+@dataclass
+class Ride:
+    """What came of a drive in a world where the others coast."""
+
+    name: str
+    scenes: list[Scene] = field(default_factory=list)
+    steps: list[DriveStep] = field(default_factory=list)
+    finished: bool = False
+
+    @property
+    def events(self) -> list[Event]:
+        return [event for step in self.steps for event in step.events]
+
+    @property
+    def traces(self) -> list[PlanTrace]:
+        return [step.trace for step in self.steps if step.trace is not None]
+
+
+def ego_at(name: str, away: float, speed: float = 8.0) -> VehicleState:
+    """The ego at a distance [m] before its first junction."""
+    lane = START[name]
+    pose = roads(name).line((lane,)).pose(before_end(name, lane, away))
+    return VehicleState(*pose, speed, 0.0, LENGTH, WIDTH)
+
+
+def ride(
+    name: str,
+    others: Mapping[int, Coasting],
+    *,
+    away: float = 60.0,
+    lasting: float = 40.0,
+    settings: Settings = QUICK,
+    target: EgoGoal | None = None,
+    seen: Callable[[VehicleState], VehicleState] = lambda state: state,
+) -> Ride:
+    """Drive until the goal, or for some time [s]."""
+    driver = Driver(roads(name).network, target or goal(name), settings, seed=0)
+    ego, done = ego_at(name, away), Ride(name)
+    for k in range(round(lasting / STEP)):
+        time = round(k * STEP, 3)
+        states = {vehicle: other.at(time) for vehicle, other in others.items()}
+        present = {vehicle: state for vehicle, state in states.items() if state is not None}
+        scene = Scene(time, {EGO: seen(ego), **present})
+        step = driver.step(scene, STEP)
+        done.scenes.append(scene)
+        done.steps.append(step)
+        command = step.command
+        change = (command.speed - ego.speed) / STEP
+        ego = VehicleState(command.position, command.heading, command.speed, change, LENGTH, WIDTH)
+        if driver.finished:
+            break
+    done.finished = driver.finished
+    return done
+
+
+def along(name: str, lane: str, away: float, speed: float, until: float = math.inf) -> Coasting:
+    """A vehicle that comes straight on from a distance [m] before a junction."""
+    line = roads(name).line(row(name, lane, "straight"))
+    return Coasting(line, before_end(name, lane, away), speed, until)
+
+
+def slow_cutter() -> Coasting:
+    """A vehicle that changes to the ego's lane ahead of it, and is slow."""
+    line = changing("s1", "main_in_1", "main_in_0", before_end("s1", "main_in_1", 75.0))
+    return Coasting(line, 0.0, 4.0)
+
+
+@pytest.fixture(
+    scope="module",
+    params=["alone", "cut in", "minor road", "oncoming"],
+)
+def drive(request: pytest.FixtureRequest) -> Ride:
+    match request.param:
+        case "alone":
+            return ride("s1", {})
+        case "cut in":
+            return ride("s1", {1: slow_cutter()}, away=95.0)
+        case "minor road":
+            return ride("s2", {1: along("s2", "west_in_0", 70.0, 9.0)})
+        case _:
+            return ride("s2", {2: along("s2", "east_in_0", 70.0, 12.0)})
+
+
+def test_the_goal_is_reached(drive: Ride) -> None:
+    assert drive.finished
+    last = drive.steps[-1].command.position
+    wanted = goal(drive.name)
+    lanes = roads(drive.name).network.edge_lanes(wanted.edge)
+    poses = [roads(drive.name).line((lane.id,)).pose(wanted.position) for lane in lanes]
+    assert min(math.dist(last, place) for place, _ in poses) < 2.0
+
+
+def test_nobody_is_hit(drive: Ride) -> None:
+    for scene in drive.scenes:
+        for vehicle, state in scene.vehicles.items():
+            if vehicle != EGO:
+                assert not overlap(scene.ego, state), (scene.time, vehicle)
+
+
+def test_commands_are_continuous(drive: Ride) -> None:
+    for scene, step in zip(drive.scenes, drive.steps, strict=True):
+        before, command = scene.ego, step.command
+        moved = math.dist(before.position, command.position)
+        assert moved == pytest.approx(0.5 * (before.speed + command.speed) * STEP, abs=0.08)
+        turned = angle_between(command.heading, before.heading)
+        assert abs(turned) <= 0.45 * moved + 0.01
+        change = (command.speed - before.speed) / STEP
+        # What is decided anew starts from speeds as they are recorded, to the cm/s.
+        assert -EMERGENCY - 0.06 <= change <= ACCELERATION + 0.06
+        assert command.speed >= 0.0
+
+
+def test_decisions_are_at_most_a_period_apart(drive: Ride) -> None:
+    times = [trace.sim_time for trace in drive.traces]
+    assert times[0] == 0.0
+    gaps = [b - a for a, b in itertools.pairwise(times)]
+    assert max(gaps) <= QUICK.period + 1e-6
+    assert [trace.decision for trace in drive.traces] == list(range(len(times)))
+
+
+def test_events_come_in_order(drive: Ride) -> None:
+    events = drive.events
+    assert [event.sim_time for event in events] == sorted(event.sim_time for event in events)
+    current: str | None = None
+    committed = False
+    for event in events:
+        match event.kind:
+            case "action-started":
+                assert current is None
+                current, committed = event.action, False
+            case "action-committed":
+                assert event.action == current
+                assert not committed
+                committed = True
+            case "action-ended":
+                assert event.action == current
+                current = None
+            case "gave-way":
+                assert event.action == current
+                assert event.vehicle is not None
+            case _:
+                assert event.kind == "arrived"
+                assert event is events[-1]
+    assert current is None
+    assert events[-1].kind == "arrived"
+
+
+def test_events_name_the_decision_that_chose(drive: Ride) -> None:
+    traces = {trace.decision: trace for trace in drive.traces}
+    for event in drive.events:
+        if event.kind == "action-started":
+            assert event.decision is not None
+            chosen = traces[event.decision]
+            assert chosen.plan[0].action == event.action
+            assert chosen.sim_time == event.sim_time
+
+
+def test_history_is_at_five_hertz_and_ten_seconds_long(drive: Ride) -> None:
+    for trace in drive.traces:
+        for vehicle, track in trace.history.items():
+            last = track.start + 0.2 * (len(track.speed) - 1)
+            assert last == pytest.approx(trace.sim_time, abs=1e-6)
+            assert len(track.speed) == min(51, round(trace.sim_time / 0.2 - 0.01) + 1)
+            assert track.position[-1] == trace.scene[vehicle].position
+
+
+def test_what_is_committed_is_marked_under_way(drive: Ride) -> None:
+    spans = []
+    for event in drive.events:
+        if event.kind == "action-committed":
+            spans.append([event.sim_time, math.inf, event.action])
+        elif event.kind == "action-ended" and spans and spans[-1][1] == math.inf:
+            spans[-1][1] = event.sim_time
+    for trace in drive.traces:
+        inside = [action for a, b, action in spans if a <= trace.sim_time < b]
+        assert ([trace.under_way.action] if trace.under_way else []) == inside
+        if trace.under_way is not None:
+            assert {rollout.actions[0].action for rollout in trace.rollouts} == set(inside)
+
+
+def test_a_slow_vehicle_that_cuts_in_is_passed() -> None:
+    done = ride("s1", {1: slow_cutter()}, away=95.0)
+    started = [event.action for event in done.events if event.kind == "action-started"]
+    assert "change-left" in started
+    assert started[-1] == "continue"
+
+
+def test_who_has_priority_is_given_way_to() -> None:
+    done = ride("s2", {1: along("s2", "west_in_0", 75.0, 9.0)}, away=60.0)
+    gave = [event for event in done.events if event.kind == "gave-way"]
+    assert [event.vehicle for event in gave] == [1]
+    assert gave[0].action == "exit-right"
+
+
+def test_a_vehicle_may_vanish_in_mid_drive() -> None:
+    others = {1: along("s2", "west_in_0", 75.0, 9.0, until=3.0)}
+    done = ride("s2", others)
+    assert done.finished
+    late = [trace for trace in done.traces if trace.sim_time > 3.2]
+    assert late
+    for trace in late:
+        assert list(trace.scene) == list(trace.history) == [EGO]
+
+
+def test_a_vehicle_may_appear_in_mid_drive() -> None:
+    done = ride("s1", {1: along("s1", "main_in_0", 20.0, 9.0)})
+    entry = [len(trace.history[1].speed) for trace in done.traces if 1 in trace.history]
+    assert entry[0] == 1
+    assert done.finished
+
+
+def test_driving_is_deterministic() -> None:
+    one, other = (ride("s1", {1: slow_cutter()}, away=95.0, lasting=4.0) for _ in range(2))
+    assert [encode(trace) for trace in one.traces] == [encode(trace) for trace in other.traces]
+    assert [step.command for step in one.steps] == [step.command for step in other.steps]
+
+
+def test_off_the_road_nothing_can_be_driven() -> None:
+    with pytest.raises(DriverError, match=r"on no lane at 0\.0 s"):
+        ride("s1", {}, seen=lambda state: replace(state, position=(500.0, 500.0)))
+
+
+def test_beyond_its_goal_the_car_drives_on_without_further_events() -> None:
+    driver = Driver(roads("s1").network, goal("s1"), QUICK, seed=0)
+    here = roads("s1").line(("main_out_0",)).pose(goal("s1").position - 5.0)
+    ego, kinds = VehicleState(*here, 10.0, 0.0, LENGTH, WIDTH), []
+    for k in range(15):
+        step = driver.step(Scene(round(k * STEP, 3), {EGO: ego}), STEP)
+        kinds += [event.kind for event in step.events]
+        command = step.command
+        ego = VehicleState(command.position, command.heading, command.speed, 0.0, LENGTH, WIDTH)
+    assert driver.finished
+    assert kinds == ["action-started", "action-ended", "arrived"]
+    assert ego.position[0] > here[0][0] + 10.0
+
+
+def test_a_goal_out_of_reach_does_not_stop_the_car_from_deciding() -> None:
+    done = ride("s1", {}, away=60.0, lasting=3.0, target=EgoGoal("from_s", 50.0, None))
+    assert not done.finished
+    assert {rollout.outcome for trace in done.traces for rollout in trace.rollouts} == {"dead"}
