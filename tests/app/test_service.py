@@ -1,7 +1,6 @@
 """The service within one process: reports and questions over the in-memory bus."""
 
 import json
-import time
 from collections.abc import Callable
 
 import pytest
@@ -9,6 +8,7 @@ import pytest
 from planner import trace as plan_trace
 from tests.fakes import s1_moments, scripted_mind
 from xavi_dialogue.app.client import Client, ServiceLost
+from xavi_dialogue.app.desk import Answer
 from xavi_dialogue.app.ledger import InOrder
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.service import Service
@@ -113,14 +113,28 @@ def test_when_the_car_is_gone_the_conversation_goes_on(bench: Bench) -> None:
     assert bench.ask("lack").reason == "planner-unavailable"
 
 
-def test_no_reply_is_late(bench: Bench) -> None:
+def test_a_question_is_given_up_before_its_deadline(bench: Bench) -> None:
     bench.drive(until=3.0)
-    came = bench.send("answer", at=6.0, deadline_ms=100.0)
-    began = time.monotonic()
-    while not came:
-        bench.service.work(1.0)
-    assert time.monotonic() - began < 0.1
-    assert unpack(came[0], AskReply).reason == "timed-out"  # type: ignore[arg-type]
+    came = bench.send("answer", at=6.0, deadline_ms=2000.0)
+    desk = bench.service.desk
+    [question] = desk.questions.values()
+    deadline = question.came + 2.0
+    assert desk.settle(deadline - 0.2) == []
+    [given_up] = desk.settle(deadline - 0.01)
+    assert isinstance(given_up, Answer)
+    assert given_up.reply.reason == "timed-out"
+    assert (came, desk.questions) == ([], {})
+
+
+def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
+    bench.drive()
+    bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
+    bench.send("lack", deadline_ms=2000.0)
+    desk = bench.service.desk
+    [given_up] = desk.settle(desk.questions["q1"].came + 1.99)
+    assert isinstance(given_up, Answer)
+    assert given_up.reply.reason == "timed-out"
+    assert bench.ask("answer", request="q2").kind == "answer"
 
 
 def test_the_car_plans_again_on_request(bench: Bench) -> None:

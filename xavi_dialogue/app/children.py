@@ -90,9 +90,8 @@ class Child:
         if code is not None:
             self._ear.join(FORCED)
             words = next((line for line in reversed(self._said) if line.strip()), "")
-            raise ChildFailed(
-                f"{self.name} has ended ({_manner(code)})" + f": {words}" * bool(words)
-            )
+            ended = f"{self.name} has ended ({_manner(code)})"
+            raise ChildFailed(f"{ended}: {words.removeprefix('xavi: ')}" if words else ended)
 
     def stop(self) -> None:
         """End the process: by closing its input, else by SIGTERM, else by SIGKILL."""

@@ -1,8 +1,9 @@
 """Car and service for one chat: started in order, stopped in order, none left behind."""
 
 import socket
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from xavi_dialogue.app import control
@@ -13,6 +14,7 @@ from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
 
 ATTEMPTS = 3  # to find a port that stays free until the service listens at it
+RETRY = 0.2  # [s] between looks at whether the service is still coming up
 START_PATIENCE = 20.0  # [s] for the service, and for the first scene
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
@@ -58,17 +60,13 @@ class Convoy:
 
 @contextmanager
 def convoy(scenario: str, seed: int, speed: float) -> Iterator[Convoy]:
-    """Start service and car; stop them in reverse.
+    """Start service and car, the car waiting for the service; stop them in reverse.
 
     Raises:
         ChildFailed: one does not come up.
     """
-    endpoint, service, bus = _start_service()
-    with service, bus:
-        arguments = ["drive", "--scenario", scenario, "--seed", str(seed)]
-        arguments += ["--speed", repr(speed), "--connect", endpoint]
-        with Child("the car", arguments) as car:
-            yield Convoy(car, service, bus)
+    with ExitStack() as stack:
+        yield _start(stack, ["--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)])
 
 
 def first_scene(behind: Convoy, client: Client) -> SceneReport:
@@ -83,32 +81,33 @@ def first_scene(behind: Convoy, client: Client) -> SceneReport:
     return scene
 
 
-def _start_service() -> tuple[str, Child, ZenohBus]:
-    """The service on a free port, and a connection to its hub."""
-    problem = ChildFailed("the dialogue service does not start")
-    for _ in range(ATTEMPTS):
+def _start(stack: ExitStack, ride: list[str]) -> Convoy:
+    """Both processes and a connection to them, on a port that another process may snatch."""
+    for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
-        service = Child("the dialogue service", ["serve", "--listen", endpoint])
+        service = stack.enter_context(
+            Child("the dialogue service", ["serve", "--listen", endpoint])
+        )
+        car = stack.enter_context(Child("the car", ["drive", *ride, "--connect", endpoint]))
         try:
-            return endpoint, service, _join(service, endpoint)
-        except ChildFailed as error:  # another process may have taken the port
-            service.stop()
-            problem = error
-        except BaseException:
-            service.stop()
-            raise
-    raise problem
+            bus = stack.enter_context(_join(service, endpoint))
+        except ChildFailed:
+            if attempt == ATTEMPTS:
+                raise
+            stack.close()
+        else:
+            return Convoy(car, service, bus)
+    raise AssertionError("the last attempt returns or raises")
 
 
 def _join(service: Child, endpoint: str) -> ZenohBus:
-    waited = 0.0
+    give_up = time.monotonic() + START_PATIENCE
     while True:
         try:
-            return join(endpoint, patience=0.2)
+            return join(endpoint, patience=RETRY)
         except HubUnreachable:
             service.check()
-            waited += 0.2
-            if waited > START_PATIENCE:
+            if time.monotonic() > give_up:
                 raise ChildFailed("the dialogue service does not come up") from None
 
 

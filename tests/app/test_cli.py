@@ -1,0 +1,149 @@
+"""The command line: what it prints, and how it ends."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from xavi_dialogue.__main__ import app
+from xavi_dialogue.app.exit_status import status_of
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.explain.explanation import Reason
+
+KEYS = [
+    *("text", "kind", "reason", "query", "explanation", "choices", "suggestions"),
+    *("trace_id", "sim_time", "timing_ms"),
+]
+
+
+def xavi(*arguments: str, stdin: str | None = None) -> Result:
+    return CliRunner().invoke(app, list(arguments), input=stdin)
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason", "status"),
+    [
+        ("answer", None, 0),
+        ("refusal", "did-not-happen", 3),
+        ("clarification", "ambiguous", 3),
+        ("refusal", "not-understood", 4),
+        ("refusal", "planner-unavailable", 5),
+        ("refusal", "timed-out", 6),
+    ],
+)
+def test_replies_have_exit_statuses(kind: str, reason: Reason | None, status: int) -> None:
+    reply = Reply(text="", kind=kind, reason=reason, sim_time=0.0)  # type: ignore[arg-type]
+    assert status_of(reply) == status
+
+
+def test_the_version_is_told() -> None:
+    done = xavi("--version")
+    assert (done.exit_code, done.stdout.split()[0]) == (0, "xavi")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["fly"],
+        ["ask"],
+        ["ask", "Why?", "--seed", "-1"],
+        ["ask", "Why?", "--at", "noon"],
+        ["ask", "Why?", "--style", "pirate"],
+        ["parse"],
+        ["parse", "Why?", "--vehicles", "all"],
+        ["bench", "nothing"],
+        ["drive", "--scenario", "nowhere"],
+        ["chat", "--scenario", "nowhere"],
+        ["transcripts", "--folder", "nowhere"],
+    ],
+)
+def test_wrong_usage_ends_with_2_and_no_traceback(arguments: list[str]) -> None:
+    done = xavi(*arguments)
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert "Traceback" not in done.stderr
+    assert done.stderr.strip()
+
+
+def test_a_missing_scenario_lists_those_that_exist() -> None:
+    told = xavi("ask", "Why?", "--scenario", "nowhere").stderr
+    assert "s1" in told
+    assert "s2" in told
+    assert len(told.splitlines()) == 1
+
+
+def test_a_broken_scenario_folder_names_file_and_key(root: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "mine"
+    shutil.copytree(root / "sim" / "scenarios" / "s1", folder)
+    config = folder / "scenario.toml"
+    config.write_text(config.read_text().replace("step = 0.1", 'step = "often"'))
+    done = xavi("ask", "Why?", "--scenario", str(folder))
+    assert done.exit_code == 2
+    assert "scenario.toml" in done.stderr
+    assert "step" in done.stderr
+
+
+def test_scenarios_are_listed() -> None:
+    listed = json.loads(xavi("scenarios", "--json").stdout)
+    assert {"s1", "s2"} <= {one["name"] for one in listed}
+    assert "s1" in xavi("scenarios").stdout
+
+
+def test_a_question_is_parsed() -> None:
+    query = json.loads(xavi("parse", "Why did you change left?", "--json").stdout)
+    assert (query["type"], query["factual"]) == ("why", ["change-left"])
+    shown = xavi("parse", "Why did you change left?", "--explain").stdout
+    assert "tokens" in shown
+    assert xavi("parse", "asdf qwer").exit_code == 4
+
+
+def test_question_lines_are_parsed_line_by_line() -> None:
+    lines = [
+        {"id": "a", "text": "Why did you change left?"},
+        {"id": "b", "text": "And vehicle 2?", "context": ["Why did vehicle 1 stop?"]},
+        {"id": "c", "text": "asdf qwer"},
+    ]
+    done = xavi("parse", "--jsonl", stdin="\n".join(map(json.dumps, lines)))
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert done.exit_code == 0
+    assert [answer["id"] for answer in answers] == ["a", "b", "c"]
+    assert answers[1]["query"]["actor"] == "vehicle:2"
+    assert answers[2]["query"]["type"] == "ambiguous"
+    assert xavi("parse", "--jsonl", stdin="Why?\n").exit_code == 2
+
+
+@pytest.mark.slow
+def test_a_ride_ends_with_its_figures() -> None:
+    done = xavi("drive", "--scenario", "s1", "--seed", "0", "--json")
+    assert done.exit_code == 0
+    figures = json.loads(done.stdout)
+    assert (figures["scenario"], figures["seed"]) == ("s1", 0)
+    assert (figures["ended"], figures["goal_reached"], figures["collisions"]) == (
+        "arrived",
+        True,
+        0,
+    )
+    assert figures["events"][-1]["kind"] == "arrived"
+    assert figures["arrival_time"] == figures["events"][-1]["sim_time"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("text", "status", "reason"),
+    [
+        ("What are you doing?", 0, None),
+        ("Hello!", 0, None),
+        ("Why did you not fly?", 3, "not-an-action"),
+        ("asdf qwer", 4, "not-understood"),
+    ],
+)
+def test_one_question_is_answered(text: str, status: int, reason: str | None) -> None:
+    done = xavi("ask", text, "--scenario", "s2", "--at", "1.0", "--json")
+    reply = json.loads(done.stdout)
+    assert list(reply) == KEYS
+    assert (done.exit_code, reply["reason"]) == (status, reason)
+    assert (reply["explanation"] is not None) == (text == "What are you doing?")
+    assert reply["sim_time"] == 1.0
+    assert xavi("ask", text, "--scenario", "s2", "--at", "1.0").stdout == reply["text"] + "\n"
