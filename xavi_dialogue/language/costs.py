@@ -15,6 +15,8 @@ class Outside(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     before_limit: float
     after_limit: float
     subordinate: float  # a clause behind it that says when
+    compound: float  # a second question behind it
+    held: float  # each NOT and IF
     midway: float  # the question begins in the middle of a clause
 
 

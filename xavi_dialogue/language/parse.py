@@ -14,14 +14,16 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language import topics
 from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.followup import answerable, resolve
-from xavi_dialogue.language.grammar import STARTS, Parse, grammar, parses
+from xavi_dialogue.language.grammar import STARTS, Parse, parses
 from xavi_dialogue.language.normalise import MAX_INPUT, Normalised, normalise
-from xavi_dialogue.language.readings import Reading, read
+from xavi_dialogue.language.readings import Reading, is_compound, read
 from xavi_dialogue.language.tokens import Token, Tokenised, tokenise
 
 MAX_CONTEXT = 6  # earlier turns looked at
 _MAX_BEGINNINGS = 5
 _WEIGHTLESS = frozenset({"BREAK", "CONJ", "AND", "TIME", "SMALL", "THAT", "IT", "RUDE", "JUNCTION"})
+
+_HELD = frozenset({"NOT", "IF"})
 
 Cause = Literal["empty", "too-long", "gibberish", "ambiguous", "no-question"]
 
@@ -59,7 +61,7 @@ class Parser:
     """Understands passengers. Stateless: the conversation comes with each call."""
 
     def __init__(self) -> None:
-        grammar()  # built now rather than in the first answer
+        _explain("why did yuo stop?", None, frozenset())  # build all tables before the first answer
 
     def parse(
         self,
@@ -168,6 +170,10 @@ def _outside(found: Parse, tokens: tuple[Token, ...]) -> float:
     behind = min(after * prices.after, prices.after_limit)
     if found.end < len(tokens) and "SUBORD" in tokens[found.end].terminals:
         behind = prices.subordinate
+    if is_compound(found.end, tokens):
+        behind = prices.compound
+    else:
+        behind += prices.held * sum(t.terminal in _HELD for t in tokens[found.end :])
     follows = costs().boundary.begin_after
     midway = found.begin > 0 and not follows & set(tokens[found.begin - 1].terminals)
     return (

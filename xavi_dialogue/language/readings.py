@@ -11,7 +11,9 @@ from typing import Any, cast
 import lark
 
 from xavi_dialogue.explain.query import Query, QueryType
+from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.grammar import Parse, Tree
+from xavi_dialogue.language.rejections import rejected
 from xavi_dialogue.language.slots import (
     ANAPHOR,
     Clause,
@@ -24,8 +26,8 @@ from xavi_dialogue.language.slots import (
     terminals,
     tokens_in,
 )
-from xavi_dialogue.language.tense import tense_for, tense_of
-from xavi_dialogue.language.tokens import AUXILIARIES, Token
+from xavi_dialogue.language.tense import tense_for
+from xavi_dialogue.language.tokens import AUXILIARIES, WEAK, Token
 
 #: What the clauses of a question are, by start rule and clause rule.
 _ROLES: dict[str, dict[str, str]] = {
@@ -49,7 +51,7 @@ _ROLES: dict[str, dict[str, str]] = {
     "compare": {"first": "factual", "second": "counterfactual"},
 }
 _ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
-_CLAUSES = ("said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
+_CLAUSES = ("incident", "said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
 _DEFAULT_TENSE = {
     "what": "present",
     "where_goal": "present",
@@ -80,12 +82,12 @@ def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
     rule = parse.rule
     whole = tokens[parse.begin : parse.end]
     clauses = _clauses(parse.tree)
-    if rule in _REJECT and _REJECT[rule](parse.tree, whole):
+    if rejected(rule, parse.tree, whole):
         return None
     fields = _slots_of(rule, clauses, whole)
     if rule in _EXTRA:
         fields |= _EXTRA[rule](parse.tree, whole)
-    focus = next((c for c in clauses if c.role not in ("contrast", "own")), None)
+    focus = next((c for c in clauses if c.role not in ("contrast", "own", "incident")), None)
     scope = tokens[focus.span[0] : focus.span[1] + 1] if focus else whole
     if rule in ("confidence", "how") and focus is None:
         scope = whole if any(c.role == "own" for c in clauses) else ()
@@ -93,17 +95,36 @@ def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
     fields["tense"] = tense or _DEFAULT_TENSE.get(rule, "past")
     when = " ".join(t.text for t in whole if t.terminal == "TIME")
     named = "actor" in fields
+    if is_compound(parse.end, tokens):
+        fields["compound"] = True
     query = Query(type=_type(rule), time=when or None, **fields)
     return Reading(
         rule=rule,
         query=query,
-        cost=parse.cost,
+        cost=parse.cost + sum(_subject_lost(c, tokens) for c in clauses),
         tensed=tense is not None,
         anaphoric=any(ANAPHOR in c.actions for c in clauses),
         elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
         named_actor=named,
         heading=_heading(parse.tree),
     )
+
+
+def is_compound(end: int, tokens: tuple[Token, ...]) -> bool:
+    """Whether a second question begins behind the first, which ends at `end`."""
+    heads = costs().boundary.begin_at | AUXILIARIES
+    joined = [t.terminal in ("AND", "CONJ", "BREAK") for t in tokens[end : end + 2]]
+    start = end + sum(joined[: 1 if joined[:2] != [True, True] else 2])
+    return start > end and start < len(tokens) and tokens[start].terminal in heads
+
+
+def _subject_lost(one: Clause, tokens: tuple[Token, ...]) -> float:
+    """The cost of a clause whose subject is a word read past: "why did the chicken stop"."""
+    begin, end = one.span
+    inside = tokens[begin : end + 1]
+    auxiliary = any(t.terminal in AUXILIARIES for t in inside)
+    lost = any(t.terminal in WEAK or t.terminal == "UNKNOWN" for t in inside)
+    return 1.5 if one.actor is None and auxiliary and lost else 0.0
 
 
 def _type(rule: str) -> QueryType:
@@ -131,6 +152,8 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
     roles = _ROLES.get(rule, _ANY)
     for one in clauses:
         slot = roles.get(one.role)
+        if one.role == "incident":
+            fields |= {"event": "crash"} | ({"actor": one.actor} if one.actor else {})
         if slot is None:
             continue
         others = tuple(a for c in clauses if c is not one for a in c.actions)
@@ -175,7 +198,8 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
         if rule == "absent":
             return fields | {"negated": True, "intervention": "remove"}
         if rule == "added":
-            return fields | {"actor": "vehicle:new", "intervention": "add"}
+            is_new = fields["actor"] in ("vehicle:other", "ego") or "THERE" in terminals(part)[:1]
+            return fields | ({"actor": "vehicle:new"} if is_new else {}) | {"intervention": "add"}
         return fields | {"negated": rule == "elided_not"}
     if {"WITHOUT", "NO"} & set(terminals(tree)):
         *_, missing = children(tree, "actor")
@@ -267,39 +291,3 @@ def _heading(tree: Tree) -> str | None:
     if len(spoken) == 1 and first(spoken[0], "heading"):
         return side(spoken[0])
     return None
-
-
-# --- readings that make no sense -----------------------------------------------------------------
-
-
-def _no_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """Only with "could" does "how could you have stopped" ask how to get there."""
-    return first(tree, "wanted") is not None and whole[1].terminal != "COULD"
-
-
-def _is_could(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    return "COULD" in terminals(tree)
-
-
-def _not_imperative(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """A command is an imperative, or asks the car itself to do something from now on."""
-    if who := first(tree, "actor"):
-        asks = whole[0].text.split()[0] in ("can", "could", "will", "would")
-        return not asks or actor(who) != "ego" or "have" in whole[0].text
-    verb = next((t for t in whole if t.form), None)
-    return verb is None or verb.form != "base" or tense_of(whole) is not None
-
-
-def _already_happened(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """Whether it is no question about an event: "could you turn left?"."""
-    own = first(tree, "actions") is not None
-    asks = whole[0].text.split()[0] in ("can", "could", "would", "should", "might")
-    return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")
-
-
-_REJECT: dict[str, Callable[[Tree, tuple[Token, ...]], bool]] = {
-    "how_avoid": _no_could,
-    "how": _is_could,
-    "command": _not_imperative,
-    "what": _already_happened,
-}
