@@ -48,7 +48,11 @@ def scripted_mind() -> Mind:
         return Query(type="what", time=text, tense="present")
 
     def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:
-        wanted = {"lack": 1, "lack more": 2, "lack forever": 99}.get(query.time or "", 0)
+        wanted = {"lack": 1, "lack, break": 1, "lack more": 2, "lack forever": 99}.get(
+            query.time or "", 0
+        )
+        if query.time == "break" or (query.time == "lack, break" and record.extra):
+            raise ZeroDivisionError
         if query.time == "refuse":
             return NoExplanation(reason="too-little-evidence")
         if len(record.extra) < wanted:

@@ -4,6 +4,7 @@ Commands import what they need when they run, so that the small ones start fast.
 """
 
 import contextlib
+import re
 import signal
 import sys
 from collections.abc import Iterator
@@ -26,10 +27,18 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+
+def _session_name(name: str) -> str:
+    if not re.fullmatch(r"[A-Za-z0-9_.-]{1,64}", name):
+        raise typer.BadParameter("a name has 1 to 64 letters, digits, dots, dashes, underscores")
+    return name
+
+
 ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a folder.")]
 Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
+SessionName = Annotated[str, typer.Option(callback=_session_name, help="Name of the conversation.")]
 SpeedFactor = Annotated[
     float | None,
     typer.Option(min=0.0, max=1000.0, help="Simulated seconds per second; 0: as fast as possible."),
@@ -41,7 +50,7 @@ def chat(
     scenario: ScenarioName = "s1",
     seed: Seed = None,
     speed: SpeedFactor = None,
-    session: Annotated[str, typer.Option(help="Name of the conversation.")] = "passenger",
+    session: SessionName = "passenger",
     as_json: AsJson = False,
 ) -> None:
     """Ride and talk."""
@@ -50,7 +59,7 @@ def chat(
     with _errors():
         loaded = _load(scenario)
         ride = Ride(str(loaded.folder), loaded.name, _seed(seed, loaded), session)
-        if sys.stdin.isatty() and not as_json:
+        if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
             at_terminal(ride, _history_file(), speed=1.0 if speed is None else speed)
         else:
             through_pipe(ride, _lines(), _write, _note, speed=speed or 0.0, as_json=as_json)

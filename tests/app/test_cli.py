@@ -56,6 +56,7 @@ def test_the_version_is_told() -> None:
         ["bench", "nothing"],
         ["drive", "--scenario", "nowhere"],
         ["chat", "--scenario", "nowhere"],
+        ["chat", "--session", "a b"],
         ["transcripts", "--folder", "nowhere"],
     ],
 )

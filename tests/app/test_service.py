@@ -222,6 +222,19 @@ def test_nonsense_in_the_record_is_counted_and_left_out(bench: Bench) -> None:
     assert bench.ask("answer").kind == "answer"
 
 
+@pytest.mark.parametrize("text", ["break", "lack, break"])
+def test_a_fault_of_ours_costs_one_answer(
+    bench: Bench, text: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    bench.drive()
+    trace = bench.service.desk.dialogue.traces[0]
+    bench.car.serve(KEYS.of("@rpc/whatif"), lambda asked: asked.reply(plan_trace.encode(trace)))
+    reply = bench.ask(text)
+    assert (reply.kind, reply.reason) == ("refusal", "planner-failed")
+    assert "ZeroDivisionError" in caplog.text
+    assert bench.ask("answer", request="q2").kind == "answer"
+
+
 def test_one_name_one_question(bench: Bench) -> None:
     bench.drive()
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)

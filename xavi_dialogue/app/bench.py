@@ -14,8 +14,12 @@ from planner.trajectory import Roads
 from sim.network import Network
 from sim.scenario import load
 from sim.scene import EGO
+from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.control import Until
+from xavi_dialogue.app.convoy import convoy, first_scene
 from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
 from xavi_dialogue.app.ride import network_of, settings_of, start
+from xavi_dialogue.transports.bus import Keys
 
 SCENARIOS = ("s1", "s2")
 SEED = 0
@@ -123,7 +127,7 @@ def _decide(watch: _Watch, name: str, frame: Frame, trace: PlanTrace) -> None:
 
 
 def _dialogue(watch: _Watch) -> None:
-    """Answers within one process, from the record and with planning again."""
+    """Answers within one process, from the record or with planning again, and over the bus."""
     for name in SCENARIOS:
         conversation, _ = _ride(name)
         at = conversation.dialogue.traces[-1].sim_time
@@ -135,6 +139,19 @@ def _dialogue(watch: _Watch) -> None:
             again = len(conversation.dialogue.planned) > planned
             kind = "planned again" if again else "from the record"
             watch.taken.setdefault(f"{name} {kind}", []).append(taken)
+    _over_the_bus(watch)
+
+
+def _over_the_bus(watch: _Watch) -> None:
+    """The same, from a passenger's process through the service's."""
+    name = SCENARIOS[0]
+    with convoy(name, SEED, 0.0) as behind:
+        client = Client(behind.bus, Keys(), "bench")
+        first_scene(behind, client)
+        at = behind.drive(client, Until(None), halt=True).sim_time
+        for question in QUESTIONS * ROUNDS:
+            with watch.time(f"{name} over the bus"):
+                client.ask(question, at)
 
 
 def _ride(name: str) -> tuple[Conversation, Network]:

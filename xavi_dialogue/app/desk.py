@@ -3,6 +3,7 @@
 No bus and no clock: what is heard and the time are given, what is to be sent is returned.
 """
 
+import logging
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -33,6 +34,7 @@ from xavi_dialogue.transports.messages import (
     TraceReport,
 )
 
+_LOG = logging.getLogger(__name__)
 MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
 
 Heard: TypeAlias = SceneReport | TraceReport | EventReport
@@ -121,7 +123,8 @@ class Desk:
         session = question.asked.session
         if isinstance(result, str):
             return self._tell(RolloutsFailed(request, session, result))
-        return self._tell(RolloutsArrived(request, session, result))
+        arrived = RolloutsArrived(request, session, result)
+        return self._try(arrived, RolloutsFailed(request, session, "planner-failed"))
 
     def settle(self, now: float) -> list[Errand]:
         """Begin every question whose record is complete; give up those whose time is up."""
@@ -147,12 +150,23 @@ class Desk:
         gone = not self.car_alive and (known is None or known.sim_time < at)
         if complete:
             question.begun = True
-            return self._tell(asked)
+            return self._try(asked, TurnedAway(asked, "planner-failed"))
         if gone:
             return self._tell(TurnedAway(asked, "planner-unavailable"))
         if question.deadline <= now:
             return self._tell(TurnedAway(asked, "timed-out"))
         return []
+
+    def _try(self, event: Input, otherwise: Input) -> list[Errand]:
+        """Tell the manager; should it fail through a fault of ours, one passenger is told so.
+
+        All others are served on: the manager is pure, so nothing has changed.
+        """
+        try:
+            return self._tell(event)
+        except Exception:
+            _LOG.exception("a question could not be answered")
+            return self._tell(otherwise)
 
     def _tell(self, event: Input) -> list[Errand]:
         self.dialogue, outputs = advance(self.mind, self.dialogue, event)

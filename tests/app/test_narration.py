@@ -1,0 +1,42 @@
+import pytest
+
+from planner.events import Event
+from planner.trace import ACTIONS
+from xavi_dialogue.app.narration import clock, narrate, plan_in_words, story
+
+
+@pytest.mark.parametrize(
+    ("event", "line"),
+    [
+        (Event("action-committed", 4.2, "change-left", 3), "0:04 I change to the left lane."),
+        (Event("action-ended", 67.0, "exit-right", 3), "1:07 I have turned right."),
+        (Event("gave-way", 5.0, "exit-right", 3, 2), "0:05 I give way to vehicle 2."),
+        (Event("arrived", 19.3), "0:19 We have arrived."),
+        (Event("collided", 3.0, vehicle=1), "0:03 We have collided with vehicle 1."),
+        (Event("action-started", 4.0, "change-left", 3), None),
+        (Event("action-committed", 4.0, "continue", 3), None),
+        (Event("action-ended", 4.0, "continue", 3), None),
+    ],
+)
+def test_what_the_car_says_unasked(event: Event, line: str | None) -> None:
+    assert narrate(event) == line
+
+
+def test_a_ride_is_told_line_by_line() -> None:
+    events = (Event("action-started", 0.0, "stop", 0), Event("ended", 60.0))
+    assert story(events) == "1:00 The ride ends here."
+
+
+@pytest.mark.parametrize("action", ACTIONS)
+def test_every_action_has_words(action: str) -> None:
+    assert plan_in_words((action,)).strip()  # type: ignore[arg-type]
+    assert narrate(Event("action-committed", 0.0, action, 0)) or action == "continue"  # type: ignore[arg-type]
+
+
+def test_a_plan_is_a_row_of_actions() -> None:
+    assert plan_in_words(("change-left", "continue")) == "change left, then go on"
+    assert plan_in_words(()) == ""
+
+
+def test_clocks() -> None:
+    assert [clock(0.0), clock(59.99), clock(600.0)] == ["0:00", "0:59", "10:00"]
