@@ -32,12 +32,12 @@ class Solution:
 
     @property
     def waits(self) -> tuple[int, ...]:
-        """The steps in which it all but stands to let others go first."""
+        """The steps in which others keep it all but standing."""
         return tuple(
             hindrance.step
             for leg in self.legs
             for hindrance in leg.hindrances
-            if hindrance.how == "right-of-way" and leg.speed[hindrance.step - leg.first] < SLOW
+            if leg.speed[hindrance.step - leg.first] < SLOW
         )
 
 

@@ -118,16 +118,42 @@ def occupancy(
     centre, aside = relative(path, nearest, x, y)
     turned = obstacle.heading[window] - path.heading[nearest]
     cos, sin = np.cos(turned), np.sin(turned)
-    reach = 0.5 * (obstacle.length * np.abs(cos) + obstacle.width * np.abs(sin))
+    corridor = 0.5 * size[1] + SIDE_MARGIN
     half = 0.5 * (obstacle.length * np.abs(sin) + obstacle.width * np.abs(cos))
-    inside = np.abs(aside) < half + 0.5 * size[1] + SIDE_MARGIN
     beyond = (nearest == len(path.arc) - 1) & (centre > obstacle.length)
-    inside &= ~beyond
-    arc = path.arc[nearest] + centre
-    low[window] = np.where(inside, arc - reach, np.nan)
-    high[window] = np.where(inside, arc + reach, np.nan)
+    inside = np.flatnonzero((np.abs(aside) < half + corridor) & ~beyond)
+    if len(inside):
+        ends = _extent(obstacle, aside[inside], cos[inside], sin[inside], corridor)
+        arc = path.arc[nearest[inside]] + centre[inside]
+        low[start + inside], high[start + inside] = arc + ends[0], arc + ends[1]
     along[window], aligned[window] = obstacle.speed[window] * cos, cos
     return Occupancy(obstacle, low, high, along, aligned)
+
+
+def _extent(
+    obstacle: Obstacle, aside: Array, cos: Array, sin: Array, corridor: float
+) -> tuple[Array, Array]:
+    """From where to where [m] along the path, from its centre, a body lies in a corridor.
+
+    Args:
+        obstacle: the body.
+        aside: [m] [N] of its centre to the left of the path.
+        cos, sin: [N] of its heading against that of the path.
+        corridor: [m] to either side of the path; every body reaches into it.
+    """
+    ahead = 0.5 * obstacle.length * np.array([1.0, 1.0, -1.0, -1.0])[:, None]
+    left = 0.5 * obstacle.width * np.array([1.0, -1.0, -1.0, 1.0])[:, None]
+    x, y = ahead * cos - left * sin, aside + ahead * sin + left * cos
+    next_x, next_y = np.roll(x, -1, axis=0), np.roll(y, -1, axis=0)
+    # Each edge of the body, cut off where it leaves the corridor.
+    level = np.abs(next_y - y) < 1e-9
+    slope = (next_x - x) / np.where(level, 1.0, next_y - y)
+    begin = x + (np.clip(y, -corridor, corridor) - y) * slope
+    end = next_x + (np.clip(next_y, -corridor, corridor) - next_y) * slope
+    outside = (np.minimum(y, next_y) > corridor) | (np.maximum(y, next_y) < -corridor)
+    low = np.where(outside, np.inf, np.minimum(begin, end)).min(axis=0)
+    high = np.where(outside, -np.inf, np.maximum(begin, end)).max(axis=0)
+    return low, high
 
 
 def _entry(low: Array) -> list[int]:

@@ -223,8 +223,7 @@ def _excess(
 ) -> float:
     """By how much [s] the track and the best way on cost more than the best way from its start.
 
-    Waiting for those who go first is never held against a goal: some drivers take a gap that
-    others let pass.
+    Waiting for others is never held against a goal: some take a gap that others let pass.
     """
     if not onwards:
         return NO_WAY
