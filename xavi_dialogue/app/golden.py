@@ -92,13 +92,11 @@ def replay_all(folder: Path, *, accept: bool, note: Note) -> int:
     for path in paths:
         text = path.read_text(encoding="utf-8")
         now = replay_driven(read(text))
-        recorded = ride_path(path)
-        data = ride_file.dump(now.ride)
-        same = now.text == text and recorded.is_file() and recorded.read_bytes() == data
+        same = now.text == text and recorded_ride(path) == now.ride
         differing += not same
         if accept and not same:
             path.write_text(now.text, encoding="utf-8")
-            recorded.write_bytes(data)
+            ride_path(path).write_bytes(ride_file.dump(now.ride))
         note(f"{path}: {'as before' if same else 'accepted' if accept else 'differs'}")
     return differing
 
@@ -118,6 +116,14 @@ def transcripts_in(folder: Path) -> list[Path]:
 def ride_path(path: Path) -> Path:
     """Where the recording of a transcript lies: beside it."""
     return path.with_suffix(".ride.jsonl.gz")
+
+
+def recorded_ride(path: Path) -> RecordedRide | None:
+    """The recording beside a transcript, None where there is none that can be read."""
+    try:
+        return ride_file.load(ride_path(path).read_bytes())
+    except (OSError, RideFileError):
+        return None
 
 
 def _converse(transcript: Transcript, conversation: Conversation, halt: float) -> Transcript:
