@@ -100,7 +100,7 @@ class ActionPlan:
     @property
     def stops(self) -> bool:
         """Whether the action ends at a standstill."""
-        return any(isinstance(m, Stop) for m in self.manoeuvres)
+        return self.action == "stop"
 
     @property
     def changes_lane(self) -> bool:

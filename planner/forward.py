@@ -180,9 +180,9 @@ def accelerate(
 def _towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
     """The acceleration [m/s2] that leads to a wanted speed [m/s], within all limits."""
     wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
-    low = acceleration - JERK_DOWN * dt
-    high = max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt))
-    return min(max(wished, low), high)
+    if wished < acceleration:
+        return max(wished, acceleration - JERK_DOWN * dt)
+    return min(wished, max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt)))
 
 
 def safe_speed(gap: float, leader: float, braking: float) -> float:
@@ -206,16 +206,22 @@ def _blocker(
     first = [
         other
         for other in others
-        if other.goes_first(line.yields_to) and not other.leads(motion.arc, step)
+        if other.goes_first(line.yields_to)
+        and other.last >= step
+        and not other.leads(motion.arc, step)
     ]
     if not first:
         return None
     arc, speed, acceleration = motion.arc, motion.speed, motion.acceleration
-    for ahead in range(step + 1, step + GAP_HORIZON):
+    passed = max(other.top for other in first) + length + 1.0
+    last = max(other.last for other in first)
+    for ahead in range(step + 1, min(step + GAP_HORIZON, last + 1)):
         wanted = lane.speed(arc + speed * RELAXATION)
         acceleration = _towards(speed, acceleration, wanted, FOLLOWING, DT)
         before, speed = speed, max(speed + acceleration * DT, 0.0)
         arc += 0.5 * (before + speed) * DT
+        if arc > passed:
+            return None
         for other in first:
             begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
             if begin is not None:

@@ -10,6 +10,7 @@ from planner.trajectory import Array, Path, relative
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
+FOREVER = 1 << 30  # a step that never comes
 ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
 
@@ -44,6 +45,12 @@ class Occupancy:
         wide_low, wide_high = _widen(low, high)
         self._wide_low: list[float] = wide_low.tolist()
         self._wide_high: list[float] = wide_high.tolist()
+        there = np.flatnonzero(~np.isnan(wide_low))
+        total = len(low)
+        self.last = int(there[-1]) if len(there) else -1  # step at which it is on the path
+        if self.last == total - 1:
+            self.last = FOREVER
+        self.top = float(np.nanmax(wide_high)) if len(there) else -np.inf  # [m] that it reaches
 
     def _at(self, step: int) -> int:
         return min(step, len(self._low) - 1)
