@@ -99,7 +99,7 @@ def answer(
     context = speech(session, asked, record)
     if query.type == "smalltalk":
         return Said(
-            text, query, _reply(record, realise_smalltalk(query.reason, context), None, query)
+            text, query, _reply(record, realise_smalltalk(query.event, context), None, query)
         )
     if query.type == "help":
         return Said(text, query, _reply(record, realise_help(context), None, query))

@@ -214,9 +214,16 @@ def _distinct(close: list[Scored]) -> list[Scored]:
     return [close[0], *different]
 
 
+def _deed(tokenised: Tokenised) -> str | None:
+    """What the car cannot do, as "I cannot ..." takes it."""
+    deeds = (t for t in tokenised.tokens if t.terminal == "NOTACTION" and t.form == "base")
+    return next((t.text for t in deeds), None)
+
+
 def _decline(reason: str | None, tokenised: Tokenised) -> Query | NotUnderstood:
     if reason is not None:
-        return Query(type="out_of_scope", reason=reason, tense="present")
+        deed = _deed(tokenised) if reason == "not-an-action" else None
+        return Query(type="out_of_scope", reason=reason, tense="present", event=deed)
     unknown = tuple(t.text for t in tokenised.tokens if t.terminal == "UNKNOWN")
     if topics.is_gibberish(tokenised.tokens):
         return NotUnderstood("gibberish", hints=unknown)

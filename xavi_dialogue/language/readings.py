@@ -266,6 +266,14 @@ def _leaning(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return fields
 
 
+def _courtesy(whole: tuple[Token, ...]) -> str | None:
+    """What kind of small talk it is: that which asks most for an answer."""
+    said = {t.value for t in whole if t.terminal == "SMALL"}
+    return next(
+        (kind for kind in ("identity", "thanks", "greeting", "assent") if kind in said), None
+    )
+
+
 _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "why": _why,
     "what_if": _what_if,
@@ -276,6 +284,7 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "when": _when,
     "compare": _comparison,
     "sensitivity": _sensitivity,
+    "smalltalk": lambda _tree, whole: {"event": _courtesy(whole)},
     "more": _detail("more"),
     "less": _detail("less"),
     "again": lambda tree, _whole: _leaning(tree, ()) | {"negated": "NOT" in terminals(tree)},

@@ -15,7 +15,6 @@ from xavi_dialogue.explain.explanation import Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.content import select
 from xavi_dialogue.language.context import SpeechContext, Utterance
-from xavi_dialogue.language.suggestions import follow_ups
 from xavi_dialogue.language.generator import Token, expand
 from xavi_dialogue.language.morphology import inflect
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
@@ -33,6 +32,7 @@ from xavi_dialogue.language.points import (
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.language.rules import load_grammar
+from xavi_dialogue.language.suggestions import follow_ups
 from xavi_dialogue.language.wording import rewrite
 
 MAX_WORDS = 45
