@@ -4,6 +4,8 @@ import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from planner.actions import Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Obstacle
@@ -13,6 +15,7 @@ from planner.trace import ACTIONS, Action
 
 LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
 DEPTH = 3  # macro actions in a row
+GRIP = 12.0  # [m/s2] of lateral acceleration; well beyond that of tyres, for paths are rough
 SOLUTIONS = 2
 SLOW = 2.0  # [m/s] below which a vehicle waits rather than drives
 SLACK = 8.0  # [s] by which a further solution may cost more than the best
@@ -90,9 +93,14 @@ def _expand(
         if isinstance(plan, Refusal):
             continue
         leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, obstacles)
-        if leg.outcome in (None, "done"):
+        if leg.outcome in (None, "done") and _drivable(leg):
             children.append(leg)
     return children
+
+
+def _drivable(leg: Leg) -> bool:
+    """Whether no bend is taken faster than any car could."""
+    return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < GRIP)
 
 
 def _lanes_moved(leg: Leg, starts: Sequence[Situation], index: int) -> float:

@@ -200,7 +200,7 @@ def _stopping(
     if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:
         return []
     speed = np.array([motion.speed for motion in driven.motions])
-    position, heading = sample_path(path, arcs)
+    position, heading = sample_path(path, arcs, observed.length)
     rest = frame.horizon + 1 - len(arcs)
     motion = Obstacle(
         observed.vehicle,

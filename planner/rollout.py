@@ -73,7 +73,7 @@ def _leg(task: Task, plan: ActionPlan, driven: Drive, obstacles: Sequence[Obstac
     position = np.column_stack(
         (np.interp(arcs, path.arc, path.points[:, 0]), np.interp(arcs, path.arc, path.points[:, 1]))
     )
-    heading = np.interp(arcs, path.arc, path.heading)
+    heading = path.headings(arcs, task.size[0])
     hit = _collision(task, plan, driven, position, heading, obstacles)
     count = len(arcs) if hit is None else hit[0] + 1
     last = driven.motions[count - 1]

@@ -92,7 +92,7 @@ def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstac
         line = _line_ahead(roads, row, here.location)
         if line >= speed[0] ** 2 / (2.0 * FOLLOWING):
             arcs, speed = np.minimum(arcs, line), np.where(arcs < line, speed, 0.0)
-        position, heading = sample_path(path, arcs)
+        position, heading = sample_path(path, arcs, observed.length)
         links = links_of(roads, row)
     else:
         angle = float(observed.heading[-1])
@@ -155,18 +155,18 @@ def drive_on(
     driven = drive(plan, start, first, obstacles, size, horizon)
     arcs = np.array([motion.arc for motion in driven.motions[1:]])
     speed = np.array([motion.speed for motion in driven.motions[1:]])
-    position, heading = sample_path(path, arcs)
+    position, heading = sample_path(path, arcs, size[0])
     missing = horizon - first - len(arcs)
     position = np.vstack((position, np.full((missing, 2), np.nan)))
     heading = np.concatenate((heading, np.zeros(missing)))
     return position, heading, np.concatenate((speed, np.zeros(missing))), row
 
 
-def sample_path(path: Path, arcs: Array) -> tuple[Array, Array]:
-    """Positions [m] [N, 2] and headings [rad] [N] at arcs [m] along a path."""
+def sample_path(path: Path, arcs: Array, length: float) -> tuple[Array, Array]:
+    """Positions [m] [N, 2] and headings [rad] [N] of a vehicle with its front at arcs [m]."""
     x = np.interp(arcs, path.arc, path.points[:, 0])
     y = np.interp(arcs, path.arc, path.points[:, 1])
-    return np.column_stack((x, y)), np.interp(arcs, path.arc, path.heading)
+    return np.column_stack((x, y)), path.headings(arcs, length)
 
 
 def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps: int) -> Array:

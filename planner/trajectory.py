@@ -37,12 +37,24 @@ class Path:
         """Arc length [m]."""
         return float(self.arc[-1])
 
-    def pose(self, arc: float) -> tuple[Point, float]:
-        """Position [m] and heading [rad] of a vehicle whose front is at `arc` [m]."""
+    def pose(self, arc: float, length: float = 0.0) -> tuple[Point, float]:
+        """Position [m] and heading [rad] of a vehicle whose front is at `arc` [m].
+
+        Args:
+            arc: [m]
+            length: [m] of the vehicle; without it, the heading is that in which its front moves.
+        """
         x = float(np.interp(arc, self.arc, self.points[:, 0]))
         y = float(np.interp(arc, self.arc, self.points[:, 1]))
-        heading = float(np.interp(arc, self.arc, self.heading))
+        heading = float(self.headings(np.array([arc]), length)[0])
         return (x, y), math.remainder(heading, 2.0 * math.pi)
+
+    def headings(self, arcs: Array, length: float) -> Array:
+        """Headings [rad] [N] of a vehicle of a length [m] with its front at arcs [m].
+
+        Its rear follows its front: it points as the path does at its middle.
+        """
+        return np.interp(np.maximum(arcs - 0.5 * length, 0.0), self.arc, self.heading)
 
     def lane_at(self, arc: float) -> tuple[str, float]:
         """The lane at `arc` [m], and the arc [m] at which it begins."""
