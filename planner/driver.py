@@ -22,6 +22,7 @@ from sim.scene import EGO, Command, Scene, VehicleState
 
 MEMORY = 10.0  # [s] of history
 CAUTION = 0.05  # probability from which a motion of a standing vehicle must be given way to
+YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 STANDING = 1.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
@@ -223,7 +224,7 @@ class Driver:
     ) -> None:
         """Tell once that the ego gives way to a vehicle."""
         if hindrance is not None and hindrance.how == "right-of-way":
-            if motion.speed < 2.0 and hindrance.vehicle != self._waiting_for:
+            if motion.speed < YIELDED and hindrance.vehicle != self._waiting_for:
                 self._waiting_for = hindrance.vehicle
                 events.append(_event("gave-way", time, current, hindrance.vehicle))
         elif motion.speed > 3.0:

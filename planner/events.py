@@ -12,7 +12,7 @@ EventKind = Literal[
     "action-started",  # the ego begins a macro action; `decision` names the trace that chose it
     "action-committed",  # it can no longer be taken back: the lane change or turn itself begins
     "action-ended",
-    "gave-way",  # the ego came to wait for `vehicle` at a junction
+    "gave-way",  # the ego slowed down or waited for `vehicle` at a junction
     "arrived",  # the goal is reached
     "collided",  # with `vehicle`
     "ended",  # the ride is over for another reason (duration)

@@ -117,8 +117,10 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
       cause is that vehicle, with the prior probability of what was supposed, and
       `decision_changes` tells whether the two plans differ.
     - Why or what about another vehicle: `activity` holds what it is expected to do, or what its
-      track shows (probability None); `destination` the goal under which that is rational.
-    - Where: `destination`. When: `moment`, or `arrival` for the way to the goal.
+      track shows (probability None); `destination` the goal under which that is rational;
+      `rival` what goes with another goal that is nearly as probable.
+    - Where: `destination`, and arrival 0 once the ego is there.
+    - When: `moment`, or `arrival` for the way to the goal.
     - How sure: `activity` of another vehicle with its probability, or the outcome of the plan.
     """
 
@@ -132,6 +134,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     sim_time: float = 0.0  # [s] when the explained decision was taken, or the moment asked about
     arrival: float | None = None  # [s] expected time to the goal under the factual plan
     destination: Destination | None = None  # answers to "where", goals behind "why"
+    rival: tuple[QueryAction, ...] = ()  # what that vehicle is expected to do almost as probably
     moment: float | None = None  # [s] when what was asked about happened
 
 

@@ -1,5 +1,7 @@
 """Questions about the ego's own plan and way: what, where, when, how sure."""
 
+from msgspec.structs import replace
+
 from sim.scene import EGO
 from xavi_dialogue.explain.contrast import evidence, factual, outcome
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened
@@ -30,6 +32,8 @@ def what(query: Query, ride: Ride) -> Explanation:
     deed = ride.manoeuvre
     if query.tense == "past" and deed is not None:
         return _activity(ride, (deed.action,), deed.started)
+    if ride.arrived:
+        return where(query, ride)
     if ride.ended:
         raise did_not_happen(ride, ())
     under_way = ride.deeds[-1].action if ride.deeds and ride.deeds[-1].ended is None else None
@@ -43,7 +47,8 @@ def where(query: Query, ride: Ride) -> Explanation:
     """Where the ego is going."""
     del query
     goal = ride.latest.goal
-    return _of_plan(ride, destination=Destination(EGO, goal.edge))
+    found = _of_plan(ride, destination=Destination(EGO, goal.edge))
+    return replace(found, arrival=0.0) if ride.arrived else found
 
 
 def when(query: Query, ride: Ride) -> Explanation:
@@ -53,6 +58,8 @@ def when(query: Query, ride: Ride) -> Explanation:
         if found.moment is None:
             raise decline("out-of-scope", what="when")
         return found
+    if ride.arrived and query.tense != "past":
+        return where(query, ride)
     if query.tense == "past" or ride.ended:
         return what(query, ride)
     return _of_plan(ride)

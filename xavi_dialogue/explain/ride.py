@@ -76,6 +76,7 @@ class Ride:
         self.traces = tuple(t for t in record.traces if t.sim_time <= record.now + ROUNDING)
         self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
         self.ended = record.ended
+        self.arrived = any(event.kind == "arrived" for event in self.events)
         self._extra = record.extra
         self._models: dict[int, CausalModel] = {}
 

@@ -1,12 +1,14 @@
 """Why the ego slowed down, stopped, gave way or sped up: who held it up under its own plan."""
 
+from msgspec.structs import replace
+
 from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.causes import expected_actions, holding_up
 from xavi_dialogue.explain.contrast import evidence, factual, outcome
 from xavi_dialogue.explain.deeds import did_not_happen
-from xavi_dialogue.explain.explanation import Activity, Cause, Explanation
+from xavi_dialogue.explain.explanation import Activity, Cause, Explanation, Mechanism
 from xavi_dialogue.explain.motion import Motion, Sighting
 from xavi_dialogue.explain.query import QueryAction, Tense
 from xavi_dialogue.explain.ride import Ride, decline
@@ -98,10 +100,15 @@ def _first(
     """The vehicle that was given way to goes first."""
     if waited_for is None:
         return causes
-    known = [cause for cause in causes if cause.vehicle == waited_for]
+    mechanism = Mechanism("right-of-way", None, None, None, 1.0)  # as the events tell
+    known = [
+        c if c.mechanism and c.mechanism.how == "right-of-way" else replace(c, mechanism=mechanism)
+        for c in causes
+        if c.vehicle == waited_for
+    ]
     if not known and waited_for in model.vehicles:
         choices = model.choices(waited_for)
         likeliest = max(choices, key=lambda choice: choices[choice])
         actions, probability = expected_actions(model, waited_for, likeliest)
-        known = [Cause(waited_for, actions, probability, None, None, None)]
+        known = [Cause(waited_for, actions, probability, mechanism, None, None)]
     return (*known, *(cause for cause in causes if cause.vehicle != waited_for))

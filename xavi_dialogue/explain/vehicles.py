@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
+from planner.trace import Action, PlanTrace
 from xavi_dialogue.causal.model import CausalModel, Choice
 from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
@@ -11,6 +11,7 @@ from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, Unanswered, decline, prediction
 
 EXPECTED = 0.3  # probability from which something may be said to be expected
+NEARLY = 0.7  # of the likeliest goal's probability, from which another must be told as well
 RECENT = 2.0  # [s] since when something is still going on
 
 
@@ -192,10 +193,12 @@ def _expectation(
     model = ride.model(trace)
     known = prediction(trace, vehicle)
     assert known is not None
-    goal = max(range(len(known.goals)), key=lambda g: known.goals[g].probability)
-    ways = {c: p for c, p in model.choices(vehicle).items() if c[0] == goal}
-    actions, probability = expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
-    aim = known.goals[goal]
+    ranked = sorted(range(len(known.goals)), key=lambda g: -known.goals[g].probability)
+    aim = known.goals[ranked[0]]
+    actions, probability = _likeliest(model, vehicle, ranked[0])
+    rival: tuple[QueryAction, ...] = ()
+    if len(ranked) > 1 and known.goals[ranked[1]].probability >= NEARLY * aim.probability:
+        rival, _ = _likeliest(model, vehicle, ranked[1])
     motion = ride.motion(vehicle).until(trace.sim_time)
     return Explanation(
         factual=tuple(a for a in actions if a in asked),
@@ -208,7 +211,14 @@ def _expectation(
         sim_time=trace.sim_time,
         destination=Destination(vehicle, aim.edge, aim.kind, aim.place, aim.probability),
         moment=moment,
+        rival=rival if rival != actions else (),
     )
+
+
+def _likeliest(model: CausalModel, vehicle: int, goal: int) -> tuple[tuple[Action, ...], float]:
+    """What a vehicle most probably does under one goal, and how probable that is."""
+    ways = {c: p for c, p in model.choices(vehicle).items() if c[0] == goal}
+    return expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
 
 
 def _recorded(trace: PlanTrace) -> Evidence:

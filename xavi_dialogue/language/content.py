@@ -105,6 +105,7 @@ def _time(query: Query, found: Explanation, actor: int | None, now: float) -> Ti
         ago=Quantity(now - moment, "s") if moment is not None and now - moment >= 1 else None,
         ahead=Quantity(moment - now, "s") if moment is not None and moment - now >= 1 else None,
         arrival=None if found.arrival is None else Quantity(found.arrival, "s"),
+        arrived=found.arrival == 0.0,
     )
 
 
@@ -134,6 +135,7 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         now=doing(actor, known[:1] if mine else known, query.tense),
         next=doing(actor, known[1:], "future"),
         forecast=doing(actor, expected, query.tense),
+        rival=doing(actor, plain(found.rival), query.tense),
         halted=trend == "standing",
         probability=probability,
         chance=None if probability is None else Quantity(probability, "probability"),
@@ -141,5 +143,6 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         speed=None if speed is None else Quantity(speed, "km/h"),
         trend=trend,
         arrival=None if found.arrival is None else Quantity(found.arrival, "s"),
+        arrived=found.arrival == 0.0,
         outcome=found.outcome.name if found.outcome else None,
     )

@@ -148,6 +148,7 @@ def constraint(
         deed=Doing(EGO, plain(deed), query.tense),
         past=query.tense == "past",
         gave_way=deed[-1] == "give-way",
+        turning=any(action in ("exit-left", "exit-right") for action in found.factual[:1]),
         because=points[0] if points else None,
         also=points[1:],
     )

@@ -95,6 +95,7 @@ class Constraint:
     deed: Doing
     past: bool
     gave_way: bool  # the question says that we did
+    turning: bool  # our plan was to turn
     because: CausePoint | None
     also: tuple[CausePoint, ...]
 
@@ -110,6 +111,7 @@ class Time:
     ago: Quantity | None  # how long since then, from 1 s
     ahead: Quantity | None  # how long until then, from 1 s
     arrival: Quantity | None  # how long until we are there
+    arrived: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,6 +157,7 @@ class ActivityPoint:
     now: Doing | None  # under way, and known
     next: Doing | None  # planned after it
     forecast: Doing | None  # expected
+    rival: Doing | None  # expected almost as probably
     halted: bool  # it stands still
     probability: float | None  # of the forecast or outcome
     chance: Quantity | None
@@ -162,6 +165,7 @@ class ActivityPoint:
     speed: Quantity | None
     trend: str | None
     arrival: Quantity | None
+    arrived: bool
     outcome: str | None
 
 
