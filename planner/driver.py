@@ -170,7 +170,7 @@ class Driver:
             current = replace(current, committed=True)
             events.append(_event("action-committed", later, current))
         self._note_waiting(hindrance, motion, later, current, events)
-        position, heading = current.plan.path.pose(motion.arc)
+        position, heading = current.plan.path.pose(motion.arc, scene.ego.length)
         self._current = self._close(current, later, events)
         return Command(position, heading, motion.speed)
 

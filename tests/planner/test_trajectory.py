@@ -133,3 +133,16 @@ def test_a_path_at_the_very_end_of_a_road_goes_straight_on() -> None:
 
 def test_lines_are_kept() -> None:
     assert roads("s1").line((LANE,)) is roads("s1").line((LANE,))
+
+
+def test_the_rear_follows_the_front_through_a_bend() -> None:
+    lanes = row("s1", *BEND)
+    line, length = roads("s1").line(lanes), 4.8
+    begins = dict(line.lanes)
+    for arc in np.arange(begins[lanes[1]], begins[lanes[2]] + 6.0, 0.5):
+        (x, y), heading = line.pose(float(arc), length)
+        rear = (x - length * math.cos(heading), y - length * math.sin(heading))
+        gap = np.min(np.hypot(*(line.points - np.array(rear)).T))
+        assert gap < 0.8, arc
+    turned = line.pose(begins[lanes[1]] + 5.0)[1] - line.pose(begins[lanes[1]] + 5.0, length)[1]
+    assert turned < -0.1  # the front points further into the right turn than the body
