@@ -67,3 +67,9 @@ def test_every_question_has_its_reply(path: Path) -> None:
     exchanges = [step for step in steps if isinstance(step, Exchange)]
     assert len(exchanges) >= 4
     assert all(exchange.reply for exchange in exchanges)
+
+
+def test_the_conversation_in_the_readme_is_a_real_one(root: Path) -> None:
+    header, _, body = (FOLDER / "tour.txt").read_text(encoding="utf-8").partition("\n\n")
+    assert header.startswith("scenario:")
+    assert body.strip() in (root / "README.md").read_text(encoding="utf-8")
