@@ -20,7 +20,7 @@ chat: runtime ## set up if need be, then ride and talk
 test: develop ## everything that must hold: lint, types, tests
 	@status=0; \
 	$(MAKE) --no-print-directory lint || status=1; \
-	$(BIN)/python -m pytest $(ARGS) || status=1; \
+	$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS) || status=1; \
 	exit $$status
 
 lint: develop ## ruff and mypy

@@ -193,7 +193,7 @@ def test_a_conversation_at_a_terminal(tmp_path: Path) -> None:
         assert screen.shows("I turn right.")
         assert screen.shows("We have arrived.")
         screen.type("Where are we going?\r")
-        assert screen.shows("We are ")
+        assert screen.shows("We have arrived at our destination.")
         screen.type("\x04")
         assert chat.wait(PATIENCE) == 0
         assert until(lambda: not any(map(alive, started)))
