@@ -3,7 +3,7 @@ import pytest
 
 from planner.events import Event
 from tests.traces import Ride, s1_ride, s1_world, s2_ride, s2_world, straight_track, trace_of
-from xavi_dialogue.explain.engine import explain
+from xavi_dialogue.explain.engine import explain, settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
@@ -330,8 +330,32 @@ def test_what_the_ego_does_and_where_it_goes():
     assert ask(S1, type="what").activity.actions == ("change-left",)
     assert ask(S1, type="where_goal", tense="present").destination.edge == "out"
     assert ask(S1, 4.0, type="when", tense="future").arrival == pytest.approx(12.0)
-    assert ask(S1, type="when", factual=("change-left",)).moment == 4.0
+    assert ask(S1, type="when", factual=("change-left",)).moment == 4.1
     assert ask(S1, 4.0, type="confidence").outcome.probability == pytest.approx(1.0)
+
+
+def test_a_turn_is_done_only_once_it_has_begun():
+    before = ask(S2, 5.5, type="what", tense="present")
+    assert before.activity.actions[:2] == ("continue", "exit-right")
+    assert ask(S2, 5.5, type="what", tense="future").activity.actions[0] == "exit-right"
+    early = ask(S2, 5.5, type="why", factual=("exit-right",))
+    assert (early.reason, early.facts["planned"]) == ("did-not-happen", True)
+    assert ask(S2, type="when", factual=("exit-right",)).moment == 6.0
+
+
+@pytest.mark.parametrize(
+    ("actor", "said", "meant"),
+    [
+        ("vehicle:1", "change-left", "change-right"),
+        ("vehicle:1", "change-right", "change-right"),
+        ("ego", "change-right", "change-left"),
+    ],
+)
+def test_a_side_that_was_not_named_is_that_on_which_it_happened(actor, said, meant):
+    asked = Query(type="why", actor=actor, factual=(said,), underspecified="direction")
+    assert settled(asked, record(S1)).factual == (meant,)
+    named = Query(type="why", actor=actor, factual=(said,))
+    assert settled(named, record(S1)).factual == (said,)
 
 
 def test_what_is_beyond_it_is_declined():

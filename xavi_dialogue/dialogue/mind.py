@@ -1,7 +1,7 @@
 """From a question to what is said: understand, refer, explain, put into words. Pure."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, TypeAlias
 
 import msgspec
@@ -21,6 +21,7 @@ from xavi_dialogue.dialogue.referents import (
 )
 from xavi_dialogue.dialogue.reply import Kind, Reply
 from xavi_dialogue.dialogue.state import Session, Understood
+from xavi_dialogue.explain.engine import settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
@@ -95,6 +96,7 @@ def answer(
     mind: Mind, session: Session, asked: Asked, record: Record, understood: Understood
 ) -> Said | NeedRollout:
     """The reply to a question that was understood, or what it takes to find it."""
+    understood = replace(understood, query=settled(understood.query, record))
     text, query = understood.text, understood.query
     context = speech(session, asked, record)
     if query.type == "smalltalk":

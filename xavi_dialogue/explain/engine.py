@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from xavi_dialogue.explain import ego, present, suppositions, vehicles
+from xavi_dialogue.explain.direction import directed
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryType
 from xavi_dialogue.explain.record import Record
@@ -43,6 +44,14 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
         return _explainer(query)(query, Ride(record))
     except Unanswered as unanswered:
         return unanswered.result
+
+
+def settled(query: Query, record: Record) -> Query:
+    """The query with what its words leave open and the record settles: on which side it was."""
+    try:
+        return directed(query, Ride(record))
+    except Unanswered:
+        return query
 
 
 def _explainer(query: Query) -> Explainer:

@@ -27,19 +27,23 @@ def what(query: Query, ride: Ride) -> Explanation:
     if query.factual:
         found = premise(ride, query)
         actions: tuple[QueryAction, ...] = query.factual
-        moment = found.deed.started if found.deed else None
+        moment = found.deed.time if found.deed else None
         return _activity(ride, actions, moment)
     deed = ride.manoeuvre
     if query.tense == "past" and deed is not None:
-        return _activity(ride, (deed.action,), deed.started)
+        return _activity(ride, (deed.action,), deed.time)
     if ride.arrived:
         return where(query, ride)
     if ride.ended:
         raise did_not_happen(ride, ())
-    under_way = ride.deeds[-1].action if ride.deeds and ride.deeds[-1].ended is None else None
-    plan = planned(trace)
-    if query.tense == "future" and under_way == plan[0] and len(plan) > 1:
-        plan = plan[1:]
+    plan: tuple[QueryAction, ...] = planned(trace)
+    under_way = ride.under_way
+    if under_way is not None and under_way.action == plan[0]:
+        begun = under_way.carried_out
+        if query.tense == "future" and begun and len(plan) > 1:
+            plan = plan[1:]
+        elif query.tense == "present" and not begun:
+            plan = ("continue", *plan)  # up to the junction it only follows the lane
     return _activity(ride, plan, None)
 
 

@@ -63,9 +63,10 @@ class Deed:
 
     @property
     def carried_out(self) -> bool:
-        """Whether it was done or is being done; a turn given up before it began was not."""
-        endless = self.action in ("continue", "stop")
-        return endless or self.committed is not None or self.ended is None
+        """Whether it was done or is being done; a turn still to come is neither."""
+        if self.committed is not None or self.action in ("continue", "stop"):
+            return True
+        return self.ended is None and not self.action.startswith("exit")
 
 
 class Ride:
@@ -95,6 +96,12 @@ class Ride:
     def deeds(self) -> tuple[Deed, ...]:
         """What the ego carried out, oldest first."""
         return tuple(deed for deed in _deeds(self.events) if deed.carried_out)
+
+    @property
+    def under_way(self) -> Deed | None:
+        """What the ego is about, even where the turn itself is still to come."""
+        begun = _deeds(self.events)
+        return begun[-1] if begun and begun[-1].ended is None else None
 
     @property
     def manoeuvre(self) -> Deed | None:

@@ -136,7 +136,9 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
         if previous.factual and query.factual is None and query.counterfactual:
             changes["counterfactual"] = _same_kind(query.counterfactual, previous.factual)
             changes["factual"] = previous.factual
-    if _empty(query) and query.type in ("confidence", "compare", "sensitivity", "when", "how"):
+    arriving = query.type == "when" and reading.named_actor  # complete as it stands
+    elliptic = query.type in ("confidence", "compare", "sensitivity", "when", "how")
+    if _empty(query) and elliptic and not arriving:
         if not reading.named_actor:
             changes["actor"] = previous.actor
         if query.type == "compare":

@@ -128,7 +128,7 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
         past=query.tense == "past",
         who=Vehicle(actor) if actor else None,
         asked=doing(actor or EGO, asked, query.tense),
-        instead=doing(actor or EGO, instead, query.tense),
+        instead=doing(actor or EGO, instead, "past"),
         did=facts.get("did") is True,
         planned=facts.get("planned") is True,
         probability=_number_of(facts, "probability"),
