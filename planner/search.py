@@ -4,8 +4,10 @@ The same seed gives the same rollouts: the generator is made from arguments alon
 """
 
 import random
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
 from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
@@ -24,7 +26,10 @@ from planner.trace import (
     Sample,
     Settings,
 )
-from planner.tree import Node, Tree
+from planner.tree import Edge, Node, Tree
+
+Samples: TypeAlias = tuple[Sample, ...]
+Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
 
 ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
 
@@ -67,20 +72,20 @@ class Search:
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
+    compared: dict[Action, float] = field(default_factory=dict)  # mean reward, by first action
     _plans: dict[tuple[tuple[Sample, ...], Node], ActionPlan | Refusal] = field(
         default_factory=dict
     )
     _legs: dict[tuple[tuple[Sample, ...], Node], Leg] = field(default_factory=dict)
 
     def run(self) -> None:
-        """Draw the rollouts of the search, then those that rarely tried first actions lack."""
+        """Draw the rollouts of the search; then compare the first actions, and force the rest."""
         for _ in range(self.settings.rollouts):
-            self._roll(self.tree, (), forced=False)
-        known = self.tree.edges.get((), {})
-        visits = {action: edge.visits for action, edge in known.items()}
-        for action in ACTIONS:
-            if action in visits:
-                self.force((action,), self.settings.min_rollouts - visits[action])
+            self._learn(self.tree, self._sample(), (), forced=False)
+        self._compare()
+        tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
+        for action in self._first_actions():
+            self.force((action,), self.settings.min_rollouts - tried[action])
 
     def force(self, actions: Node, count: int) -> None:
         """Draw rollouts that begin with given actions, without teaching the search.
@@ -89,14 +94,46 @@ class Search:
         """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
-            self._roll(apart, actions, forced=True)
+            self._learn(apart, self._sample(), actions, forced=True)
+
+    def _compare(self) -> None:
+        """Drive the best continuation of every first action through the same samples.
+
+        Values in the tree carry its exploration, and every action met other samples there. What
+        is chosen is what does best where all are tried alike.
+        """
+        rivals = self._first_actions()
+        if len(rivals) < 2:
+            return
+        drawn = [rollout.samples for rollout in self.rollouts]
+        count = min(self.settings.comparisons, len(drawn)) if self.beliefs else 1
+        common = drawn[:: max(1, len(drawn) // count)][:count]
+        for action in rivals:
+            driven = [
+                self._roll(samples, self._greedily(action), forced=True) for samples in common
+            ]
+            rewards = [one.reward for one in driven if one is not None]
+            self.compared[action] = sum(rewards) / len(rewards)
+
+    def _greedily(self, first: Action) -> Choose:
+        return lambda node, options: self.tree.greedy(node, options) if node else first
+
+    def _first_actions(self) -> list[Action]:
+        """The first actions that were tried, in a fixed order."""
+        known = self.tree.edges.get((), {})
+        return [action for action in ACTIONS if action in known]
 
     def plan(self) -> tuple[PlannedAction, ...]:
         """The chosen macro actions."""
         enough = max(1, int(ENOUGH * self.settings.rollouts))
-        return tuple(
-            PlannedAction(action, round(edge.value, 3), edge.visits)
-            for action, edge in self.tree.best(enough)
+        if not self.compared:
+            return _planned(self.tree.best(enough))
+        first = max(self.compared, key=lambda action: self.compared[action])
+        visits = self.tree.edges[()][first].visits
+        rest = self.tree.best(1, (first,))
+        return (
+            PlannedAction(first, round(self.compared[first], 3), visits),
+            *_planned(rest),
         )
 
     def not_applicable(self) -> tuple[NotApplicable, ...]:
@@ -105,8 +142,20 @@ class Search:
             NotApplicable(node, action, reason) for (node, action), reason in self.refusals.items()
         )
 
-    def _roll(self, tree: Tree, forced_actions: Node, *, forced: bool) -> None:
-        samples = self._sample()
+    def _learn(self, tree: Tree, samples: Samples, begin: Node, *, forced: bool) -> None:
+        """One rollout that begins with given actions, then follows and teaches a tree."""
+
+        def choose(node: Node, options: Sequence[Action]) -> Action:
+            if len(node) < len(begin):
+                return begin[len(node)]
+            return tree.select(node, options, self.rng)
+
+        one = self._roll(samples, choose, forced=forced)
+        if one is not None:
+            tree.back_up(one.actions, one.reward)
+
+    def _roll(self, samples: Samples, choose: Choose, *, forced: bool) -> Simulated | None:
+        """One rollout; None, and nothing recorded, where the action chosen does not apply."""
         legs: list[Leg] = []
         outcome: Outcome | None = None
         while outcome is None:
@@ -115,24 +164,20 @@ class Search:
                 outcome = "termination"
                 break
             options = self._options(samples, node, legs)
-            if len(node) < len(forced_actions):
-                wanted = forced_actions[len(node)]
-                if wanted not in options:
-                    return
-                options = {wanted: options[wanted]}
             if not options:
                 outcome = "dead"
                 break
-            action = tree.select(node, list(options), self.rng)
+            action = choose(node, list(options))
+            if action not in options:
+                return None
             legs.append(self._leg(samples, (*node, action), options[action], legs))
             outcome = legs[-1].outcome
         parts = summarise(legs, outcome)
         gained = round(reward(outcome, parts), 3)
-        tree.back_up(tuple(leg.action for leg in legs), gained)
         stretches = held_up(legs, self.task.start)
-        self.rollouts.append(
-            Simulated(forced, samples, tuple(legs), outcome, parts, gained, stretches)
-        )
+        one = Simulated(forced, samples, tuple(legs), outcome, parts, gained, stretches)
+        self.rollouts.append(one)
+        return one
 
     def _sample(self) -> tuple[Sample, ...]:
         """Draw a goal and a trajectory for every other vehicle."""
@@ -193,6 +238,10 @@ class Search:
                 motion = self.root.under_way[1]
             found = self._legs[samples, branch] = take(self.task, plan, motion, first, obstacles)
         return found
+
+
+def _planned(best: Sequence[tuple[Action, Edge]]) -> tuple[PlannedAction, ...]:
+    return tuple(PlannedAction(action, round(edge.value, 3), edge.visits) for action, edge in best)
 
 
 def _draw(rng: random.Random, probabilities: Sequence[float]) -> int:

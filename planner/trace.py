@@ -15,6 +15,7 @@ from sim.scene import Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/1"
 MAX_BYTES = 256 * 1024
+IMPROBABLE = 0.1  # probability up to which a prediction's line is dropped first
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
 
 Action = Literal[
@@ -60,7 +61,8 @@ class Settings(msgspec.Struct, frozen=True):
     """What the planner was told to do; all budgets are counts."""
 
     rollouts: int = 100  # drawn by the search
-    min_rollouts: int = 16  # for every applicable first action; the missing ones are forced
+    min_rollouts: int = 12  # for every applicable first action; the missing ones are forced
+    comparisons: int = 12  # rollouts of every first action through the same samples
     depth: int = 4  # macro actions in a row
     horizon: float = 30.0  # [s] a rollout that lasts longer terminates
     period: float = 1.0  # [s] between decisions
@@ -174,7 +176,7 @@ class PlannedAction(msgspec.Struct, frozen=True):
     """One macro action of the chosen plan with its value in the search."""
 
     action: Action
-    value: float  # of the action in the search, forced rollouts apart
+    value: float  # of the first: mean reward over the samples tried with all; else in the search
     visits: int  # unforced rollouts through it
 
 
@@ -218,9 +220,11 @@ def encode(trace: PlanTrace) -> bytes:
 def fitted(trace: PlanTrace) -> PlanTrace:
     """The trace without the lines that it has no room for.
 
-    Where it is larger than MAX_BYTES, the rollouts recorded last lose path and speed, then all
-    predictions do; what rollouts came to, and why, always stays.
+    Where it is larger than MAX_BYTES, improbable predictions lose path and speed, then the
+    rollouts recorded last, then all predictions; what rollouts came to, and why, always stays.
     """
+    if len(encode(trace)) > MAX_BYTES:
+        trace = _without_lines(trace, IMPROBABLE)
     excess = len(encode(trace)) - MAX_BYTES
     if excess <= 0:
         return trace
@@ -231,26 +235,26 @@ def fitted(trace: PlanTrace) -> PlanTrace:
             excess -= len(msgspec.json.encode(rollouts[k])) - len(msgspec.json.encode(bare))
             rollouts[k] = bare
     trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
-    if excess <= 0:
-        return trace
-    return msgspec.structs.replace(
-        trace, predictions=tuple(_without_lines(known) for known in trace.predictions)
-    )
+    return trace if excess <= 0 else _without_lines(trace, 1.0)
 
 
-def _without_lines(known: VehiclePrediction) -> VehiclePrediction:
-    return VehiclePrediction(
-        known.vehicle,
-        tuple(
-            msgspec.structs.replace(
-                goal,
-                trajectories=tuple(
-                    msgspec.structs.replace(way, path=(), speed=()) for way in goal.trajectories
-                ),
-            )
-            for goal in known.goals
-        ),
+def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
+    """The trace without the predicted lines that are at most as probable as `below`."""
+
+    def stripped(goal: GoalPrediction) -> GoalPrediction:
+        ways = (
+            msgspec.structs.replace(way, path=(), speed=())
+            if goal.probability * way.probability <= below
+            else way
+            for way in goal.trajectories
+        )
+        return msgspec.structs.replace(goal, trajectories=tuple(ways))
+
+    predictions = tuple(
+        VehiclePrediction(known.vehicle, tuple(map(stripped, known.goals)))
+        for known in trace.predictions
     )
+    return msgspec.structs.replace(trace, predictions=predictions)
 
 
 def decode(data: bytes) -> PlanTrace:

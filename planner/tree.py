@@ -68,10 +68,15 @@ class Tree:
         }
         return Tree(edges, self.low, self.high)
 
-    def best(self, enough: int) -> list[tuple[Action, Edge]]:
-        """The plan: from the root on, the action of highest value among those tried enough."""
+    def greedy(self, node: Node, actions: Sequence[Action]) -> Action:
+        """The tried action of highest value; where none was tried, the first."""
+        known = self.edges.get(node, {})
+        tried = [action for action in actions if action in known]
+        return max(tried, key=lambda action: known[action].value, default=actions[0])
+
+    def best(self, enough: int, node: Node = ()) -> list[tuple[Action, Edge]]:
+        """The plan from a node on: the action of highest value among those tried enough."""
         plan: list[tuple[Action, Edge]] = []
-        node: Node = ()
         while self.edges.get(node):
             known = self.edges[node]
             tried = {a: e for a, e in known.items() if e.visits >= enough} or known

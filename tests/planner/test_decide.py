@@ -170,11 +170,26 @@ def test_the_plan_is_what_the_search_found_best(trace: PlanTrace) -> None:
     assert chosen
     for k, step in enumerate(trace.plan, start=1):
         assert step.visits == sum(1 for taken in actions if taken[:k] == chosen[:k])
-    assert trace.plan[-1].value == pytest.approx(
-        sum(r.reward for r, taken in zip(drawn, actions, strict=True) if taken == chosen)
-        / sum(1 for taken in actions if taken == chosen),
-        abs=0.01,
-    )
+    if len(chosen) > 1:
+        assert trace.plan[-1].value == pytest.approx(
+            sum(r.reward for r, taken in zip(drawn, actions, strict=True) if taken == chosen)
+            / sum(1 for taken in actions if taken == chosen),
+            abs=0.01,
+        )
+
+
+def test_the_first_action_does_best_where_all_are_tried_alike(trace: PlanTrace) -> None:
+    count = trace.settings.comparisons if trace.predictions else 1
+    tried: dict[str, list[Rollout]] = {}
+    for rollout in trace.rollouts:
+        if rollout.forced:
+            tried.setdefault(rollout.actions[0].action, []).append(rollout)
+    compared = {action: found[:count] for action, found in tried.items()}
+    samples = [tuple(r.samples for r in found) for found in compared.values()]
+    assert len(set(samples)) == 1
+    means = {action: sum(r.reward for r in f) / len(f) for action, f in compared.items()}
+    assert trace.plan[0].value == pytest.approx(max(means.values()), abs=0.01)
+    assert means[trace.plan[0].action] == max(means.values())
 
 
 def test_the_frame_of_the_decision_is_recorded(trace: PlanTrace) -> None:

@@ -8,7 +8,17 @@ import msgspec
 import pytest
 
 from planner.decide import decide
-from planner.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, TraceError, decode, encode, fitted
+from planner.trace import (
+    IMPROBABLE,
+    MAX_BYTES,
+    SCHEMA,
+    PlanTrace,
+    Rollout,
+    TraceError,
+    decode,
+    encode,
+    fitted,
+)
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 
 
@@ -112,12 +122,15 @@ def test_what_does_not_fit_loses_the_lines_recorded_last(trace: PlanTrace) -> No
     assert bare(small) == bare(large)
     assert small.rollouts[0] == large.rollouts[0]
     assert small.rollouts[-1].path is None
-    assert small.predictions == trace.predictions
+    for goal, before in zip(small.predictions[0].goals, trace.predictions[0].goals, strict=True):
+        for way, known in zip(goal.trajectories, before.trajectories, strict=True):
+            likely = before.probability * known.probability > IMPROBABLE
+            assert way == known if likely else way.path == ()
 
 
 def test_in_a_great_crowd_predictions_lose_their_lines_too(trace: PlanTrace) -> None:
     large = crowded(trace, 150)
-    many = tuple(msgspec.structs.replace(trace.predictions[0], vehicle=k) for k in range(1, 40))
+    many = tuple(msgspec.structs.replace(trace.predictions[0], vehicle=k) for k in range(1, 120))
     small = fitted(msgspec.structs.replace(large, predictions=many))
     assert len(encode(small)) <= MAX_BYTES
     assert bare(small) == bare(large)
