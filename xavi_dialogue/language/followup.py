@@ -31,7 +31,7 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
         return _lean(reading, previous) if previous is not None else _alone(reading)
     if reading.anaphoric or reading.elided:
         if previous is None:
-            return None
+            return _pointed_at(reading)
         query = _supply_actions(reading, previous)
     if query.actor == "vehicle:it" and previous is not None:
         known = previous.actor.startswith("vehicle:")
@@ -62,6 +62,14 @@ def _alone(reading: Reading) -> Query | None:
     """A leaning reading with no earlier turn: only the bare "why?" is a question to clarify."""
     tense = reading.query.tense
     return Query(type="ambiguous", tense=tense) if reading.rule != "correction" else None
+
+
+def _pointed_at(reading: Reading) -> Query | None:
+    """The query of "why did you do that?" out of the blue: it speaks of what was just seen."""
+    query = reading.query
+    if reading.anaphoric and query.type == "why" and query.hypothesised_cause is None:
+        return query
+    return None
 
 
 def _supply_actions(reading: Reading, previous: Query) -> Query:
