@@ -131,6 +131,8 @@ def drive(
         summary = drive(loaded, _seed(seed, loaded), manner)
     if not control:
         _write(_json(summary) if as_json else story(summary.events))
+        if summary.ended is None:
+            raise typer.Exit(ExitStatus.INTERRUPTED)
 
 
 @app.command()
