@@ -62,6 +62,11 @@ class Network:
     lanes: Mapping[str, Lane]  # in file order
     links: tuple[Link, ...]  # in file order
     hash: str  # of the network, independent of comments in its file
+    roundabouts: tuple[frozenset[str], ...] = ()  # the edges of each ring
+
+    def roundabout(self, edge: str) -> frozenset[str] | None:
+        """The ring that an edge is part of."""
+        return next((ring for ring in self.roundabouts if edge in ring), None)
 
     def links_from(self, lane: str) -> tuple[Link, ...]:
         """The links that begin at the end of a lane (not of an internal one)."""
