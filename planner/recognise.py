@@ -17,7 +17,7 @@ from planner.astar import LANE_CHANGE_COST, SLOW, SOLUTIONS, Solution, ways
 from planner.forward import ACCELERATION, DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view, stopping_time
 from planner.obstacles import Obstacle
-from planner.rollout import Task
+from planner.rollout import Leg, Task
 from planner.routes import onward
 from planner.trace import Action, EgoGoal, Settings
 from planner.tracks import Observed, aligned, coast, drive_on, links_of, sample_path
@@ -288,3 +288,23 @@ def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, 
         for way, weight in zip(onwards, weights, strict=True)
         if weight > 0.0
     )
+
+
+def trajectories_to(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goal: Goal,
+    observed: Observed,
+    others: Sequence[Obstacle],
+    settings: Settings,
+) -> tuple[Trajectory, ...]:
+    """The ways on to a goal, however improbable it is; none where no way leads there."""
+    onwards = _ways_on(frame, starts, goal, observed, others)
+    return _trajectories(onwards, settings) if onwards else ()
+
+
+def motion_along(
+    frame: Task, legs: Sequence[Leg], observed: Observed, others: Sequence[Obstacle]
+) -> Obstacle:
+    """Legs driven one after the other from now, and the road followed from there."""
+    return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

@@ -180,7 +180,18 @@ class PlannedAction(msgspec.Struct, frozen=True):
     visits: int  # unforced rollouts through it
 
 
-class PlanTrace(msgspec.Struct, frozen=True):
+class WhatIf(msgspec.Struct, frozen=True):
+    """What is changed when a decision is planned again; see planner.whatif."""
+
+    actions: tuple[Action, ...] = ()  # that the ego takes first
+    removed: int | None = None  # a vehicle that is not there
+    vehicle: int | None = None  # another vehicle that acts as supposed:
+    goal: str | None = None  # where it goes: the kind of a goal, or its edge
+    vehicle_actions: tuple[Action, ...] = ()  # what it does first
+    rollouts: int = 40  # drawn with the ego's forced actions
+
+
+class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True):
     """The record of one decision."""
 
     schema: str
@@ -198,6 +209,7 @@ class PlanTrace(msgspec.Struct, frozen=True):
     rollouts: tuple[Rollout, ...]
     not_applicable: tuple[NotApplicable, ...]
     plan: tuple[PlannedAction, ...]
+    what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
 
     @property
     def trace_id(self) -> str:
