@@ -4,8 +4,8 @@ import msgspec
 import pytest
 
 from planner.decide import decide
-from planner.trace import PlanTrace, TimedAction, encode
-from planner.whatif import WhatIf, WhatIfError, replan
+from planner.trace import PlanTrace, encode
+from planner.whatif import NotInView, WhatIf, WhatIfError, replan
 from sim.network import Network
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 
@@ -31,7 +31,9 @@ def network() -> Network:
 def test_planning_again_without_a_change_gives_the_same_trace(
     trace: PlanTrace, network: Network
 ) -> None:
-    assert encode(replan(trace, network, WhatIf(rollouts=0))) == encode(trace)
+    again = replan(trace, network, WhatIf(rollouts=0))
+    assert again.what_if == WhatIf(rollouts=0)
+    assert encode(msgspec.structs.replace(again, what_if=None)) == encode(trace)
 
 
 def test_forced_actions_add_forced_rollouts_and_nothing_else(
@@ -50,7 +52,7 @@ def test_forced_actions_add_forced_rollouts_and_nothing_else(
     assert more.plan == trace.plan
     assert more.predictions == trace.predictions
     same = msgspec.structs.replace(
-        more, rollouts=trace.rollouts, not_applicable=trace.not_applicable
+        more, rollouts=trace.rollouts, not_applicable=trace.not_applicable, what_if=None
     )
     assert same == trace
 
@@ -114,8 +116,9 @@ def test_a_trace_of_elsewhere_is_refused(trace: PlanTrace) -> None:
 
 
 def test_an_unknown_vehicle_is_refused(trace: PlanTrace, network: Network) -> None:
-    with pytest.raises(WhatIfError, match="vehicle 9 was not in view"):
-        replan(trace, network, WhatIf(removed=9))
+    for request in (WhatIf(removed=9), WhatIf(vehicle=9, goal="stop")):
+        with pytest.raises(NotInView, match="vehicle 9 was not in view"):
+            replan(trace, network, request)
 
 
 def test_the_ego_cannot_be_removed(trace: PlanTrace, network: Network) -> None:
@@ -123,10 +126,29 @@ def test_the_ego_cannot_be_removed(trace: PlanTrace, network: Network) -> None:
         replan(trace, network, WhatIf(removed=0))
 
 
-def test_a_manoeuvre_under_way_is_not_planned_again(trace: PlanTrace, network: Network) -> None:
-    busy = msgspec.structs.replace(trace, under_way=TimedAction("change-left", trace.sim_time))
-    with pytest.raises(WhatIfError, match="change-left was under way"):
-        replan(busy, network, WhatIf())
+@pytest.mark.parametrize(
+    ("request_", "why"),
+    [
+        (WhatIf(vehicle=0, goal="stop"), "the ego's goal stands"),
+        (WhatIf(vehicle=1), "nothing is supposed of vehicle 1"),
+        (WhatIf(goal="stop"), "of no vehicle"),
+        (WhatIf(vehicle_actions=("stop",)), "of no vehicle"),
+        (WhatIf(removed=1, vehicle=1, goal="stop"), "cannot be removed and do something"),
+        (WhatIf(("stop",) * 5), "at most 4 actions"),
+        (WhatIf(vehicle=1, vehicle_actions=("continue",) * 5), "at most 4 actions"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    trace: PlanTrace, network: Network, request_: WhatIf, why: str
+) -> None:
+    with pytest.raises(WhatIfError, match=why):
+        replan(trace, network, request_)
+
+
+def test_a_whatif_of_a_whatif_is_refused(trace: PlanTrace, network: Network) -> None:
+    without = replan(trace, network, WhatIf(removed=4))
+    with pytest.raises(WhatIfError, match="of a what-if itself"):
+        replan(without, network, WhatIf(removed=1))
 
 
 def test_an_ego_off_the_road_is_refused(trace: PlanTrace, network: Network) -> None:

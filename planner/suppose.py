@@ -1,0 +1,201 @@
+"""Supposing of another vehicle that it has a certain goal, or that it does certain things.
+
+What is supposed becomes certain: one belief of probability 1 takes the place of all that
+recognition holds possible. The others are predicted as before; who predicts reckons with a
+vehicle that coasts, whatever it is then found to do.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.actions import Situation, expand
+from planner.astar import GRIP
+from planner.decide import Frame, Moment, observed
+from planner.forward import DT, Motion
+from planner.goals import PLACES, Goal, goals_in_view
+from planner.obstacles import Obstacle
+from planner.recognise import Belief, Trajectory, motion_along, trajectories_to
+from planner.rollout import Leg, Task, take
+from planner.routes import Refusal
+from planner.trace import Action, EgoGoal
+from planner.tracks import Observed, coast
+
+STRAIGHT = ("continue", "exit-straight")  # one word to people
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Prospect:
+    """What one vehicle has before it."""
+
+    task: Task  # without a goal
+    observed: Observed
+    starts: tuple[Situation, ...]  # where it may be, one for each lane that fits
+    others: tuple[Obstacle, ...]  # coasting
+
+
+def suppose(
+    frame: Frame,
+    moment: Moment,
+    known: Sequence[Belief],
+    vehicle: int,
+    goal: str | None,
+    actions: Sequence[Action],
+) -> Belief | Refusal:
+    """The one thing that a vehicle is then taken to be up to.
+
+    With a goal alone, its ways there keep their relative probabilities; where recognition gave
+    the goal up, they are planned afresh, and its likelihood is 0. With actions, it drives these
+    and then follows the road; a stop that comes last is for good.
+
+    Args:
+        frame: of the decision.
+        moment: of the decision.
+        known: what recognition holds possible of the vehicle.
+        vehicle: its name; it is in the scene.
+        goal: the kind of a goal, or its edge where several are of one kind; None leaves it open.
+        actions: what it does first, in order; () leaves it open.
+    """
+    prospect = _prospect(frame, moment, vehicle)
+    goals = _goals(prospect, known)
+    wanted = None if goal is None else _named(goals, goal)
+    if isinstance(wanted, Refusal):
+        return wanted
+    if actions:
+        return _acting(prospect, known, goals, wanted, actions)
+    assert wanted is not None
+    kept = _belief_in(known, wanted)
+    if kept is not None:
+        return replace(kept, probability=1.0)
+    ways = trajectories_to(
+        prospect.task, prospect.starts, wanted, prospect.observed, prospect.others, frame.settings
+    )
+    return Belief(wanted, 0.0, 1.0, ways) if ways else Refusal(f"no way leads to {wanted.place}")
+
+
+def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
+    seen = {
+        name: observed(name, moment.history[name], state) for name, state in moment.scene.items()
+    }
+    one = seen[vehicle]
+    steps, view = round(frame.settings.horizon / DT), frame.settings.view_radius
+    nowhere = EgoGoal("", 0.0, None)
+    task = Task(
+        frame.roads, nowhere, (one.length, one.width), moment.time, steps, view, yielding=True
+    )
+    others = (
+        coast(frame.roads, other, steps, past=False)
+        for name, other in seen.items()
+        if name != vehicle
+    )
+    return _Prospect(task, one, one.situation(frame.roads, -1, moment.time), tuple(others))
+
+
+def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
+    """All goals that the vehicle may have, probable or not."""
+    if not prospect.starts:
+        return tuple(belief.goal for belief in known)
+    return goals_in_view(prospect.task.roads, prospect.starts, prospect.task.view)
+
+
+def _named(goals: Sequence[Goal], name: str) -> Goal | Refusal:
+    """The goal of a kind, or at an edge."""
+    found = [goal for goal in goals if name in (goal.kind, _edge(goal))]
+    if not found and name in STRAIGHT:
+        found = [goal for goal in goals if goal.kind in STRAIGHT]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        edges = ", ".join(str(_edge(goal)) for goal in found)
+        return Refusal(f"several of its goals are {name}; name the edge: {edges}")
+    kinds = ", ".join(goal.kind for goal in goals)
+    return Refusal(f"{name} is none of its goals; these are {kinds}")
+
+
+def _belief_in(known: Sequence[Belief], goal: Goal) -> Belief | None:
+    wanted = (goal.kind, _edge(goal))
+    return next((b for b in known if (b.goal.kind, _edge(b.goal)) == wanted), None)
+
+
+def _edge(goal: Goal) -> str | None:
+    return None if goal.target is None else goal.target.edge
+
+
+def _acting(
+    prospect: _Prospect,
+    known: Sequence[Belief],
+    goals: Sequence[Goal],
+    wanted: Goal | None,
+    actions: Sequence[Action],
+) -> Belief | Refusal:
+    """The belief that a vehicle does certain things, whichever goal that leads to."""
+    legs = _driven(prospect, actions, prospect.others)
+    if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
+        legs = _driven(prospect, actions, ())  # the others do not coast into it
+    if isinstance(legs, Refusal):
+        return legs
+    reached = _reached(prospect, goals, legs)
+    if wanted is not None and wanted not in reached:
+        return Refusal(f"{', '.join(actions)} does not lead to {wanted.place}")
+    goal = wanted or reached[-1]
+    kept = _belief_in(known, goal)
+    motion = motion_along(prospect.task, legs, prospect.observed, prospect.others)
+    if actions[-1] == "stop":
+        motion = _standing(motion, legs[-1])
+    way = Trajectory(1.0, tuple(actions), motion)
+    return Belief(goal, 0.0 if kept is None else kept.likelihood, 1.0, (way,))
+
+
+def _driven(
+    prospect: _Prospect, actions: Sequence[Action], others: Sequence[Obstacle]
+) -> list[Leg] | Refusal:
+    """The actions in turn, from the first lane on which all of them apply."""
+    tried = [_legs(prospect.task, start, actions, others) for start in prospect.starts]
+    driven = (legs for legs in tried if not isinstance(legs, Refusal))
+    return next(driven, tried[0] if tried else Refusal("it is on no lane"))
+
+
+def _legs(
+    task: Task, here: Situation, actions: Sequence[Action], others: Sequence[Obstacle]
+) -> list[Leg] | Refusal:
+    """The actions in turn, as far as the horizon or a collision lets them."""
+    legs: list[Leg] = []
+    first = 0
+    for action in actions:
+        plan = expand(task.roads, here, action, None, task.view)
+        if isinstance(plan, Refusal):
+            return Refusal(f"{action} does not apply: {plan.reason}")
+        leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, others)
+        if bool(np.max(leg.speed**2 * np.abs(leg.curvature)) >= GRIP):
+            return Refusal(f"{action} does not apply: it is too fast for the bend")
+        legs.append(leg)
+        here, first = leg.end, leg.first + len(leg.speed) - 1
+        if leg.outcome in ("collision", "termination"):
+            break
+    return legs
+
+
+def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) -> tuple[Goal, ...]:
+    """The goals driven to, last the one that stands for the whole; at least one.
+
+    Where none of the goals in view was reached, it is the road taken.
+    """
+    lanes, last = prospect.task.roads.network.lanes, legs[-1]
+    edges = [lanes[lane].edge for leg in legs for lane in leg.lanes]
+    passed = [goal for goal in goals if _edge(goal) in edges]
+    passed.sort(key=lambda goal: edges.index(str(_edge(goal))))
+    if last.action == "stop":
+        standing = [goal for goal in goals if goal.target is None]
+        return (*passed, *(standing or [Goal("stop", PLACES["stop"], None, 1.0)]))
+    end = EgoGoal(edges[-1], round(last.end.location.offset, 2), None)
+    taken = Goal(last.action, PLACES.get(last.action, "the road ahead"), end, 1.0)
+    return tuple(passed) or (taken,)
+
+
+def _standing(motion: Obstacle, last: Leg) -> Obstacle:
+    """The motion that stays for good where a leg ended."""
+    end = last.first + len(last.speed) - 1
+    position, heading, speed = motion.position.copy(), motion.heading.copy(), motion.speed.copy()
+    position[end:], heading[end:], speed[end:] = last.position[-1], last.heading[-1], 0.0
+    return replace(motion, position=position, heading=heading, speed=speed)
