@@ -11,14 +11,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.network import Network, angle_between, cumulative
+from sim.network import Network, angle_between
 from sim.scene import Point
 
 Array = NDArray[np.float64]
 
 SPACING = 1.0  # [m] between path points
 LATERAL_ACCELERATION = 2.5  # [m/s2] comfortable in bends
-SMOOTHING = 2  # path points on each side over which curvature is averaged
+CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
+WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
+DETAIL = 0.4  # [m] below which the steps of a polygon are noise
+OVERSHOOT = 6.0  # [m] beyond its lane at which a vehicle may be found
+STEEPEST = 0.6  # [rad] of heading against a lane with which a blend onto it begins
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,6 +76,7 @@ class Roads:
     def __init__(self, network: Network) -> None:
         self.network = network
         self.fastest = max(lane.speed_limit for lane in network.lanes.values())  # [m/s]
+        self.leads: dict[str, Any] = {}  # kept by planner.routes
         self._lines: dict[tuple[str, ...], Path] = {}
 
     def line(self, lanes: tuple[str, ...]) -> Path:
@@ -82,7 +87,13 @@ class Roads:
         return found
 
     def path(
-        self, lanes: tuple[str, ...], position: Point, heading: float, blend: float, reach: float
+        self,
+        lanes: tuple[str, ...],
+        position: Point,
+        heading: float,
+        blend: float,
+        reach: float,
+        least: float = 0.0,
     ) -> Path:
         """The path from a pose onto the centreline of connected lanes.
 
@@ -92,104 +103,149 @@ class Roads:
             heading: [rad]
             blend: [m] length over which the lateral offset vanishes.
             reach: [m] largest length of the path; the lanes may end earlier.
+            least: [m] shortest length; where the lanes end earlier, it leads straight on.
         """
         line = self.line(lanes)
         offset, lateral, direction = _nearest(line, position)
-        slope = math.tan(max(-0.6, min(0.6, angle_between(heading, direction))))
+        turned = angle_between(heading, direction)
+        slope = math.tan(max(-STEEPEST, min(STEEPEST, turned)))
         first = int(np.searchsorted(line.arc, offset + 0.25 * SPACING))
         last = int(np.searchsorted(line.arc, offset + reach)) + 1
-        arc = np.concatenate(([offset], line.arc[first:last]))
-        if len(arc) < 3:
-            arc = np.array([offset, offset + 0.5 * SPACING, offset + SPACING])
-        reference = _interpolate(line, arc)
+        along = np.concatenate(([0.0], line.arc[first:last] - offset))
+        if len(along) < 3 or along[-1] < least:
+            along = np.concatenate((along, np.arange(along[-1] + SPACING, least, SPACING)))
+            while len(along) < 3:
+                along = np.append(along, along[-1] + SPACING)
         if abs(lateral) < 0.02 and abs(slope) < 0.005:
-            return _path(reference, arc - offset, line, offset)
-        return _blended(line, reference, arc, offset, lateral, slope, blend)
+            return _straightly(line, along, offset)
+        return _blended(line, along, offset, lateral, slope, blend)
+
+
+def _straightly(line: Path, along: Array, offset: float) -> Path:
+    """The part of a line from `offset` [m] on, at distances `along` [m] from there."""
+    points, heading, curvature, cap = _interpolate(line, along + offset)
+    return _path(points, along, heading, curvature, cap, _lanes(line, offset, along, along))
 
 
 def _blended(
-    line: Path,
-    reference: tuple[Array, Array, Array],
-    arc: Array,
-    offset: float,
-    lateral: float,
-    slope: float,
-    blend: float,
+    line: Path, along: Array, offset: float, lateral: float, slope: float, blend: float
 ) -> Path:
-    """Shift a reference line by the quintic that leads `lateral` and `slope` to zero."""
-    points, heading, cap = reference
-    u = np.clip((arc - offset) / blend, 0.0, 1.0)
-    aside = lateral * (1.0 - 10.0 * u**3 + 15.0 * u**4 - 6.0 * u**5)
-    aside += slope * blend * (u - 6.0 * u**3 + 8.0 * u**4 - 3.0 * u**5)
+    """The same, shifted by the quintic that leads `lateral` [m] and `slope` to zero."""
+    points, heading, bend, cap = _interpolate(line, along + offset)
+    u = np.clip(along / blend, 0.0, 1.0)
+    aside = lateral * (1.0 - u**3 * (10.0 - 15.0 * u + 6.0 * u**2))
+    aside += slope * blend * (u - u**3 * (6.0 - 8.0 * u + 3.0 * u**2))
+    rise = -30.0 * lateral / blend * (u * (1.0 - u)) ** 2
+    rise += slope * (1.0 - u**2 * (18.0 - 32.0 * u + 15.0 * u**2))
+    turning = -60.0 * lateral / blend**2 * u * (1.0 - u) * (1.0 - 2.0 * u)
+    turning += slope / blend * u * (-36.0 + 96.0 * u - 60.0 * u**2)
     shifted = points + aside[:, None] * np.column_stack((-np.sin(heading), np.cos(heading)))
-    steps = np.hypot(*np.diff(shifted, axis=0).T)
-    length = np.concatenate(([0.0], np.cumsum(np.maximum(steps, 1e-6))))
-    turned = np.unwrap(np.arctan2(np.gradient(shifted[:, 1]), np.gradient(shifted[:, 0])))
-    return _path((shifted, turned, cap), length, line, offset, arc - offset)
+    steps = np.maximum(np.hypot(*np.diff(shifted, axis=0).T), 1e-3)
+    arc = np.concatenate(([0.0], np.cumsum(steps)))
+    stretch = np.maximum(1.0 - aside * bend, 0.2)  # of the shifted line against the line
+    curvature = bend / stretch + turning / (stretch**2 + rise**2) ** 1.5
+    turned = heading + np.arctan2(rise, stretch)
+    return _path(shifted, arc, turned, curvature, cap, _lanes(line, offset, along, arc))
 
 
 def _path(
-    shape: tuple[Array, Array, Array],
+    points: Array,
     arc: Array,
-    line: Path,
-    offset: float,
-    along: Array | None = None,
+    heading: Array,
+    curvature: Array,
+    cap: Array,
+    lanes: tuple[tuple[str, float], ...],
 ) -> Path:
-    """A path from its points, headings and caps; `along` maps onto the line's own arc."""
-    points, heading, cap = shape
-    curvature = _curvature(heading, arc)
     bend = np.sqrt(LATERAL_ACCELERATION / np.maximum(np.abs(curvature), 1e-4))
-    own = arc if along is None else along
-    starts = [(lane, float(np.interp(start - offset, own, arc))) for lane, start in line.lanes]
-    first = max((k for k, (_, start) in enumerate(line.lanes) if start <= offset), default=0)
-    lanes = ((starts[first][0], line.lanes[first][1] - offset), *starts[first + 1 :])
     return Path(points, arc, heading, curvature, np.minimum(cap, bend), lanes)
+
+
+def _lanes(line: Path, offset: float, along: Array, arc: Array) -> tuple[tuple[str, float], ...]:
+    """The lanes from `offset` [m] on; `along` is mapped onto `arc`."""
+    first = max((k for k, (_, start) in enumerate(line.lanes) if start <= offset), default=0)
+    name, start = line.lanes[first]
+    rest = line.lanes[first + 1 :]
+    begins = np.interp([start - offset for _, start in rest], along, arc)
+    return (
+        (name, start - offset),
+        *((lane, float(begin)) for (lane, _), begin in zip(rest, begins, strict=True)),
+    )
 
 
 def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
     """Join and resample the centrelines of connected lanes."""
     points: list[Point] = []
     starts: list[tuple[str, float]] = []
-    caps: list[tuple[float, float]] = []
-    total = 0.0
-    for lane_id in lanes:
-        lane = network.lanes[lane_id]
-        starts.append((lane_id, total))
-        caps.append((total, lane.speed_limit))
-        total += cumulative(lane.centreline)[-1]
-        points.extend(p for p in lane.centreline if not points or math.dist(p, points[-1]) > 1e-3)
+    caps: list[float] = []
+    total = 0.0  # up to the last point
+    for name in lanes:
+        lane = network.lanes[name]
+        gap = math.dist(points[-1], lane.centreline[0]) if points else 0.0
+        starts.append((name, total + gap))
+        caps.append(lane.speed_limit)
+        last = len(lane.centreline) - 1
+        for k, point in enumerate(lane.centreline):
+            step = math.dist(point, points[-1]) if points else math.inf
+            if step > DETAIL or (k == last and step > 1e-3):
+                total += step if points else 0.0
+                points.append(point)
+    if len(points) < 2:
+        points.append((points[0][0] + 1e-3, points[0][1]))
     raw = np.array(points)
     at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(raw, axis=0).T))))
     arc = np.linspace(0.0, at[-1], max(3, math.ceil(at[-1] / SPACING) + 1))
     even = np.column_stack((np.interp(arc, at, raw[:, 0]), np.interp(arc, at, raw[:, 1])))
     heading = np.unwrap(np.arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
-    cap = np.array([limit for _, limit in caps])
-    index = np.searchsorted(np.array([start for start, _ in caps]), arc + 1e-9, side="right") - 1
-    return Path(even, arc, heading, _curvature(heading, arc), cap[index], tuple(starts))
+    index = np.searchsorted(np.array([start for _, start in starts]), arc + 1e-9, side="right") - 1
+    cap = np.array(caps)[index]
+    return Path(even, arc, heading, _curvature(heading, arc), cap, tuple(starts))
 
 
 def _curvature(heading: Array, arc: Array) -> Array:
-    """Change of heading per metre, averaged over a few points: lanes are polygons."""
-    n = len(arc)
-    low = np.maximum(np.arange(n) - SMOOTHING, 0)
-    high = np.minimum(np.arange(n) + SMOOTHING, n - 1)
-    result: Array = (heading[high] - heading[low]) / np.maximum(arc[high] - arc[low], 1e-6)
+    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
+
+    Curvature is averaged over the widest window in which turning evenly instead of at the
+    corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
+    """
+    n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
+    total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
+    result = np.zeros(n)
+    open_ = np.ones(n, dtype=np.bool_)
+    for window in WINDOWS:
+        low = np.maximum(np.arange(n) - window, 0)
+        high = np.minimum(np.arange(n) + window, n - 1)
+        width = np.maximum(arc[high] - arc[low], 1e-6)
+        turn = heading[high] - heading[low]
+        bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
+        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + np.abs(bulge) <= CUT)
+        result = np.where(open_, turn / width, result)
     return result
 
 
-def _interpolate(line: Path, arc: Array) -> tuple[Array, Array, Array]:
-    """Points, headings and caps of a line at arcs; straight on beyond its end."""
+def _interpolate(line: Path, arc: Array) -> tuple[Array, Array, Array, Array]:
+    """Points, headings, curvatures and caps of a line at arcs; straight on beyond its end."""
     beyond = np.maximum(arc - line.length, 0.0)
     end = line.heading[-1]
     x = np.interp(arc, line.arc, line.points[:, 0]) + beyond * math.cos(end)
     y = np.interp(arc, line.arc, line.points[:, 1]) + beyond * math.sin(end)
     index = np.minimum(np.searchsorted(line.arc, arc + 1e-9), len(line.arc) - 1)
-    return np.column_stack((x, y)), np.interp(arc, line.arc, line.heading), line.cap[index]
+    curvature = np.where(beyond > 0.0, 0.0, np.interp(arc, line.arc, line.curvature))
+    return (
+        np.column_stack((x, y)),
+        np.interp(arc, line.arc, line.heading),
+        curvature,
+        line.cap[index],
+    )
 
 
 def _nearest(line: Path, position: Point) -> tuple[float, float, float]:
-    """Arc [m], distance to the left [m] and heading [rad] of the nearest place on a line."""
-    offsets = line.points - np.array(position)
+    """Arc [m], distance to the left [m] and heading [rad] of the nearest place on a line.
+
+    It is looked for on the line's first lane: the line may come by again.
+    """
+    first = line.lanes[1][1] if len(line.lanes) > 1 else line.length
+    count = int(np.searchsorted(line.arc, first + OVERSHOOT)) + 1
+    offsets = line.points[:count] - np.array(position)
     k = int(np.argmin(np.einsum("ij,ij->i", offsets, offsets)))
     along, aside = relative(line, k, np.array([position[0]]), np.array([position[1]]))
     arc = float(line.arc[k] + along[0])

@@ -1,0 +1,93 @@
+"""Manoeuvres, and the plan of a macro action that is made of them."""
+
+from dataclasses import dataclass
+
+from planner.trace import Action
+from planner.trajectory import Path
+from sim.network import Direction, Link, Location
+from sim.scene import Point
+
+
+@dataclass(frozen=True, slots=True)
+class LaneFollow:
+    """Drive along the lane."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+
+
+@dataclass(frozen=True, slots=True)
+class LaneChange:
+    """Move over to the neighbouring lane."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+    side: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class GiveWay:
+    """Wait at a line until those who go first on the link's foes leave a gap."""
+
+    stop: float  # [m] arc of the waiting line, for the front bumper; negative once passed
+    clear: float  # [m] arc at which the junction is left
+    link: Link
+    yields_to: frozenset[tuple[str, int]]  # (junction, link index) of those who go first
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """Cross a junction along a link."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Brake to a standstill and stand for STANDING_TIME."""
+
+    start: float  # [m] arc
+
+
+Manoeuvre = LaneFollow | LaneChange | GiveWay | Turn | Stop
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """Where a vehicle is when it chooses an action."""
+
+    time: float  # [s]
+    position: Point  # [m]
+    heading: float  # [rad]
+    speed: float  # [m/s]
+    acceleration: float  # [m/s2]
+    location: Location
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ActionPlan:
+    """One macro action, ready to be driven."""
+
+    action: Action
+    path: Path
+    manoeuvres: tuple[Manoeuvre, ...]
+    end: float  # [m] arc at which the action is over
+    commit: float  # [m] arc from which it can no longer be taken back
+    goal: float | None  # [m] arc at which the goal is reached, if this action reaches it
+
+    @property
+    def give_ways(self) -> tuple[GiveWay, ...]:
+        """The lines at which this action may have to wait."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
+
+    @property
+    def stops(self) -> bool:
+        """Whether the action ends at a standstill."""
+        return self.action == "stop"
+
+    @property
+    def changes_lane(self) -> bool:
+        """Whether the action moves to another lane of the same edge."""
+        return any(isinstance(m, LaneChange) for m in self.manoeuvres)
