@@ -34,6 +34,11 @@ def _session_name(name: str) -> str:
     return name
 
 
+trace_app = typer.Typer(
+    help="Look into recorded decisions.", no_args_is_help=True, rich_markup_mode=None
+)
+app.add_typer(trace_app, name="trace")
+
 ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a folder.")]
 Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -173,6 +178,25 @@ def transcripts(
     with _errors():
         differing = replay_all(folder, accept=accept, note=_note)
     raise typer.Exit(ExitStatus.FAILED if differing and not accept else ExitStatus.ANSWERED)
+
+
+@trace_app.command("show")
+def trace_show(
+    file: Annotated[str, typer.Argument(help="A trace or a ride, gzipped or not; - for stdin.")],
+    decision: Annotated[int | None, typer.Option(min=0, help="Of a ride: its number.")] = None,
+    at: Annotated[float | None, typer.Option(min=0.0, help="Of a ride: the latest by [s].")] = None,
+    depth: Annotated[int, typer.Option(min=1, help="Actions in a row that are shown.")] = 2,
+    everything: Annotated[bool, typer.Option("--all", help="Every branch and reason.")] = False,
+) -> None:
+    """Show the search tree of a decision; of a ride, first the list of its decisions."""
+    from xavi_dialogue.app.debug import files, text
+
+    with _errors():
+        held = files.read(files.content(file))
+        trace = files.choose(held, decision, at)
+        extent = text.Extent(depth, everything)
+        shown = text.listing(held.traces) if trace is None else text.show(trace, extent)
+    _write(shown)
 
 
 @app.command()

@@ -9,13 +9,18 @@ from sim.sumo import SimulationError
 from xavi_dialogue.app.bench import BenchError
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import ServiceLost
+from xavi_dialogue.app.debug.files import TraceFileError
+from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.parsing import ParseUsageError
 from xavi_dialogue.transports.bus import BusError
 from xavi_dialogue.transports.transcript import TranscriptError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
-    ((ScenarioError, ParseUsageError, BenchError, TranscriptError), ExitStatus.USAGE),
+    (
+        (ScenarioError, ParseUsageError, BenchError, TranscriptError, TraceFileError, TreeError),
+        ExitStatus.USAGE,
+    ),
     (
         (SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
         ExitStatus.FAILED,

@@ -1,0 +1,1 @@
+"""Looking into a decision: its search tree as text."""
