@@ -1,7 +1,6 @@
-"""The car process: the ride at its pace, reported on the bus, and planning again on request."""
+"""The car process: the ride at its pace, reported on the bus."""
 
 import queue
-import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -12,23 +11,15 @@ import msgspec
 from planner import trace as plan_trace
 from planner.events import Event
 from planner.trace import PlanTrace
-from planner.whatif import WhatIfError
 from xavi_dialogue.app.control import Order, Orders, Pause, Quit, Resume, Speed, Until
-from xavi_dialogue.app.local import Replan
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Moment, halts
-from xavi_dialogue.explain.explanation import NeedRollout
-from xavi_dialogue.transports.bus import Bus, Call, Keys
+from xavi_dialogue.transports.bus import Bus, Call, CallHandler, Keys
 from xavi_dialogue.transports.messages import (
     CarState,
     EventReport,
-    Failure,
-    MessageError,
     SceneReport,
     TraceReport,
-    WhatIfRequest,
-    pack,
-    unpack,
 )
 from xavi_dialogue.transports.schema import schema_of
 
@@ -66,53 +57,6 @@ class Pace:
         """Halt if this is where to halt."""
         if self.running and self.stops and halts(self.until, at, events):
             self.running = False
-
-
-class Replanner:
-    """Plans again from decisions of this ride, on a thread of its own, one request at a time."""
-
-    def __init__(self, again: Replan) -> None:
-        self._again = again
-        self._traces: dict[str, PlanTrace] = {}
-        self._calls: queue.SimpleQueue[Call] = queue.SimpleQueue()
-        threading.Thread(target=self._work, name="whatif", daemon=True).start()
-
-    def record(self, moment: Moment) -> None:
-        """Know the decision of a moment."""
-        if moment.trace is not None:
-            self._traces[moment.trace.trace_id] = moment.trace
-
-    def __call__(self, call: Call) -> None:
-        """Take up a request."""
-        self._calls.put(call)
-
-    def _work(self) -> None:
-        while True:
-            call = self._calls.get()
-            answer = self._answer(call.payload)
-            if isinstance(answer, Failure):
-                call.refuse(pack(answer))
-            else:
-                call.reply(plan_trace.encode(answer))
-
-    def _answer(self, payload: bytes) -> PlanTrace | Failure:
-        try:
-            wanted = unpack(payload, WhatIfRequest)
-        except MessageError as error:
-            return Failure(reason="planner-failed", detail=str(error))
-        trace = self._traces.get(wanted.trace_id)
-        if trace is None:
-            return Failure(reason="outside-record", detail=f"no decision {wanted.trace_id}")
-        need = NeedRollout(
-            trace_id=wanted.trace_id,
-            actions=wanted.actions,
-            removed=wanted.removed,
-            rollouts=wanted.rollouts,
-        )
-        try:
-            return self._again(trace, need)
-        except WhatIfError as error:
-            return Failure(reason="planner-failed", detail=str(error))
 
 
 @dataclass
@@ -180,7 +124,7 @@ class Car:
         reporter.show(moment, state, pace.speed, pace.obeyed)
 
 
-def serve(bus: Bus, keys: Keys, planning: Replanner) -> None:
+def serve(bus: Bus, keys: Keys, planning: CallHandler) -> None:
     """Show that the car is there, and answer what is asked of it."""
     bus.serve(keys.of("@rpc/whatif"), planning)
     for name, kind in {**REPORTS, "plan_trace": PlanTrace}.items():

@@ -3,8 +3,10 @@
 import queue
 import sys
 import time
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import msgspec
 
@@ -12,12 +14,14 @@ from planner.events import Event
 from sim.scenario import Scenario
 from sim.scene import EGO
 from xavi_dialogue.app import control
-from xavi_dialogue.app.car import Car, Pace, Replanner, serve
-from xavi_dialogue.app.local import planner_for
+from xavi_dialogue.app.car import Car, Pace, serve
+from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Ending, Moment, network_of, start
 from xavi_dialogue.transports.bus import Keys
 from xavi_dialogue.transports.zenoh_bus import join
+
+Record: TypeAlias = Callable[[Moment], None]
 
 HARD_BRAKE = -4.0  # [m/s2]
 HUB_PATIENCE = 10.0  # [s] for the hub to come up
@@ -84,23 +88,34 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
     if manner.controlled:
         control.listen(sys.stdin, orders)
     network = network_of(scenario)
-    planning = Replanner(planner_for(network))
     tally = Tally(Summary(scenario.name, seed))
-    bus = None if manner.connect is None else join(manner.connect, HUB_PATIENCE)
-    with bus or nullcontext():
-        reporter = None if bus is None else Reporter(bus, Keys())
-        if bus is not None:
-            serve(bus, Keys(), planning)
-        with start(scenario, seed, network, duration=manner.duration) as ride:
-            car = Car(
-                ride=ride,
-                step=scenario.step,
-                records=(tally.record, planning.record),
-                reporter=reporter,
-                orders=orders,
-                pace=Pace(manner.speed, running=not manner.controlled),
-                stays=manner.controlled,
-            )
-            car.run()
+    with (
+        _company(scenario, manner.connect) as (reporter, records),
+        start(scenario, seed, network, duration=manner.duration) as ride,
+    ):
+        car = Car(
+            ride=ride,
+            step=scenario.step,
+            records=(tally.record, *records),
+            reporter=reporter,
+            orders=orders,
+            pace=Pace(manner.speed, running=not manner.controlled),
+            stays=manner.controlled,
+        )
+        car.run()
     tally.summary.wall_s = round(time.monotonic() - began, 3)
     return tally.summary
+
+
+@contextmanager
+def _company(
+    scenario: Scenario, endpoint: str | None
+) -> Iterator[tuple[Reporter | None, tuple[Record, ...]]]:
+    """Who is told of the ride, and who takes it down to answer about it: nobody without a hub."""
+    if endpoint is None:
+        yield None, ()
+        return
+    with join(endpoint, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
+        planning = Replanner(pool)
+        serve(bus, Keys(), planning)
+        yield Reporter(bus, Keys()), (planning.record,)

@@ -4,8 +4,10 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from planner.trace import PlanTrace
-from planner.whatif import WhatIf, WhatIfError, replan
+import msgspec
+
+from planner.trace import PlanTrace, WhatIf
+from planner.whatif import WhatIfError, replan
 from sim.network import Network
 from xavi_dialogue.app.ride import Moment, clock, halts
 from xavi_dialogue.dialogue.events import (
@@ -49,7 +51,7 @@ def planner_for(network: Network) -> Replan:
     """Plans again on a network."""
 
     def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        return replan(trace, network, WhatIf(need.actions, need.removed, need.rollouts))
+        return replan(trace, network, msgspec.convert(msgspec.to_builtins(need), WhatIf))
 
     return again
 

@@ -159,9 +159,16 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class NeedRollout(msgspec.Struct, frozen=True, kw_only=True):
-    """The record lacks this foil: the app plans again from the trace and asks once more."""
+    """The record lacks this foil: the app plans again from the trace and asks once more.
+
+    See planner.trace.WhatIf. What is supposed of another vehicle is left out where it is not
+    set, so that the names under which plans are kept stay what they are.
+    """
 
     trace_id: str
     actions: tuple[Action, ...] = ()  # forced for the ego, in order
     removed: int | None = None  # a vehicle to plan without
     rollouts: int = 40
+    vehicle: int | msgspec.UnsetType = msgspec.UNSET  # another vehicle that acts as supposed:
+    goal: str | msgspec.UnsetType = msgspec.UNSET  # where it goes: kind of a goal, or its edge
+    vehicle_actions: tuple[Action, ...] | msgspec.UnsetType = msgspec.UNSET  # what it does first

@@ -25,6 +25,8 @@ Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za
 Count = Annotated[int, msgspec.Meta(ge=0)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
+Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
+Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
 CarState = Literal["driving", "paused", "ended"]
 
 KIB = 1024
@@ -187,9 +189,12 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     schema: Literal["xavi.whatif/1"] = "xavi.whatif/1"
     request: Name
     trace_id: Name
-    actions: tuple[Action, ...] = ()
-    removed: int | None = None
-    rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40
+    actions: Actions = ()  # that the ego takes first
+    removed: int | None = None  # a vehicle that is not there
+    vehicle: int | None = None  # another vehicle that acts as supposed:
+    goal: Place | None = None  # where it goes: the kind of a goal, or its edge
+    vehicle_actions: Actions = ()  # what it does first
+    rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 
 

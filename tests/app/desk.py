@@ -1,0 +1,51 @@
+"""Who hands jobs to a pool of workers and takes the answers."""
+
+import queue
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from xavi_dialogue.app.pool import Job, Pool
+from xavi_dialogue.transports.messages import Failure
+
+PATIENCE = 30.0  # [s] before a test gives up on what never comes
+LONG = 600.0  # [s] a deadline that is never met
+
+
+def until(condition: Callable[[], bool]) -> bool:
+    give_up = time.monotonic() + PATIENCE
+    while time.monotonic() < give_up:
+        if condition():
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def there(pid: int) -> bool:
+    """Whether a process is there, if only as a zombie."""
+    return Path(f"/proc/{pid}").exists()
+
+
+class Desk:
+    """Hands jobs to a pool and takes the answers."""
+
+    def __init__(self, pool: Pool) -> None:
+        self.pool = pool
+        self.answers: dict[str, queue.SimpleQueue[bytes | Failure]] = {}
+
+    def ask(self, order: str, within: float = LONG, name: str | None = None) -> None:
+        answers = self.answers.setdefault(name or order, queue.SimpleQueue())
+        self.pool.submit(Job(order.encode(), time.monotonic() + within, answers.put))
+
+    def answer(self, name: str) -> bytes | Failure:
+        return self.answers[name].get(timeout=PATIENCE)
+
+    def reason(self, name: str) -> str:
+        answer = self.answer(name)
+        assert isinstance(answer, Failure)
+        return answer.reason
+
+    def pid(self) -> int:
+        """The process of the one worker."""
+        assert until(lambda: len(self.pool.pids) == 1)
+        return self.pool.pids[0]
