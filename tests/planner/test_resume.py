@@ -5,12 +5,13 @@ import math
 import msgspec
 import pytest
 
+from planner.actions import SIDES
 from planner.decide import Frame, Moment, decide, root_at
 from planner.driver import Driver
 from planner.resume import resume
 from planner.routes import Refusal
 from planner.search import Root
-from planner.trace import Action, PlanTrace
+from planner.trace import Action, EgoGoal, PlanTrace
 from planner.trajectory import Roads
 from planner.whatif import WhatIf, WhatIfError, replan
 from sim.scene import EGO, Scene, VehicleState
@@ -19,9 +20,11 @@ from tests.planner.worlds import LENGTH, QUICK, WIDTH, before_end, driven, goal,
 DT = 0.1  # [s]
 
 
-def under_way(name: str, others: dict[int, VehicleState], ego: VehicleState) -> list[PlanTrace]:
+def under_way(
+    name: str, aim: EgoGoal, others: dict[int, VehicleState], ego: VehicleState
+) -> list[PlanTrace]:
     """Drive among standing vehicles, and keep the decisions taken within a manoeuvre."""
-    driver = Driver(roads(name).network, goal(name), QUICK, seed=1)
+    driver = Driver(roads(name).network, aim, QUICK, seed=1)
     found, time = [], 0.0
     while time < 12.0 and not driver.finished:
         step = driver.step(Scene(round(time, 3), {EGO: ego, **others}), DT)
@@ -39,10 +42,12 @@ def standing(name: str, lane: str, to_end: float) -> VehicleState:
 
 @pytest.fixture(scope="module")
 def changing() -> list[PlanTrace]:
-    """The ego of s1 changes lanes, because of a vehicle that stands before it."""
+    """The ego of s1 changes lanes, because it has to turn left."""
     line = roads("s1").line(("main_in_0",))
     ego = driven(line, before_end("s1", "main_in_0", 120.0), (8.0,)).state
-    return under_way("s1", {1: standing("s1", "main_in_0", 60.0)}, ego)
+    left = EgoGoal("exit_n", 30.0, None)
+    traces = under_way("s1", left, {1: standing("s1", "main_in_0", 20.0)}, ego)
+    return [trace for trace in traces if trace.under_way and trace.under_way.action in SIDES]
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +55,7 @@ def turning() -> list[PlanTrace]:
     """The ego of s2 turns right."""
     line = roads("s2").line(row("s2", "south_in_0", "right"))
     ego = driven(line, before_end("s2", "south_in_0", 20.0), (8.0,)).state
-    return under_way("s2", {1: standing("s2", "north_in_0", 60.0)}, ego)
+    return under_way("s2", goal("s2"), {1: standing("s2", "north_in_0", 60.0)}, ego)
 
 
 def decided_again(trace: PlanTrace, roads: Roads) -> PlanTrace:
