@@ -8,7 +8,7 @@ import numpy as np
 
 from planner.actions import Situation, expand
 from planner.forward import Motion
-from planner.obstacles import Obstacle
+from planner.obstacles import Traffic
 from planner.rollout import Leg, Task, take
 from planner.routes import Refusal
 from planner.trace import ACTIONS, Action
@@ -37,22 +37,22 @@ class Solution:
     def waits(self) -> tuple[int, ...]:
         """The steps in which others keep it all but standing."""
         return tuple(
-            hindrance.step
+            step
             for leg in self.legs
-            for hindrance in leg.hindrances
-            if leg.speed[hindrance.step - leg.first] < SLOW
+            for step in leg.hindrances.step.tolist()
+            if leg.speed[step - leg.first] < SLOW
         )
 
 
 def ways(
-    task: Task, starts: Sequence[Situation], obstacles: Sequence[Obstacle], wanted: int
+    task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int
 ) -> list[Solution]:
     """The cheapest ways to the task's goal, best first.
 
     Args:
         task: frame and goal; its size is that of the vehicle.
         starts: where it may be, one for each lane that fits.
-        obstacles: the others' motions.
+        traffic: the others' motions.
         wanted: how many ways to look for.
     """
     frontier: list[tuple[float, int, float, Situation, tuple[Leg, ...]]] = []
@@ -68,7 +68,7 @@ def ways(
         if legs and legs[-1].outcome == "done":
             found.append(Solution(cost, legs))
             continue
-        for leg in _expand(task, here, legs, obstacles):
+        for leg in _expand(task, here, legs, traffic):
             changes = sum(_lanes_moved(step, starts, k) for k, step in enumerate((*legs, leg)))
             time = leg.goal_time if leg.goal_time is not None else leg.end.time - task.start
             so_far = time + LANE_CHANGE_COST * changes
@@ -79,7 +79,7 @@ def ways(
 
 
 def _expand(
-    task: Task, here: Situation, legs: tuple[Leg, ...], obstacles: Sequence[Obstacle]
+    task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic
 ) -> list[Leg]:
     if len(legs) >= DEPTH:
         return []
@@ -92,7 +92,7 @@ def _expand(
         plan = expand(task.roads, here, action, task.goal, task.view)
         if isinstance(plan, Refusal):
             continue
-        leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, obstacles)
+        leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
         if leg.outcome in (None, "done") and _drivable(leg):
             children.append(leg)
     return children

@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.decide import Decision, Frame, Moment, decide, observed, root_at
 from planner.events import Event, EventKind
-from planner.forward import DT, GAP_HORIZON, Hindrance, Lane, Motion, accelerate, advance
-from planner.obstacles import occupancy
+from planner.forward import DT, Hindrance, Lane, Motion, accelerate, advance
+from planner.kernels.driving import GAP_HORIZON
+from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings, Track
@@ -189,30 +190,42 @@ class Driver:
         self, current: _Execution, scene: Scene, dt: float
     ) -> tuple[float, Hindrance | None]:
         """Keep behind what is seen, and give way to what is predicted."""
-        ego = scene.ego
-        size, path = (ego.length, ego.width), current.plan.path
-        seen = []
+        path, width = current.plan.path, scene.ego.width
+        seen = Traffic.of(self._seen(scene))
+        crossing = Traffic.of(self._crossing(scene) if current.plan.give_ways else [])
+        return accelerate(
+            current.plan,
+            current.lane,
+            current.motion,
+            occupancy(path, seen, width, 0, 2),
+            occupancy(path, crossing, width, 0, GAP_HORIZON),
+            scene.ego.length,
+            dt,
+        )
+
+    def _seen(self, scene: Scene) -> list[Obstacle]:
+        """The others where they are, going on as they do."""
+        found = []
         for vehicle, state in scene.vehicles.items():
             if vehicle != EGO:
                 track = observed(vehicle, _resampled(self._history[vehicle], scene.time), state)
-                coasting = coast(self._frame.roads, track, 2, past=False)
-                other = occupancy(path, coasting, size, 0, 2)
-                if not other.follows(current.motion.arc - ego.length / 2.0, 0):
-                    seen.append(other)
-        crossing = []
-        if current.plan.give_ways and self._last is not None:
-            elapsed = round((scene.time - self._last.trace.sim_time) / DT)
-            for vehicle, beliefs in self._last.beliefs.items():
-                here = scene.vehicles.get(vehicle)
-                least = CAUTION if here is None or here.speed < STANDING else 0.0
-                for belief in beliefs:
-                    for way in belief.trajectories:
-                        if belief.probability * way.probability >= least:
-                            ahead = aligned(way.motion, -elapsed, GAP_HORIZON + 10)
-                            crossing.append(occupancy(path, ahead, size, 0, GAP_HORIZON))
-        return accelerate(
-            current.plan, current.lane, current.motion, 0, seen, ego.length, dt, crossing
-        )
+                found.append(coast(self._frame.roads, track, 2, past=False))
+        return found
+
+    def _crossing(self, scene: Scene) -> list[Obstacle]:
+        """The motions predicted by the last decision, from now on."""
+        found: list[Obstacle] = []
+        if self._last is None:
+            return found
+        elapsed = round((scene.time - self._last.trace.sim_time) / DT)
+        for vehicle, beliefs in self._last.beliefs.items():
+            here = scene.vehicles.get(vehicle)
+            least = CAUTION if here is None or here.speed < STANDING else 0.0
+            for belief in beliefs:
+                for way in belief.trajectories:
+                    if belief.probability * way.probability >= least:
+                        found.append(aligned(way.motion, -elapsed, GAP_HORIZON + 10))
+        return found
 
     def _note_waiting(
         self,

@@ -14,9 +14,10 @@ import numpy as np
 
 from planner.actions import COMFORT, ActionPlan, Situation, Stop
 from planner.astar import LANE_CHANGE_COST, SLOW, SOLUTIONS, Solution, ways
-from planner.forward import ACCELERATION, DT, Motion, drive
+from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view, stopping_time
-from planner.obstacles import Obstacle
+from planner.kernels.driving import ACCELERATION
+from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.rollout import Leg, Task
 from planner.routes import onward
 from planner.trace import Action, EgoGoal, Settings
@@ -90,7 +91,7 @@ def _beliefs(
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
     frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True)
-    now = [coast(roads, track, steps, past=False) for track in others]
+    now = Traffic.of([coast(roads, track, steps, past=False) for track in others])
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
     likelihood = _likelihoods(frame, observed, goals, onwards, others, settings)
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
@@ -123,14 +124,16 @@ def _likelihoods(
     if not settings.recognition:
         return [1.0 if onward else 0.0 for onward in onwards]
     horizon = frame.horizon + observed.elapsed
-    before = [
-        aligned(
-            coast(frame.roads, track, frame.horizon, past=True),
-            observed.elapsed - track.elapsed,
-            horizon,
-        )
-        for track in others
-    ]
+    before = Traffic.of(
+        [
+            aligned(
+                coast(frame.roads, track, frame.horizon, past=True),
+                observed.elapsed - track.elapsed,
+                horizon,
+            )
+            for track in others
+        ]
+    )
     excess = [
         _excess(frame, observed, goal, onward, before)
         for goal, onward in zip(goals, onwards, strict=True)
@@ -149,12 +152,12 @@ def _ways_on(
     starts: tuple[Situation, ...],
     goal: Goal,
     observed: Observed,
-    others: Sequence[Obstacle],
+    others: Traffic,
 ) -> list[_Way]:
     if goal.target is None:
         return _stopping(frame, starts[0], observed, others)
     task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others, SOLUTIONS) or ways(task, starts, (), 1)
+    solutions = ways(task, starts, others, SOLUTIONS) or ways(task, starts, NOBODY, 1)
     return [
         _Way(
             solution.cost,
@@ -168,7 +171,7 @@ def _ways_on(
 
 
 def _motion(
-    task: Task, solution: Solution, observed: Observed, others: Sequence[Obstacle]
+    task: Task, solution: Solution, observed: Observed, others: Traffic
 ) -> Obstacle:
     """A solution as an obstacle, driving on beyond its goal."""
     legs = solution.legs
@@ -189,17 +192,16 @@ def _motion(
 
 
 def _stopping(
-    frame: Task, here: Situation, observed: Observed, others: Sequence[Obstacle]
+    frame: Task, here: Situation, observed: Observed, others: Traffic
 ) -> list[_Way]:
     """Braking to a standstill and staying there; nobody means to stay inside a junction."""
     row = onward(frame.roads, (here.location.lane,), here.location.offset + 100.0)
     path = frame.roads.path(row, here.position, here.heading, 12.0, 100.0)
     plan = ActionPlan("stop", path, (Stop(0.0),), path.length, math.inf, None)
     driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
-    arcs = np.array([motion.arc for motion in driven.motions])
+    arcs, speed = driven.motion[:, 0], driven.motion[:, 1]
     if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:
         return []
-    speed = np.array([motion.speed for motion in driven.motions])
     position, heading = sample_path(path, arcs, observed.length)
     rest = frame.horizon + 1 - len(arcs)
     motion = Obstacle(
@@ -219,7 +221,7 @@ def _excess(
     observed: Observed,
     goal: Goal,
     onwards: list[_Way],
-    before: Sequence[Obstacle],
+    before: Traffic,
 ) -> float:
     """By how much [s] the track and the best way on cost more than the best way from its start.
 
@@ -232,7 +234,7 @@ def _excess(
     start = frame.start - observed.elapsed * DT
     task = replace(frame, goal=goal.target, start=start, horizon=frame.horizon + observed.elapsed)
     then = observed.situation(frame.roads, 0, start)
-    best = ways(task, then, before, 1) or ways(task, then, (), 1)
+    best = ways(task, then, before, 1) or ways(task, then, NOBODY, 1)
     if not best:
         return NO_WAY
     spent = observed.elapsed * DT + LANE_CHANGE_COST * _sideways(frame.roads, observed)
@@ -295,7 +297,7 @@ def trajectories_to(
     starts: tuple[Situation, ...],
     goal: Goal,
     observed: Observed,
-    others: Sequence[Obstacle],
+    others: Traffic,
     settings: Settings,
 ) -> tuple[Trajectory, ...]:
     """The ways on to a goal, however improbable it is; none where no way leads there."""
@@ -304,7 +306,7 @@ def trajectories_to(
 
 
 def motion_along(
-    frame: Task, legs: Sequence[Leg], observed: Observed, others: Sequence[Obstacle]
+    frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic
 ) -> Obstacle:
     """Legs driven one after the other from now, and the road followed from there."""
     return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

@@ -1,21 +1,20 @@
 """Rollouts: the ego takes macro actions in turn while the others follow sampled trajectories."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.actions import ActionPlan, Situation
-from planner.collision import first_overlap
-from planner.forward import DT, Drive, Hindrance, Motion, drive
-from planner.obstacles import Obstacle
+from planner.forward import DT, Drive, Hindrances, Motion, drive
+from planner.kernels.collision import first_hit
+from planner.kernels.driving import place
+from planner.obstacles import HOW, Traffic
 from planner.reward import absent, components
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
 from planner.trajectory import Array, Roads
 from sim.network import Location
 
-SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
 GRACE = 3  # steps by which two stretches of one hold-up may lie apart
 
 
@@ -47,13 +46,11 @@ class Leg:
     outcome: Outcome | None  # None: the rollout goes on from `end`
     goal_time: float | None  # [s] since step 0
     collided_with: int | None
-    hindrances: tuple[Hindrance, ...]
+    hindrances: Hindrances
     end: Situation
 
 
-def take(
-    task: Task, plan: ActionPlan, motion: Motion, first: int, obstacles: Sequence[Obstacle]
-) -> Leg:
+def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Leg:
     """Drive one macro action, from its beginning or from where it is under way.
 
     Args:
@@ -61,24 +58,23 @@ def take(
         plan: the action.
         motion: where on its path the ego is.
         first: the step at which it is there.
-        obstacles: the others' sampled motions.
+        traffic: the others' sampled motions.
     """
-    driven = drive(plan, motion, first, obstacles, task.size, task.horizon)
-    return _leg(task, plan, driven, obstacles)
+    return _leg(task, plan, drive(plan, motion, first, traffic, task.size, task.horizon), traffic)
 
 
-def _leg(task: Task, plan: ActionPlan, driven: Drive, obstacles: Sequence[Obstacle]) -> Leg:
-    arcs = np.array([motion.arc for motion in driven.motions])
+def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:
     path = plan.path
-    position = np.column_stack(
-        (np.interp(arcs, path.arc, path.points[:, 0]), np.interp(arcs, path.arc, path.points[:, 1]))
+    states, curvature = place(
+        path.points, path.arc, path.heading, path.curvature, driven.motion, float(task.size[0])
     )
-    heading = path.headings(arcs, task.size[0])
-    hit = _collision(task, plan, driven, position, heading, obstacles)
-    count = len(arcs) if hit is None else hit[0] + 1
-    last = driven.motions[count - 1]
+    careless = plan.changes_lane and not task.yielding
+    hit, who = first_hit(states, task.size, driven.first, traffic.states, traffic.sizes, careless)
+    count = len(states) if who < 0 else hit + 1
+    arc, speed, acceleration = driven.motion[count - 1].tolist()
+    last = Motion(arc, speed, acceleration)
     end = _situation(task, plan, last, driven.first + count - 1)
-    if hit is not None:
+    if who >= 0:
         outcome: Outcome | None = "collision"
     elif driven.goal_time is not None:
         outcome = "done"
@@ -89,69 +85,18 @@ def _leg(task: Task, plan: ActionPlan, driven: Drive, obstacles: Sequence[Obstac
     return Leg(
         plan.action,
         driven.first,
-        tuple(lane for lane, start in path.lanes if start <= last.arc),
-        position[:count],
-        heading[:count],
-        np.array([motion.speed for motion in driven.motions[:count]]),
-        np.array([motion.acceleration for motion in driven.motions[:count]]),
-        np.interp(arcs[:count], path.arc, path.curvature),
+        tuple(lane for lane, start in path.lanes if start <= arc),
+        states[:count, :2],
+        states[:count, 2],
+        states[:count, 3],
+        driven.motion[:count, 2],
+        curvature[:count],
         outcome,
         driven.goal_time if outcome == "done" else None,
-        hit[1] if hit is not None else None,
-        tuple(h for h in driven.hindrances if h.step < driven.first + count),
+        traffic.vehicles[who] if who >= 0 else None,
+        driven.hindrances.before(driven.first + count),
         end,
     )
-
-
-def _collision(
-    task: Task,
-    plan: ActionPlan,
-    driven: Drive,
-    position: Array,
-    heading: Array,
-    obstacles: Sequence[Obstacle],
-) -> tuple[int, int] | None:
-    """The first collision: (sample, vehicle). Followers that would have braked do not count."""
-    hits = []
-    for other in obstacles:
-        stop = min(driven.first + len(position), len(other.speed))
-        count = stop - driven.first
-        window = slice(driven.first, stop)
-        where, turned = other.position[window], other.heading[window]
-        size = (other.length, other.width)
-        sample = first_overlap(position[:count], heading[:count], task.size, where, turned, size)
-        careless = plan.changes_lane and not task.yielding
-        if sample is None and careless:
-            sample = _cut_off(task, driven, position, heading, other)
-        elif sample is not None and not careless:
-            sample = _unless_behind(sample, position, heading, where)
-        if sample is not None:
-            hits.append((sample, other.vehicle))
-    return min(hits, default=None)
-
-
-def _unless_behind(sample: int, position: Array, heading: Array, other: Array) -> int | None:
-    """The sample of an overlap, unless the other ran into us from behind."""
-    offset = other[sample] - position[sample]
-    ahead = offset[0] * math.cos(heading[sample]) + offset[1] * math.sin(heading[sample])
-    return None if ahead < -1.0 else sample
-
-
-def _cut_off(
-    task: Task, driven: Drive, position: Array, heading: Array, other: Obstacle
-) -> int | None:
-    """The last sample of a lane change that ends right before a faster follower."""
-    step = driven.first + len(position) - 1
-    if step >= len(other.speed):
-        return None
-    offset = other.position[step] - position[-1]
-    cos, sin = math.cos(heading[-1]), math.sin(heading[-1])
-    gap = -(offset[0] * cos + offset[1] * sin) - task.size[0]
-    aside = abs(offset[1] * cos - offset[0] * sin)
-    closing = float(other.speed[step]) - driven.motions[-1].speed
-    if aside < 1.5 and gap > -task.size[0] and gap < closing * SAFE_CUT_IN:
-        return len(position) - 1
-    return None
 
 
 def _situation(task: Task, plan: ActionPlan, motion: Motion, step: int) -> Situation:
@@ -191,24 +136,41 @@ def held_up(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
     A leader that brakes while it is in the way is recorded as leader even where it cut in
     before: what costs time then is its braking.
     """
-    stretches: dict[int, list[list[Hindrance]]] = {}
-    for leg in legs:
-        for step in leg.hindrances:
-            runs = stretches.setdefault(step.vehicle, [])
-            kind = step.how == "right-of-way"
-            if (
-                runs
-                and step.step - runs[-1][-1].step <= GRACE
-                and kind == (runs[-1][-1].how == "right-of-way")
-            ):
-                runs[-1].append(step)
-            else:
-                runs.append([step])
+    stretches: dict[int, list[list[_Step]]] = {}
+    for step in _steps(legs):
+        runs = stretches.setdefault(step.vehicle, [])
+        if runs and step.continues(runs[-1][-1]):
+            runs[-1].append(step)
+        else:
+            runs.append([step])
     found = [_stretch(run, start) for runs in stretches.values() for run in runs]
     return tuple(sorted(found, key=lambda stretch: (stretch.since, stretch.vehicle)))
 
 
-def _stretch(run: list[Hindrance], start: float) -> HeldUp:
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """One step in which a vehicle held the ego up."""
+
+    step: int
+    vehicle: int
+    how: HoldUp
+    speed: float  # [m/s]
+
+    def continues(self, other: "_Step") -> bool:
+        """Whether it belongs to the same stretch as an earlier one of the same vehicle."""
+        near = self.step - other.step <= GRACE
+        return near and (self.how == "right-of-way") == (other.how == "right-of-way")
+
+
+def _steps(legs: Sequence[Leg]) -> Iterator[_Step]:
+    for leg in legs:
+        h = leg.hindrances
+        columns = (h.step.tolist(), h.vehicle.tolist(), h.how.tolist(), h.speed.tolist())
+        for step, vehicle, how, speed in zip(*columns, strict=True):
+            yield _Step(step, vehicle, HOW[how], speed)
+
+
+def _stretch(run: list[_Step], start: float) -> HeldUp:
     speeds = [step.speed for step in run]
     how: HoldUp = run[0].how
     if how == "cut-in" and speeds[0] - min(speeds) > 2.0:

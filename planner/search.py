@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
+from planner.obstacles import Traffic
 from planner.recognise import Belief
 from planner.reward import reward
 from planner.rollout import Leg, Task, held_up, summarise, take
@@ -77,6 +78,7 @@ class Search:
         default_factory=dict
     )
     _legs: dict[tuple[tuple[Sample, ...], Node], Leg] = field(default_factory=dict)
+    _motions: dict[tuple[Sample, ...], Traffic] = field(default_factory=dict)
 
     def run(self) -> None:
         """Draw the rollouts of the search; then compare the first actions, and force the rest."""
@@ -226,9 +228,6 @@ class Search:
         """The last action of a branch, driven; the same samples give the same leg."""
         found = self._legs.get((samples, branch))
         if found is None:
-            obstacles = [
-                self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motion for s in samples
-            ]
             if legs:
                 here, first = legs[-1].end, legs[-1].first + len(legs[-1].speed) - 1
             else:
@@ -236,7 +235,19 @@ class Search:
             motion = Motion(0.0, here.speed, here.acceleration)
             if not legs and self.root.under_way is not None:
                 motion = self.root.under_way[1]
-            found = self._legs[samples, branch] = take(self.task, plan, motion, first, obstacles)
+            found = self._legs[samples, branch] = take(
+                self.task, plan, motion, first, self._traffic(samples)
+            )
+        return found
+
+
+    def _traffic(self, samples: Samples) -> Traffic:
+        """The others' motions as sampled."""
+        found = self._motions.get(samples)
+        if found is None:
+            found = self._motions[samples] = Traffic.of(
+                [self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motion for s in samples]
+            )
         return found
 
 

@@ -15,7 +15,7 @@ from planner.astar import GRIP
 from planner.decide import Frame, Moment, observed
 from planner.forward import DT, Motion
 from planner.goals import PLACES, Goal, goals_in_view
-from planner.obstacles import Obstacle
+from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.recognise import Belief, Trajectory, motion_along, trajectories_to
 from planner.rollout import Leg, Task, take
 from planner.routes import Refusal
@@ -32,7 +32,7 @@ class _Prospect:
     task: Task  # without a goal
     observed: Observed
     starts: tuple[Situation, ...]  # where it may be, one for each lane that fits
-    others: tuple[Obstacle, ...]  # coasting
+    others: Traffic  # coasting
 
 
 def suppose(
@@ -84,12 +84,12 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
     task = Task(
         frame.roads, nowhere, (one.length, one.width), moment.time, steps, view, yielding=True
     )
-    others = (
+    others = [
         coast(frame.roads, other, steps, past=False)
         for name, other in seen.items()
         if name != vehicle
-    )
-    return _Prospect(task, one, one.situation(frame.roads, -1, moment.time), tuple(others))
+    ]
+    return _Prospect(task, one, one.situation(frame.roads, -1, moment.time), Traffic.of(others))
 
 
 def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
@@ -132,7 +132,7 @@ def _acting(
     """The belief that a vehicle does certain things, whichever goal that leads to."""
     legs = _driven(prospect, actions, prospect.others)
     if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
-        legs = _driven(prospect, actions, ())  # the others do not coast into it
+        legs = _driven(prospect, actions, NOBODY)  # the others do not coast into it
     if isinstance(legs, Refusal):
         return legs
     reached = _reached(prospect, goals, legs)
@@ -148,7 +148,7 @@ def _acting(
 
 
 def _driven(
-    prospect: _Prospect, actions: Sequence[Action], others: Sequence[Obstacle]
+    prospect: _Prospect, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
     """The actions in turn, from the first lane on which all of them apply."""
     tried = [_legs(prospect.task, start, actions, others) for start in prospect.starts]
@@ -157,7 +157,7 @@ def _driven(
 
 
 def _legs(
-    task: Task, here: Situation, actions: Sequence[Action], others: Sequence[Obstacle]
+    task: Task, here: Situation, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
     """The actions in turn, as far as the horizon or a collision lets them."""
     legs: list[Leg] = []

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.actions import ActionPlan, LaneFollow, Situation
-from planner.forward import DT, FOLLOWING, Motion, drive
-from planner.obstacles import Obstacle
+from planner.forward import DT, Motion, drive
+from planner.kernels.driving import FOLLOWING
+from planner.obstacles import Obstacle, Traffic
 from planner.routes import onward
 from planner.trajectory import Array, Path, Roads
 from sim.network import Location
@@ -137,7 +138,7 @@ def drive_on(
     roads: Roads,
     here: Situation,
     first: int,
-    obstacles: Sequence[Obstacle],
+    traffic: Traffic,
     size: tuple[float, float],
     horizon: int,
 ) -> tuple[Array, Array, Array, tuple[str, ...]]:
@@ -152,9 +153,8 @@ def drive_on(
     path = roads.path(row, here.position, here.heading, 12.0, reach)
     plan = ActionPlan("continue", path, (LaneFollow(0.0, path.length),), path.length, np.inf, None)
     start = Motion(0.0, here.speed, here.acceleration)
-    driven = drive(plan, start, first, obstacles, size, horizon)
-    arcs = np.array([motion.arc for motion in driven.motions[1:]])
-    speed = np.array([motion.speed for motion in driven.motions[1:]])
+    driven = drive(plan, start, first, traffic, size, horizon)
+    arcs, speed = driven.motion[1:, 0], driven.motion[1:, 1]
     position, heading = sample_path(path, arcs, size[0])
     missing = horizon - first - len(arcs)
     position = np.vstack((position, np.full((missing, 2), np.nan)))

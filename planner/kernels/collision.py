@@ -1,0 +1,92 @@
+"""Collision of oriented boxes along a driven line."""
+
+import math
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+@_jit
+def overlap(
+    ax: float, ay: float, a: float, a_size: Any, bx: float, by: float, b: float, b_size: Any
+) -> bool:
+    """Whether two boxes overlap (separating axes): front bumper [m], heading [rad], size [m]."""
+    a_cos, a_sin, b_cos, b_sin = math.cos(a), math.sin(a), math.cos(b), math.sin(b)
+    dx = (bx - 0.5 * b_size[0] * b_cos) - (ax - 0.5 * a_size[0] * a_cos)
+    dy = (by - 0.5 * b_size[0] * b_sin) - (ay - 0.5 * a_size[0] * a_sin)
+    cos, sin = abs(a_cos * b_cos + a_sin * b_sin), abs(a_cos * b_sin - a_sin * b_cos)
+    long, wide = 0.5 * a_size[0], 0.5 * a_size[1]
+    b_long, b_wide = 0.5 * b_size[0], 0.5 * b_size[1]
+    return bool(
+        abs(dx * a_cos + dy * a_sin) < long + b_long * cos + b_wide * sin
+        and abs(dy * a_cos - dx * a_sin) < wide + b_long * sin + b_wide * cos
+        and abs(dx * b_cos + dy * b_sin) < b_long + long * cos + wide * sin
+        and abs(dy * b_cos - dx * b_sin) < b_wide + long * sin + wide * cos
+    )
+
+
+@_jit
+def first_hit(
+    own: Floats,
+    size: tuple[float, float],
+    first: int,
+    states: Floats,
+    sizes: Floats,
+    careless: bool,
+) -> tuple[int, int]:
+    """The first collision along a driven line, or (-1, -1).
+
+    A follower that would have braked does not count. Who is careless changes lanes without
+    regard for those behind: then they do, and so does one that is right behind at the end, and
+    too fast.
+
+    Args:
+        own: [S, 4] states at steps `first`, `first` + 1, ...
+        size: length and width [m] of the vehicle.
+        states, sizes: of the others.
+        careless: see above.
+
+    Returns:
+        The sample, and the index of the other vehicle.
+    """
+    found, whom = len(own), -1
+    last = len(own) - 1
+    for m in range(len(states)):
+        for k in range(min(len(own), states.shape[1] - first, found)):
+            other = states[m, first + k]
+            near = math.hypot(other[0] - own[k, 0], other[1] - own[k, 1])
+            if near < size[0] + sizes[m, 0] + size[1] + sizes[m, 1] and overlap(
+                own[k, 0], own[k, 1], own[k, 2], size, other[0], other[1], other[2], sizes[m]
+            ):
+                if careless or not _in_front(own[k], other) < -1.0:
+                    found, whom = k, m
+                break
+        else:
+            ends = careless and last < found and first + last < states.shape[1]
+            if ends and _cut_off(own[last], size[0], states[m, first + last]):
+                found, whom = last, m
+    return (found, whom) if whom >= 0 else (-1, -1)
+
+
+@_jit
+def _in_front(own: Floats, other: Floats) -> float:
+    """How far [m] another front is ahead of ours, in our direction."""
+    ahead = (other[0] - own[0]) * math.cos(own[2]) + (other[1] - own[1]) * math.sin(own[2])
+    return float(ahead)
+
+
+@_jit
+def _cut_off(own: Floats, length: float, other: Floats) -> bool:
+    """Whether a faster follower is right behind."""
+    gap = -_in_front(own, other) - length
+    aside = (other[1] - own[1]) * math.cos(own[2]) - (other[0] - own[0]) * math.sin(own[2])
+    closing = other[3] - own[3]
+    return bool(abs(aside) < 1.5 and gap > -length and gap < closing * SAFE_CUT_IN)

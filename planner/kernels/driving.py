@@ -1,0 +1,293 @@
+"""Driving along a path: car-following, giving way, stopping, within limits of comfort."""
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from planner.kernels.projection import Stretches
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+STEP = 0.2  # [s] of the common time base
+COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
+ACCELERATION = 2.0  # [m/s2] most when speeding up
+FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
+EMERGENCY = 7.0  # [m/s2] the hardest braking
+JERK_UP, JERK_DOWN = 3.0, 12.0  # [m/s3] change of acceleration upwards and downwards
+REACTION = 0.9  # [s] of Krauss' model
+RELAXATION = 0.5  # [s] in which a wanted speed is approached
+MIN_GAP = 2.0  # [m] to a standing leader
+GAP_HORIZON = 40  # steps that a gap at a waiting line must stay clear
+INTRUSION = 1.0  # [m] by which one may stand in a stretch that is shared: boxes are generous
+HINDERED = 0.5  # [m/s] below the free speed from which a vehicle counts as held up
+STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
+ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
+CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
+CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
+
+# How a vehicle is held up, by index.
+LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED = 0, 1, 2, 3
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+@_jit
+def braking_caps(cap: Floats, arc: Floats) -> Floats:
+    """The speed [m/s] at every metre from which all of a path's caps ahead can be braked for.
+
+    Args:
+        cap, arc: [N] of the path: highest speed [m/s] and arc [m].
+    """
+    caps = cap.copy()
+    for k in range(len(caps) - 2, -1, -1):
+        reachable = math.sqrt(caps[k + 1] ** 2 + 2.0 * COMFORT * (arc[k + 1] - arc[k]))
+        caps[k] = min(caps[k], reachable)
+    return np.interp(np.arange(0.0, arc[-1] + 1.0), arc, caps)
+
+
+@_jit
+def safe_speed(gap: float, leader: float, braking: float) -> float:
+    """Krauss' safe speed [m/s] at a gap [m] behind a leader of a speed [m/s]."""
+    reach = braking * REACTION
+    squared = reach * reach + leader * leader + 2.0 * braking * max(gap, 0.0)
+    return max(0.0, -reach + math.sqrt(squared))
+
+
+@_jit
+def towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
+    """The acceleration [m/s2] that leads to a wanted speed [m/s], within all limits."""
+    wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
+    if wished < acceleration:
+        return max(wished, acceleration - JERK_DOWN * dt)
+    return min(wished, max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt)))
+
+
+@_jit
+def _cap(caps: Floats, arc: float) -> float:
+    """The highest speed [m/s] at an arc [m]; caps are given for every metre."""
+    k = int(arc)
+    return float(caps[k] if k < len(caps) else caps[-1])
+
+
+@_jit
+def accelerate(
+    caps: Floats,
+    stops: bool,
+    lines: Floats,
+    arc: float,
+    speed: float,
+    acceleration: float,
+    step: int,
+    others: Stretches,
+    ignored: Bools,
+    crossing: Stretches,
+    firsts: Bools,
+    length: float,
+    dt: float,
+) -> tuple[float, int, int]:
+    """What to do in the coming step, and who is in the way.
+
+    Args:
+        caps: [m/s] at every metre of the path.
+        stops: whether to brake to a standstill.
+        lines: [L, 2] arcs [m] of lines to give way at, and at which the junction is left.
+        arc, speed, acceleration: of the vehicle.
+        step: now.
+        others: the vehicles to keep behind of.
+        ignored: [M] those that are behind, and so of no concern.
+        crossing: [C] the vehicles that may have the right of way.
+        firsts: [L, C] who goes first at which line.
+        length: [m] of the vehicle.
+        dt: [s] of the coming step.
+
+    Returns:
+        Acceleration [m/s2], the index of the one in the way (-1: nobody), and how it is.
+    """
+    free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
+    wanted, who, how = free, -1, LEADER
+    hardest = COMFORT if stops else FOLLOWING
+    t = min(step, others.low.shape[1] - 1)
+    for m in range(len(others.low)):
+        low, high = others.low[m, t], others.high[m, t]
+        if ignored[m] or math.isnan(low) or 0.5 * (low + high) < arc - 0.5 * length:
+            continue
+        gap = low - arc
+        leader = max(others.along[m, t], 0.0)
+        safe = safe_speed(gap - MIN_GAP, leader, FOLLOWING)
+        if safe < wanted:
+            wanted, who, how = safe, m, _manner(others, m, t)
+            hardest = EMERGENCY if gap < MIN_GAP or safe < speed - 3.0 else FOLLOWING
+    for line in range(len(lines)):
+        gap = lines[line, 0] - arc
+        braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
+        if gap <= braking and arc < lines[line, 1]:
+            safe = safe_speed(gap, 0.0, COMFORT)
+            if safe < wanted:
+                blocker = _blocker(
+                    caps,
+                    arc,
+                    speed,
+                    acceleration,
+                    step,
+                    lines[line, 0],
+                    crossing,
+                    firsts[line],
+                    length,
+                )
+                if blocker >= 0:
+                    wanted, who, how = safe, blocker, RIGHT_OF_WAY
+    chosen = towards(speed, acceleration, wanted, hardest, dt)
+    return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
+
+
+@_jit
+def _manner(others: Stretches, m: int, t: int) -> int:
+    """How a vehicle ahead holds up who comes behind."""
+    entered, speed = others.entered[m, t], others.speed[m, t]
+    if entered > 0 and t - entered <= CUT_IN_MEMORY and speed > CRAWL:
+        return CUT_IN
+    return BLOCKED if speed <= CRAWL else LEADER
+
+
+@_jit
+def _blocker(
+    caps: Floats,
+    arc: float,
+    speed: float,
+    acceleration: float,
+    step: int,
+    line: float,
+    others: Stretches,
+    firsts: Bools,
+    length: float,
+) -> int:
+    """Who must be waited for: going on freely would get in the way of its right to go first.
+
+    Beyond the line, that is asked only as long as one can stop before getting in the way.
+    """
+    last = others.low.shape[1] - 1
+    concerned = firsts.copy()
+    passed, until = -math.inf, -1.0
+    t = min(step, last)
+    for m in range(len(firsts)):
+        leads = others.low[m, t] > arc and others.cosine[m, t] > ALIGNED
+        concerned[m] = firsts[m] and others.last[m] >= step and not leads
+        if concerned[m]:
+            passed, until = max(passed, others.top[m]), max(until, others.last[m])
+    passed += length + 1.0
+    here, pace, push = arc, speed, acceleration
+    for ahead in range(step + 1, int(min(step + GAP_HORIZON, until + 1.0))):
+        push = towards(pace, push, _cap(caps, here + pace * RELAXATION), FOLLOWING, STEP)
+        before, pace = pace, max(pace + push * STEP, 0.0)
+        here += 0.5 * (before + pace) * STEP
+        if here > passed:
+            return -1
+        t = min(ahead, last)
+        for m in range(len(firsts)):
+            low, high = others.wide_low[m, t], others.wide_high[m, t]
+            if concerned[m] and low < here + 1.0 and high > here - length - 1.0:
+                stopping = speed * speed / (2.0 * FOLLOWING)
+                late = arc > line and low - arc < stopping - INTRUSION
+                return -1 if late else m
+    return -1
+
+
+@_jit
+def drive(
+    caps: Floats,
+    stops: bool,
+    end: float,
+    goal: float,
+    lines: Floats,
+    firsts: Bools,
+    start: tuple[float, float, float],
+    first: int,
+    horizon: int,
+    others: Stretches,
+    length: float,
+) -> tuple[Floats, Ints, bool, float]:
+    """Drive until the end of an action, the goal, or the horizon.
+
+    Args:
+        caps, stops, lines, firsts, others, length: as for `accelerate`.
+        end: [m] arc at which the action is over, unless it stops.
+        goal: [m] arc of the goal, or infinite.
+        start: arc [m], speed [m/s] and acceleration [m/s2] at step `first`.
+        first, horizon: the first and the last step.
+
+    Returns:
+        Motion [S, 3] as in `start`, who held it up and how [S - 1, 2], whether it came to the
+        end, and the time [s] since step 0 at which it passed the goal, else NaN.
+    """
+    motion = np.empty((max(horizon - first, 0) + 1, 3))
+    hindrance = np.empty((len(motion) - 1, 2), np.int64)
+    arc, speed, acceleration = start
+    motion[0, 0], motion[0, 1], motion[0, 2] = arc, speed, acceleration
+    ignored = behind(others, arc - 0.5 * length, first)
+    waits = firsts & ~ignored
+    standing = 0
+    for step in range(first, horizon):
+        k = step - first
+        acceleration, who, how = accelerate(
+            caps,
+            stops,
+            lines,
+            arc,
+            speed,
+            acceleration,
+            step,
+            others,
+            ignored,
+            others,
+            waits,
+            length,
+            STEP,
+        )
+        before, was = arc, speed
+        speed = max(speed + acceleration * STEP, 0.0)
+        arc += 0.5 * (was + speed) * STEP
+        motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = arc, speed, acceleration
+        hindrance[k, 0], hindrance[k, 1] = who, how
+        if arc >= goal:
+            share = (goal - before) / max(arc - before, 1e-9)
+            time = (step + min(max(share, 0.0), 1.0)) * STEP
+            return motion[: k + 2], hindrance[: k + 1], True, time
+        standing = standing + 1 if speed < 0.1 else 0
+        if (standing * STEP >= STANDING_TIME) if stops else (arc >= end):
+            return motion[: k + 2], hindrance[: k + 1], True, math.nan
+    return motion, hindrance, False, math.nan
+
+
+@_jit
+def behind(others: Stretches, centre: float, step: int) -> Bools:
+    """[M] Which vehicles are on the path behind a vehicle whose centre is at an arc [m]."""
+    t = min(step, others.low.shape[1] - 1)
+    return 0.5 * (others.low[:, t] + others.high[:, t]) < centre
+
+
+@_jit
+def place(
+    points: Floats, arc: Floats, heading: Floats, curvature: Floats, motion: Floats, length: float
+) -> tuple[Floats, Floats]:
+    """Where a vehicle is along a path.
+
+    Args:
+        points, arc, heading, curvature: of the path.
+        motion: [S, 3] arc [m], speed [m/s] and acceleration.
+        length: [m] of the vehicle; its rear follows its front: it points as the path does at
+            its middle.
+
+    Returns:
+        States [S, 4], and the curvature [1/m] [S] at the front.
+    """
+    arcs = motion[:, 0]
+    states = np.empty((len(motion), 4))
+    states[:, 0] = np.interp(arcs, arc, points[:, 0])
+    states[:, 1] = np.interp(arcs, arc, points[:, 1])
+    states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
+    states[:, 3] = motion[:, 1]
+    return states, np.interp(arcs, arc, curvature)

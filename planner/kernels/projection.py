@@ -1,0 +1,224 @@
+"""Where along a path other vehicles are: the stretch that each occupies at every step."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+SIDE_MARGIN = 0.3  # [m] kept free beside the body
+BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
+FOREVER = 1 << 30  # a step that never comes
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+class Stretches(NamedTuple):
+    """What other vehicles occupy of a path; NaN where the path is free of them."""
+
+    low: Floats  # [m] [M, T] arcs between which the body lies
+    high: Floats  # [m] [M, T]
+    wide_low: Floats  # [m] [M, T] the same over the safety time around the step
+    wide_high: Floats  # [m] [M, T]
+    along: Floats  # [m/s] [M, T] speed along the path
+    cosine: Floats  # [M, T] of the angle to the path
+    speed: Floats  # [m/s] [M, T]
+    entered: Floats  # [M, T] step at which it last came onto the path
+    last: Floats  # [M] last step at which it is on the path; -1 never, FOREVER if at the end
+    top: Floats  # [m] [M] highest arc that it reaches
+
+
+@_jit
+def project(
+    points: Floats,
+    arc: Floats,
+    heading: Floats,
+    states: Floats,
+    sizes: Floats,
+    width: float,
+    first: int,
+    last: int,
+) -> Stretches:
+    """The stretch of a path that every vehicle occupies at each step.
+
+    Args:
+        points, arc, heading: of the path, [N, 2] [m], [N] [m], [N] [rad].
+        states, sizes: of the vehicles.
+        width: [m] of the vehicle that drives along the path.
+        first, last: steps from and up to which this is needed.
+    """
+    count, total = states.shape[0], states.shape[1]
+    found = _empty(count, total)
+    spacing = 1e-9
+    for k in range(len(arc) - 1):
+        spacing = max(spacing, arc[k + 1] - arc[k])
+    start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    corridor = 0.5 * width + SIDE_MARGIN
+    for m in range(count):
+        found.speed[m] = states[m, :, 3]
+        near = 0
+        for t in range(start, stop):
+            near = _occupied(
+                points, arc, heading, states[m, t], sizes[m], corridor, spacing, near, found, m, t
+            )
+        _note_entries(found.low[m], found.entered[m])
+        _widen(found, m)
+    return found
+
+
+@_jit
+def _empty(count: int, total: int) -> Stretches:
+    shape = (count, total)
+    return Stretches(
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.zeros(shape),
+        np.zeros(shape),
+        np.empty(shape),
+        np.empty(shape),
+        np.empty(count),
+        np.empty(count),
+    )
+
+
+@_jit
+def _occupied(
+    points: Floats,
+    arc: Floats,
+    heading: Floats,
+    state: Floats,
+    size: Floats,
+    corridor: float,
+    spacing: float,
+    near: int,
+    found: Stretches,
+    m: int,
+    t: int,
+) -> int:
+    """Fill in one step of one vehicle; returns the nearest path point, as a hint for the next."""
+    length = size[0]
+    x = state[0] - 0.5 * length * math.cos(state[2])
+    y = state[1] - 0.5 * length * math.sin(state[2])
+    if not math.isfinite(x):
+        return near
+    widest = corridor + 0.5 * math.hypot(length, size[1])
+    within = math.hypot(widest, spacing + length)
+    if _precedes(points, heading, x, y, widest):
+        within = math.inf
+    k = _nearest(points, x, y, spacing, near, within)
+    if k < 0:
+        return near
+    dx, dy = x - points[k, 0], y - points[k, 1]
+    ahead_x, ahead_y = math.cos(heading[k]), math.sin(heading[k])
+    centre, aside = dx * ahead_x + dy * ahead_y, dy * ahead_x - dx * ahead_y
+    turned = state[2] - heading[k]
+    cos, sin = math.cos(turned), math.sin(turned)
+    half = 0.5 * (length * abs(sin) + size[1] * abs(cos))
+    beyond = k == len(arc) - 1 and centre > length
+    if abs(aside) < half + corridor and not beyond:
+        low, high = _extent(length, size[1], aside, cos, sin, corridor)
+        found.low[m, t], found.high[m, t] = arc[k] + centre + low, arc[k] + centre + high
+        found.along[m, t], found.cosine[m, t] = state[3] * cos, cos
+    return k
+
+
+@_jit
+def _precedes(points: Floats, heading: Floats, x: float, y: float, widest: float) -> bool:
+    """Whether (x, y) lies straight behind the start of the path: a follower, however far."""
+    dx, dy = x - points[0, 0], y - points[0, 1]
+    cos, sin = math.cos(heading[0]), math.sin(heading[0])
+    return bool(dx * cos + dy * sin < 0.0 and abs(dy * cos - dx * sin) < widest)
+
+
+@_jit
+def _nearest(points: Floats, x: float, y: float, spacing: float, hint: int, within: float) -> int:
+    """Index of the path point nearest to (x, y), or -1 where none is as near as `within` [m].
+
+    Exact: neighbours lie at most `spacing` apart, so a point at a distance d rules out all those
+    that come before the distance could have shrunk to the best one known.
+    """
+    best, found = within, -1
+    d = _distance(points[hint], x, y)
+    if d < best:
+        best, found = d, hint
+    k = 0
+    while k < len(points):
+        d = _distance(points[k], x, y)
+        if d < best or (d == best and k < found):
+            best, found = d, k
+        k += max(1, int((d - best) / spacing))
+    return found
+
+
+@_jit
+def _distance(point: Floats, x: float, y: float) -> float:
+    dx, dy = point[0] - x, point[1] - y
+    return math.sqrt(dx * dx + dy * dy)
+
+
+@_jit
+def _extent(
+    length: float, width: float, aside: float, cos: float, sin: float, corridor: float
+) -> tuple[float, float]:
+    """From where to where [m] along the path, from its centre, a body lies in a corridor.
+
+    Args:
+        length, width: [m] of the body.
+        aside: [m] of its centre to the left of the path.
+        cos, sin: of its heading against that of the path.
+        corridor: [m] to either side of the path; the body reaches into it.
+    """
+    low, high = math.inf, -math.inf
+    for corner in range(4):
+        x, y = _corner(corner, length, width, cos, sin, aside)
+        to_x, to_y = _corner((corner + 1) % 4, length, width, cos, sin, aside)
+        if min(y, to_y) > corridor or max(y, to_y) < -corridor:
+            continue
+        slope = 0.0 if abs(to_y - y) < 1e-9 else (to_x - x) / (to_y - y)
+        if slope == 0.0:
+            begin, end = x, to_x
+        else:  # cut off where the edge leaves the corridor
+            begin = x + (min(max(y, -corridor), corridor) - y) * slope
+            end = to_x + (min(max(to_y, -corridor), corridor) - to_y) * slope
+        low, high = min(low, begin, end), max(high, begin, end)
+    return low, high
+
+
+@_jit
+def _corner(
+    corner: int, length: float, width: float, cos: float, sin: float, aside: float
+) -> tuple[float, float]:
+    ahead = 0.5 * length if corner < 2 else -0.5 * length
+    left = 0.5 * width if corner in (0, 3) else -0.5 * width
+    return ahead * cos - left * sin, aside + ahead * sin + left * cos
+
+
+@_jit
+def _note_entries(low: Floats, entered: Floats) -> None:
+    since = 0
+    for t in range(len(low)):
+        if math.isnan(low[t]):
+            since = t + 1
+        entered[t] = since
+
+
+@_jit
+def _widen(found: Stretches, m: int) -> None:
+    """The union of the occupied stretches within the safety time around each step."""
+    low, high = found.low[m], found.high[m]
+    last, top = -1, -math.inf
+    total = len(low)
+    for t in range(total):
+        least, most = math.inf, -math.inf
+        for k in range(max(t - BEFORE, 0), min(t + AFTER + 1, total)):
+            if not math.isnan(low[k]):
+                least, most = min(least, low[k]), max(most, high[k])
+        if least < math.inf:
+            found.wide_low[m, t], found.wide_high[m, t] = least, most
+            last, top = t, max(top, most)
+    found.last[m], found.top[m] = FOREVER if last == total - 1 else last, top

@@ -1,0 +1,465 @@
+"""The kernels once more in plain Python and numpy: slow, readable, the measure of the fast ones.
+
+See planner/kernels for the compiled ones, and test_kernels.py for the comparison.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.actions import ActionPlan, GiveWay
+from planner.forward import DT, Motion, advance
+from planner.kernels.collision import SAFE_CUT_IN
+from planner.kernels.driving import (
+    ACCELERATION,
+    ALIGNED,
+    COMFORT,
+    CUT_IN_MEMORY,
+    EMERGENCY,
+    FOLLOWING,
+    GAP_HORIZON,
+    HINDERED,
+    INTRUSION,
+    JERK_DOWN,
+    JERK_UP,
+    MIN_GAP,
+    REACTION,
+    RELAXATION,
+    STANDING_TIME,
+)
+from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
+from planner.obstacles import Obstacle
+from planner.trace import HoldUp
+from planner.trajectory import Array, Path, relative
+
+
+class Occupancy:
+    """The stretch of one path that one obstacle occupies at each step."""
+
+    def __init__(
+        self, obstacle: Obstacle, low: Array, high: Array, along: Array, aligned: Array
+    ) -> None:
+        self.vehicle = obstacle.vehicle
+        self._links = obstacle.links
+        self._speed: list[float] = obstacle.speed.tolist()
+        self._along: list[float] = along.tolist()
+        self._aligned: list[float] = aligned.tolist()  # cosine of the angle to the path
+        self._low: list[float] = low.tolist()  # NaN where the path is free of it
+        self._high: list[float] = high.tolist()
+        self._entered = _entry(low)
+        wide_low, wide_high = _widen(low, high)
+        self._wide_low: list[float] = wide_low.tolist()
+        self._wide_high: list[float] = wide_high.tolist()
+        there = np.flatnonzero(~np.isnan(wide_low))
+        total = len(low)
+        self.last = int(there[-1]) if len(there) else -1  # step at which it is on the path
+        if self.last == total - 1:
+            self.last = FOREVER
+        self.top = float(np.nanmax(wide_high)) if len(there) else -np.inf  # [m] that it reaches
+
+    def _at(self, step: int) -> int:
+        return min(step, len(self._low) - 1)
+
+    def gap(self, arc: float, step: int, length: float) -> float | None:
+        """Distance [m] from a front at `arc` to the obstacle, if it is ahead on the path."""
+        k = self._at(step)
+        low, high = self._low[k], self._high[k]
+        if low != low or 0.5 * (low + high) < arc - 0.5 * length:
+            return None
+        return low - arc
+
+    def follows(self, centre: float, step: int) -> bool:
+        """Whether it is on the path behind a vehicle whose centre is at an arc [m]."""
+        k = self._at(step)
+        return 0.5 * (self._low[k] + self._high[k]) < centre
+
+    def speed(self, step: int) -> float:
+        """Its speed [m/s]."""
+        return self._speed[self._at(step)]
+
+    def speed_along(self, step: int) -> float:
+        """Its speed [m/s] along the path, never negative."""
+        return max(self._along[self._at(step)], 0.0)
+
+    def manner(self, step: int) -> HoldUp:
+        """How it holds up who comes behind."""
+        k = self._at(step)
+        entered = self._entered[k]
+        if entered > 0 and k - entered <= CUT_IN_MEMORY and self._speed[k] > 0.5:
+            return "cut-in"
+        return "blocked" if self._speed[k] <= 0.5 else "leader"
+
+    def goes_first(self, links: frozenset[tuple[str, int]]) -> bool:
+        """Whether it drives along one of the links."""
+        return not self._links.isdisjoint(links)
+
+    def leads(self, arc: float, step: int) -> bool:
+        """Whether it drives along the path already, ahead of a front at an arc [m]."""
+        k = self._at(step)
+        return self._low[k] > arc and self._aligned[k] > ALIGNED
+
+    def meets(self, low: float, high: float, step: int) -> float | None:
+        """Where [m] its own stretch begins, if within the safety time it shares one with ours."""
+        k = self._at(step)
+        begin = self._wide_low[k]
+        return begin if begin < high and self._wide_high[k] > low else None
+
+
+def occupancy(
+    path: Path, obstacle: Obstacle, size: tuple[float, float], first: int, last: int
+) -> Occupancy:
+    """Project an obstacle onto a path.
+
+    Args:
+        path: the line that is driven.
+        obstacle: the other vehicle.
+        size: length and width [m] of the vehicle that drives along the path.
+        first: step from which the occupancy is needed.
+        last: step up to which it is needed.
+    """
+    total = len(obstacle.speed)
+    low, high = np.full(total, np.nan), np.full(total, np.nan)
+    along, aligned = np.zeros(total), np.zeros(total)
+    start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    window = slice(start, stop)
+    x = obstacle.position[window, 0] - 0.5 * obstacle.length * np.cos(obstacle.heading[window])
+    y = obstacle.position[window, 1] - 0.5 * obstacle.length * np.sin(obstacle.heading[window])
+    # Nearest path point: |p - q|^2 without the term that does not depend on the point.
+    squared = np.einsum("ij,ij->i", path.points, path.points)
+    nearest = np.argmin(squared[None, :] - 2.0 * (np.column_stack((x, y)) @ path.points.T), axis=1)
+    centre, aside = relative(path, nearest, x, y)
+    turned = obstacle.heading[window] - path.heading[nearest]
+    cos, sin = np.cos(turned), np.sin(turned)
+    corridor = 0.5 * size[1] + SIDE_MARGIN
+    half = 0.5 * (obstacle.length * np.abs(sin) + obstacle.width * np.abs(cos))
+    beyond = (nearest == len(path.arc) - 1) & (centre > obstacle.length)
+    inside = np.flatnonzero((np.abs(aside) < half + corridor) & ~beyond)
+    if len(inside):
+        ends = _extent(obstacle, aside[inside], cos[inside], sin[inside], corridor)
+        arc = path.arc[nearest[inside]] + centre[inside]
+        low[start + inside], high[start + inside] = arc + ends[0], arc + ends[1]
+    along[window], aligned[window] = obstacle.speed[window] * cos, cos
+    return Occupancy(obstacle, low, high, along, aligned)
+
+
+def _extent(
+    obstacle: Obstacle, aside: Array, cos: Array, sin: Array, corridor: float
+) -> tuple[Array, Array]:
+    """From where to where [m] along the path, from its centre, a body lies in a corridor.
+
+    Args:
+        obstacle: the body.
+        aside: [m] [N] of its centre to the left of the path.
+        cos, sin: [N] of its heading against that of the path.
+        corridor: [m] to either side of the path; every body reaches into it.
+    """
+    ahead = 0.5 * obstacle.length * np.array([1.0, 1.0, -1.0, -1.0])[:, None]
+    left = 0.5 * obstacle.width * np.array([1.0, -1.0, -1.0, 1.0])[:, None]
+    x, y = ahead * cos - left * sin, aside + ahead * sin + left * cos
+    next_x, next_y = np.roll(x, -1, axis=0), np.roll(y, -1, axis=0)
+    # Each edge of the body, cut off where it leaves the corridor.
+    level = np.abs(next_y - y) < 1e-9
+    slope = (next_x - x) / np.where(level, 1.0, next_y - y)
+    begin = x + (np.clip(y, -corridor, corridor) - y) * slope
+    end = next_x + (np.clip(next_y, -corridor, corridor) - next_y) * slope
+    outside = (np.minimum(y, next_y) > corridor) | (np.maximum(y, next_y) < -corridor)
+    low = np.where(outside, np.inf, np.minimum(begin, end)).min(axis=0)
+    high = np.where(outside, -np.inf, np.maximum(begin, end)).max(axis=0)
+    return low, high
+
+
+def _entry(low: Array) -> list[int]:
+    """For each step, the step at which the obstacle last came onto the path."""
+    entered, result = 0, []
+    for k, free in enumerate(np.isnan(low).tolist()):
+        if free:
+            entered = k + 1
+        result.append(entered)
+    return result
+
+
+def _widen(low: Array, high: Array) -> tuple[Array, Array]:
+    """The union of the occupied stretches within the safety time around each step."""
+    wide_low, wide_high = low.copy(), high.copy()
+    for shift in _shifts():
+        wide_low = np.fmin(wide_low, _shifted(low, shift))
+        wide_high = np.fmax(wide_high, _shifted(high, shift))
+    return wide_low, wide_high
+
+
+def _shifts() -> Iterable[int]:
+    return (shift for shift in range(-BEFORE, AFTER + 1) if shift)
+
+
+def _shifted(values: Array, shift: int) -> Array:
+    """values[k + shift], NaN beyond either end."""
+    result = np.full(len(values), np.nan)
+    if shift > 0:
+        result[:-shift] = values[shift:]
+    else:
+        result[-shift:] = values[:shift]
+    return result
+
+
+@dataclass(frozen=True, slots=True)
+class Hindrance:
+    """What kept the vehicle below its free speed in one step."""
+
+    step: int  # of DT, in the common time base
+    vehicle: int
+    how: HoldUp
+    speed: float  # [m/s] of the hindering vehicle
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drive:
+    """What came of driving an action plan."""
+
+    first: int  # step of the first sample
+    motions: tuple[Motion, ...]  # [N >= 1] at steps first, first + 1, ...
+    finished: bool  # the action's end was reached (else the horizon came first)
+    goal_time: float | None  # [s] since the time base, where the goal was passed
+    hindrances: tuple[Hindrance, ...]
+
+
+class Lane:
+    """A path prepared for driving: the speed from which every bend ahead can be braked for."""
+
+    def __init__(self, path: Path) -> None:
+        caps = path.cap.tolist()
+        arcs = path.arc.tolist()
+        for k in range(len(caps) - 2, -1, -1):
+            reachable = math.sqrt(caps[k + 1] ** 2 + 2.0 * COMFORT * (arcs[k + 1] - arcs[k]))
+            caps[k] = min(caps[k], reachable)
+        even = np.arange(0.0, arcs[-1] + 1.0)
+        self.speeds: list[float] = np.interp(even, arcs, caps).tolist()
+
+    def speed(self, arc: float) -> float:
+        """The highest speed [m/s] at an arc [m]."""
+        k = int(arc)
+        return self.speeds[k] if k < len(self.speeds) else self.speeds[-1]
+
+
+def drive(
+    plan: ActionPlan,
+    start: Motion,
+    first: int,
+    obstacles: Sequence[Obstacle],
+    size: tuple[float, float],
+    horizon: int,
+) -> Drive:
+    """Drive an action plan until it ends.
+
+    Args:
+        plan: what to drive; its path is the vehicle's own.
+        start: where on the path the vehicle is, and how fast.
+        first: step at which it is there.
+        obstacles: the other vehicles, in the common time base.
+        size: length and width [m] of the vehicle.
+        horizon: the last step.
+    """
+    lane = Lane(plan.path)
+    others = tuple(
+        occupancy(plan.path, obstacle, size, first, horizon + GAP_HORIZON) for obstacle in obstacles
+    )
+    others = tuple(o for o in others if not o.follows(start.arc - size[0] / 2.0, first))
+    motion, motions, hindrances = start, [start], []
+    standing, goal_time, finished = 0, None, False
+    for step in range(first, horizon):
+        acceleration, hindrance = accelerate(plan, lane, motion, step, others, size[0])
+        if hindrance is not None:
+            hindrances.append(hindrance)
+        before, motion = motion, advance(motion, acceleration, DT)
+        motions.append(motion)
+        if plan.goal is not None and motion.arc >= plan.goal:
+            share = (plan.goal - before.arc) / max(motion.arc - before.arc, 1e-9)
+            goal_time, finished = (step + min(max(share, 0.0), 1.0)) * DT, True
+            break
+        standing = standing + 1 if motion.speed < 0.1 else 0
+        if standing * DT >= STANDING_TIME if plan.stops else motion.arc >= plan.end:
+            finished = True
+            break
+    return Drive(first, tuple(motions), finished, goal_time, tuple(hindrances))
+
+
+def accelerate(
+    plan: ActionPlan,
+    lane: Lane,
+    motion: Motion,
+    step: int,
+    others: Sequence[Occupancy],
+    length: float,
+    dt: float = DT,
+    crossing: Sequence[Occupancy] | None = None,
+) -> tuple[float, Hindrance | None]:
+    """What to do in the coming step, and who is in the way.
+
+    Args:
+        plan: what is being driven.
+        lane: its path, prepared.
+        motion: where on the path the vehicle is.
+        step: now, in the common time base.
+        others: the vehicles to keep behind of.
+        length: [m] of the vehicle.
+        dt: [s] length of the coming step.
+        crossing: motions to give way to, where they are not those of `others`.
+
+    Returns:
+        Acceleration [m/s2], and the hindrance where there is one.
+    """
+    first = others if crossing is None else crossing
+    free = 0.0 if plan.stops else lane.speed(motion.arc + motion.speed * RELAXATION)
+    wanted, hardest, hindrance = free, COMFORT if plan.stops else FOLLOWING, None
+    for other in others:
+        gap = other.gap(motion.arc, step, length)
+        if gap is None:
+            continue
+        speed = safe_speed(gap - MIN_GAP, other.speed_along(step), FOLLOWING)
+        if speed < wanted:
+            wanted, hindrance = speed, (other, other.manner(step))
+            hardest = EMERGENCY if gap < MIN_GAP or speed < motion.speed - 3.0 else FOLLOWING
+    for line in plan.give_ways:
+        gap = line.stop - motion.arc
+        braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
+        if gap <= braking and motion.arc < line.clear:
+            blocker = _blocker(lane, motion, step, line, first, length)
+            speed = safe_speed(gap, 0.0, COMFORT)
+            if blocker is not None and speed < wanted:
+                wanted, hindrance = speed, (blocker, "right-of-way")
+    acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
+    if hindrance is None or wanted > free - HINDERED:
+        return acceleration, None
+    other, how = hindrance
+    return acceleration, Hindrance(step, other.vehicle, how, other.speed(step))
+
+
+def _towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
+    """The acceleration [m/s2] that leads to a wanted speed [m/s], within all limits."""
+    wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
+    if wished < acceleration:
+        return max(wished, acceleration - JERK_DOWN * dt)
+    return min(wished, max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt)))
+
+
+def safe_speed(gap: float, leader: float, braking: float) -> float:
+    """Krauss' safe speed [m/s] at a gap [m] behind a leader of a speed [m/s]."""
+    reach = braking * REACTION
+    return max(0.0, -reach + math.sqrt(reach**2 + leader**2 + 2.0 * braking * max(gap, 0.0)))
+
+
+def _blocker(
+    lane: Lane,
+    motion: Motion,
+    step: int,
+    line: GiveWay,
+    others: Sequence[Occupancy],
+    length: float,
+) -> Occupancy | None:
+    """Who must be waited for: going on freely would get in the way of its right to go first.
+
+    Beyond the line, that is asked only as long as one can stop before getting in the way.
+    """
+    first = [
+        other
+        for other in others
+        if other.goes_first(line.yields_to)
+        and other.last >= step
+        and not other.leads(motion.arc, step)
+    ]
+    if not first:
+        return None
+    arc, speed, acceleration = motion.arc, motion.speed, motion.acceleration
+    passed = max(other.top for other in first) + length + 1.0
+    last = max(other.last for other in first)
+    for ahead in range(step + 1, min(step + GAP_HORIZON, last + 1)):
+        wanted = lane.speed(arc + speed * RELAXATION)
+        acceleration = _towards(speed, acceleration, wanted, FOLLOWING, DT)
+        before, speed = speed, max(speed + acceleration * DT, 0.0)
+        arc += 0.5 * (before + speed) * DT
+        if arc > passed:
+            return None
+        for other in first:
+            begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
+            if begin is not None:
+                stopping = motion.speed**2 / (2.0 * FOLLOWING)
+                late = motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION
+                return None if late else other
+    return None
+
+
+def first_overlap(
+    position: Array,
+    heading: Array,
+    size: tuple[float, float],
+    other_position: Array,
+    other_heading: Array,
+    other_size: tuple[float, float],
+) -> int | None:
+    """Index of the first sample in which two boxes overlap, or None.
+
+    Args:
+        position, other_position: [m] [T, 2] centres of the front bumpers.
+        heading, other_heading: [rad] [T]
+        size, other_size: length and width [m].
+    """
+    ax, ay = np.cos(heading), np.sin(heading)
+    bx, by = np.cos(other_heading), np.sin(other_heading)
+    dx = (other_position[:, 0] - 0.5 * other_size[0] * bx) - (position[:, 0] - 0.5 * size[0] * ax)
+    dy = (other_position[:, 1] - 0.5 * other_size[0] * by) - (position[:, 1] - 0.5 * size[0] * ay)
+    cos, sin = np.abs(ax * bx + ay * by), np.abs(ax * by - ay * bx)
+    length, width = 0.5 * size[0], 0.5 * size[1]
+    other_length, other_width = 0.5 * other_size[0], 0.5 * other_size[1]
+    overlaps = (
+        (np.abs(dx * ax + dy * ay) < length + other_length * cos + other_width * sin)
+        & (np.abs(dy * ax - dx * ay) < width + other_length * sin + other_width * cos)
+        & (np.abs(dx * bx + dy * by) < other_length + length * cos + width * sin)
+        & (np.abs(dy * bx - dx * by) < other_width + length * sin + width * cos)
+    )
+    hits = np.flatnonzero(overlaps)
+    return int(hits[0]) if len(hits) else None
+
+
+def first_hit(
+    own: Array,
+    size: tuple[float, float],
+    first: int,
+    obstacles: Sequence[Obstacle],
+    careless: bool,
+) -> tuple[int, int]:
+    """The first collision: sample and index of the obstacle, or (-1, -1)."""
+    hits = []
+    for m, other in enumerate(obstacles):
+        stop = min(first + len(own), len(other.speed))
+        count = stop - first
+        where, turned = other.position[first:stop], other.heading[first:stop]
+        theirs = (other.length, other.width)
+        sample = first_overlap(own[:count, :2], own[:count, 2], size, where, turned, theirs)
+        if sample is None and careless:
+            sample = _cut_off(own, size[0], first, other)
+        elif sample is not None and not careless and _ahead(own[sample], where[sample]) < -1.0:
+            sample = None
+        if sample is not None:
+            hits.append((sample, m))
+    return min(hits, default=(-1, -1))
+
+
+def _ahead(own: Array, other: Array) -> float:
+    """How far [m] another front is ahead of ours."""
+    x, y = other[0] - own[0], other[1] - own[1]
+    return float(x * math.cos(own[2]) + y * math.sin(own[2]))
+
+
+def _cut_off(own: Array, length: float, first: int, other: Obstacle) -> int | None:
+    """The last sample of a lane change that ends right before a faster follower."""
+    step = first + len(own) - 1
+    if step >= len(other.speed):
+        return None
+    x, y = other.position[step] - own[-1, :2]
+    gap = -_ahead(own[-1], other.position[step]) - length
+    aside = abs(y * math.cos(own[-1, 2]) - x * math.sin(own[-1, 2]))
+    closing = float(other.speed[step]) - own[-1, 3]
+    if aside < 1.5 and gap > -length and gap < closing * SAFE_CUT_IN:
+        return len(own) - 1
+    return None
