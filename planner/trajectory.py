@@ -76,7 +76,7 @@ class Roads:
     def __init__(self, network: Network) -> None:
         self.network = network
         self.fastest = max(lane.speed_limit for lane in network.lanes.values())  # [m/s]
-        self.leads: dict[str, Any] = {}  # kept by planner.routes
+        self.ends: dict[str, Any] = {}  # by lane, kept by planner.routes
         self._lines: dict[tuple[str, ...], Path] = {}
 
     def line(self, lanes: tuple[str, ...]) -> Path:

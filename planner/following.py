@@ -1,0 +1,111 @@
+"""The macro actions Continue and Stop: following the road."""
+
+import math
+
+from planner.layout import CLEAR, COMFORT, FAR, STRAIGHTEN, Layout, finish, lookahead
+from planner.manoeuvres import ActionPlan, GiveWay, LaneFollow, Situation, Stop
+from planner.routes import (
+    Refusal,
+    direction_of,
+    lane_end,
+    onward,
+    remaining,
+    rest_of,
+    straight_on,
+)
+from planner.trace import EgoGoal
+from planner.trajectory import Roads
+from sim.network import Link
+
+MERGING = 35.0  # [m] before the end of a lane at which to look for a gap beside it
+MARGIN = 5.0  # [m] of path beyond where a vehicle comes to rest
+
+
+def follow_on(
+    roads: Roads, here: Situation, goal: EgoGoal | None, view: float
+) -> ActionPlan | Refusal:
+    """Go straight on: up to the goal, or else past the next junction to the next decision.
+
+    A decision is due before a junction where one has to give way, or cannot go straight on, or
+    where the way to the goal turns off; and before a lane ends.
+    """
+    network, lane = roads.network, here.location.lane
+    refused = _refused_inside(roads, lane)
+    if refused is not None:
+        return refused
+    lanes = [lane, *rest_of(network, lane)]
+    seen = sum(network.lanes[name].length for name in lanes) - here.location.offset
+    begun: float | None = None  # [m] from here at which the road beyond a junction begins
+    halt: Refusal | None = None
+    while seen < FAR and not (goal and network.lanes[lanes[-1]].edge == goal.edge):
+        link = straight_on(roads, lanes[-1], goal)
+        if isinstance(link, Refusal):
+            halt = link if _leads_on(roads, lanes[-1]) else None
+            break
+        joint = lane_end(roads, lanes[-1]).joint == link
+        if not joint and (begun is not None or seen >= view) and _off(roads, link, goal):
+            halt = Refusal("")
+            break
+        lanes += [*link.via, link.to_lane]
+        seen += sum(network.lanes[name].length for name in lanes[-1 - len(link.via) :])
+        begun = begun if joint else seen - network.lanes[link.to_lane].length
+    end = min(seen, FAR)
+    if halt is not None and begun is not None:
+        end = max(seen - view / 2.0, min(begun + CLEAR, 0.5 * (begun + seen)))
+    elif halt is not None and seen >= view:
+        end = seen - view / 2.0
+    elif halt is not None:
+        end = seen - MERGING
+        if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
+            return halt
+    way = Layout.of(roads, here, tuple(lanes), goal)
+    waits = tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay))
+    end = max(min(end, FAR), 0.1)
+    return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
+
+
+def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Refusal:
+    """Brake to a standstill on the road ahead."""
+    network, lane = roads.network, here.location.lane
+    if network.lanes[lane].internal:
+        return Refusal("it must not stop inside a junction")
+    rest = here.speed**2 / (2.0 * COMFORT) + here.speed * 0.5
+    reach = rest + lookahead(roads, here)
+    row = onward(roads, (lane,), reach + here.location.offset, goal)
+    path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, rest + MARGIN)
+    if network.lanes[path.lane_at(rest)[0]].internal:
+        return Refusal("it would come to a stop inside the junction")
+    return finish(roads, "stop", path, (Stop(0.0),), path.length, math.inf, None)
+
+
+def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
+    """Why one cannot just go on from inside a junction."""
+    link = roads.network.link_via(lane)
+    if link is None or lane_end(roads, link.from_lane).joint == link:
+        return None
+    if roads.network.roundabout(roads.network.lanes[link.to_lane].edge) is not None:
+        return Refusal("it is in a roundabout")
+    if direction_of(roads, link) != "straight":
+        return Refusal("it is turning at the junction")
+    return None
+
+
+def _leads_on(roads: Roads, lane: str) -> bool:
+    """Whether the road goes on from a lane, or from those beside it."""
+    end = lane_end(roads, lane)
+    return bool(end.leads) or end.merges
+
+
+def _off(roads: Roads, link: Link, goal: EgoGoal | None) -> bool:
+    """Whether another way than a link is the shorter one to the goal, or none leads there."""
+    if goal is None:
+        return False
+    network = roads.network
+    edges = {
+        network.lanes[way.to_lane].edge
+        for lane in network.edge_lanes(network.lanes[link.from_lane].edge)
+        for way in network.links_from(lane.id)
+    }
+    best = min(remaining(roads, edge, goal) for edge in sorted(edges))
+    ours = remaining(roads, network.lanes[link.to_lane].edge, goal)
+    return math.isinf(best) or ours > best

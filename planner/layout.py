@@ -1,0 +1,144 @@
+"""The way that a macro action takes: its path, and the junctions that it crosses."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from planner.manoeuvres import ActionPlan, GiveWay, LaneFollow, Manoeuvre, Situation, Turn
+from planner.routes import direction_of, lane_end, onward
+from planner.trace import Action, EgoGoal
+from planner.trajectory import Path, Roads
+from sim.network import Direction, Link
+
+STRAIGHTEN = 12.0  # [m] in which a vehicle off its centreline gets back to it
+AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders and bends
+FAR = 400.0  # [m] beyond which no action reaches
+CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
+BEFORE_LINE = 0.5  # [m] at which a vehicle waits
+STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
+COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
+
+
+@dataclass(frozen=True, slots=True)
+class Crossing:
+    """A junction on the way."""
+
+    link: Link
+    enter: float  # [m] arc; 0 from inside
+    out: float  # [m] arc
+    line: float | None  # [m] arc of the waiting line ahead, where it has to give way
+    inside: bool
+    turns: bool  # whether it is more than following the road
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """A path along connected lanes, and beyond them."""
+
+    path: Path
+    end: float  # [m] arc at which the last of the lanes ends
+    crossings: tuple[Crossing, ...]  # of the junctions between the lanes
+
+    @classmethod
+    def of(
+        cls, roads: Roads, here: Situation, lanes: tuple[str, ...], goal: EgoGoal | None
+    ) -> "Layout":
+        """Lay out the way along lanes that begin with the present one."""
+        length = sum(roads.network.lanes[lane].length for lane in lanes)
+        reach = length + lookahead(roads, here)
+        row = onward(roads, lanes, reach, goal)
+        path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, 1.0)
+        passed = len(row) - len(path.lanes)
+        begins = [path.lanes[max(k - passed, 0)][1] for k in range(len(lanes))]
+        end = begins[-1] + roads.network.lanes[lanes[-1]].length
+        return cls(path, end, tuple(_crossings(roads, lanes, begins)))
+
+    def manoeuvres(self) -> tuple[Manoeuvre, ...]:
+        """What is done up to the last turn, in order."""
+        found: list[Manoeuvre] = []
+        at = 0.0
+        for x in self.crossings:
+            if x.turns and not x.inside:
+                found.append(LaneFollow(at, x.enter))
+            if x.line is not None:
+                foes = frozenset((x.link.junction, index) for index in x.link.yields_to)
+                found.append(GiveWay(x.line, x.out, x.link, foes))
+            if x.turns:
+                found.append(Turn(x.enter, x.out, x.direction))
+                at = x.out
+        return tuple(found)
+
+
+def lookahead(roads: Roads, here: Situation) -> float:
+    """Length [m] of path to see beyond the end of an action, enough to brake to a standstill."""
+    fastest = max(here.speed, roads.network.lanes[here.location.lane].speed_limit)
+    return max(AHEAD, fastest**2 / (2.0 * COMFORT))
+
+
+def finish(
+    roads: Roads,
+    action: Action,
+    path: Path,
+    manoeuvres: tuple[Manoeuvre, ...],
+    end: float,
+    commit: float,
+    goal: EgoGoal | None,
+) -> ActionPlan:
+    """The plan of an action, which ends at the goal where it comes past it."""
+    reached = None if goal is None else _goal_arc(roads, path, goal, end)
+    return ActionPlan(
+        action, path, manoeuvres, end if reached is None else reached, commit, reached
+    )
+
+
+def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | None:
+    for name, start in path.lanes:
+        lane = roads.network.lanes[name]
+        wanted = lane.edge == goal.edge and goal.lane in (None, lane.index)
+        if wanted and 0.0 <= start + goal.position <= end:
+            return start + goal.position
+    return None
+
+
+def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Iterator[Crossing]:
+    network, k = roads.network, 0
+    while k < len(lanes) - 1:
+        inside = network.link_via(lanes[k])
+        link = inside or _link_between(roads, lanes, k)
+        if link is None:
+            return
+        ahead = len(link.via) - link.via.index(lanes[k]) if inside else len(link.via) + 1
+        out = begins[min(k + ahead, len(lanes) - 1)]
+        enter = 0.0 if inside else begins[k] + network.lanes[lanes[k]].length
+        if not inside and link.via:
+            enter = begins[k + 1]
+        waits = link.waits_inside and len(link.via) > 1
+        line = begins[k + ahead - len(link.via) + 1] if waits else enter
+        due = link.yields_to and (not inside or (waits and lanes[k] == link.via[0]))
+        yield Crossing(
+            link,
+            enter,
+            out,
+            line - BEFORE_LINE if due else None,
+            inside is not None,
+            _turns(roads, link),
+            direction_of(roads, link),
+        )
+        k += ahead
+
+
+def _link_between(roads: Roads, lanes: tuple[str, ...], k: int) -> Link | None:
+    following = lanes[k + 1 :]
+    for link in roads.network.links_from(lanes[k]):
+        if (*link.via, link.to_lane) == following[: len(link.via) + 1]:
+            return link
+    return None
+
+
+def _turns(roads: Roads, link: Link) -> bool:
+    """Whether a link is more than following the road, or the ring of a roundabout."""
+    network = roads.network
+    start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
+    ring = network.roundabout(start)
+    around = ring is not None and end in ring
+    return not around and lane_end(roads, link.from_lane).joint != link
