@@ -6,7 +6,6 @@ from planner.driver import DriverError
 from planner.trace import TraceError
 from sim.scenario import ScenarioError
 from sim.sumo import SimulationError
-from xavi_dialogue.app.bench import BenchError
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError
@@ -18,7 +17,7 @@ from xavi_dialogue.transports.transcript import TranscriptError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
-        (ScenarioError, ParseUsageError, BenchError, TranscriptError, TraceFileError, TreeError),
+        (ScenarioError, ParseUsageError, TranscriptError, TraceFileError, TreeError),
         ExitStatus.USAGE,
     ),
     (

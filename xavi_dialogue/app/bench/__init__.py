@@ -1,0 +1,1 @@
+"""Benchmarks: planning, driving, recognising, answering. See docs/bench.md."""

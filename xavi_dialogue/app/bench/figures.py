@@ -1,0 +1,97 @@
+"""Figures: what benchmarks find, as one JSON object or as a table."""
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from statistics import quantiles
+from typing import Protocol
+
+import msgspec
+
+
+class Report(Protocol):
+    """What a benchmark found: a struct that can be written as JSON."""
+
+    def table(self) -> str:
+        """The report for people."""
+
+
+class Figure(msgspec.Struct, frozen=True):
+    """One thing measured."""
+
+    name: str
+    unit: str
+    n: int  # cases behind it
+    p50: float
+    p99: float
+    most: float
+
+
+class Figures(msgspec.Struct, frozen=True):
+    """What a benchmark found."""
+
+    bench: str
+    figures: tuple[Figure, ...]
+
+    def table(self) -> str:
+        """The figures for people."""
+        rows = [("", "unit", "n", "p50", "p99", "most")]
+        rows += [
+            (f.name, f.unit, str(f.n), f"{f.p50:.2f}", f"{f.p99:.2f}", f"{f.most:.2f}")
+            for f in self.figures
+        ]
+        return in_columns(rows)
+
+
+class Watch:
+    """Collects durations [s] by name."""
+
+    def __init__(self) -> None:
+        self.taken: dict[str, list[float]] = {}
+
+    @contextmanager
+    def time(self, name: str) -> Iterator[None]:
+        """Take the time of what happens within."""
+        began = time.perf_counter()
+        yield
+        self.taken.setdefault(name, []).append(time.perf_counter() - began)
+
+    def figures(self) -> tuple[Figure, ...]:
+        """The durations [ms], in the order in which they were first taken."""
+        return tuple(
+            figure(name, "ms", [1000.0 * one for one in taken])
+            for name, taken in self.taken.items()
+        )
+
+
+def figure(name: str, unit: str, values: Sequence[float]) -> Figure:
+    """The median, the 99th percentile and the highest of some values, at least one."""
+    p50, p99, most = (
+        round(v, 3) for v in (quantile(values, 50), quantile(values, 99), max(values))
+    )
+    return Figure(name, unit, len(values), p50, p99, most)
+
+
+def quantile(values: Sequence[float], percent: int) -> float:
+    """A percentile of some values, at least one; between two of them it is interpolated."""
+    if len(values) == 1:
+        return values[0]
+    return quantiles(values, n=100, method="inclusive")[percent - 1]
+
+
+def mean(values: Sequence[float]) -> float | None:
+    """The mean; None of nothing."""
+    return sum(values) / len(values) if values else None
+
+
+def in_columns(rows: Sequence[Sequence[str]]) -> str:
+    """Rows of the same length as a table: the first column to the left, the others right."""
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    lines = (
+        "  ".join(
+            cell.rjust(width) if k else cell.ljust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        for row in rows
+    )
+    return "\n".join(line.rstrip() for line in lines)

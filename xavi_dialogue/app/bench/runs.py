@@ -1,0 +1,144 @@
+"""Runs: a scenario with a seed, driven twice, by our planner and by SUMO's own driver."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from multiprocessing import get_context
+from typing import TypeVar
+
+import msgspec
+
+from planner.driver import Driver
+from planner.trace import EgoGoal
+from sim.network import Network
+from sim.scenario import Scenario, load
+from sim.scene import Command, Scene
+from sim.sumo import EgoGone, Simulation
+from xavi_dialogue.app.bench.watch import Drive, Observer
+from xavi_dialogue.app.ride import network_of, settings_of
+from xavi_dialogue.dialogue.state import EPSILON
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+class Run(msgspec.Struct, frozen=True):
+    """One scenario with one seed."""
+
+    scenario: str  # as it was asked for
+    seed: int
+    ours: Drive | None = None
+    sumo: Drive | None = None
+    error: str | None = None  # of a run that failed
+    decisions: tuple[float, ...] = ()  # [ms] wall time of each decision
+
+    @property
+    def reproduce(self) -> str:
+        """The command that drives it again."""
+        return f"xavi drive --scenario {self.scenario} --seed {self.seed}"
+
+
+def run(task: tuple[str, int]) -> Run:
+    """Drive a scenario (name or folder) with a seed; what goes wrong is told in the result."""
+    name, seed = task
+    try:
+        scenario = load(name)
+        network = network_of(scenario)
+        with Simulation(scenario, seed) as world:
+            sumo = by_sumo(world, scenario, network)
+        with Simulation(scenario, seed) as world:
+            ours, decisions = by_planner(world, scenario, network, seed)
+    except Exception as error:
+        return Run(name, seed, error=f"{type(error).__name__}: {error}")
+    return Run(name, seed, ours, sumo, None, decisions)
+
+
+def by_sumo(world: Simulation, scenario: Scenario, network: Network) -> Drive:
+    """The scenario with SUMO as driver of the ego."""
+    return _driven(world, scenario, network, lambda _: None)
+
+
+def by_planner(
+    world: Simulation, scenario: Scenario, network: Network, seed: int
+) -> tuple[Drive, tuple[float, ...]]:
+    """The scenario with our planner, and the wall time [ms] of each decision."""
+    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
+    driver = Driver(network, goal, settings_of(scenario), seed)
+    decisions: list[float] = []
+
+    def command(scene: Scene) -> Command:
+        began = time.perf_counter()
+        driven = driver.step(scene, scenario.step)
+        if driven.trace is not None:
+            decisions.append(1000.0 * (time.perf_counter() - began))
+        return driven.command
+
+    return _driven(world, scenario, network, command), tuple(decisions)
+
+
+def _driven(
+    world: Simulation,
+    scenario: Scenario,
+    network: Network,
+    command: Callable[[Scene], Command | None],
+) -> Drive:
+    """Drive to the goal, a collision, the end of the ego's route, or that of the time."""
+    observer = Observer(network, scenario.goal)
+    scene = world.scene()
+    with suppress(EgoGone):
+        while True:
+            observer.see(scene)
+            if observer.hits:
+                return observer.drive("collided")
+            if observer.arrived:
+                return observer.drive("arrived")
+            if scene.time >= scenario.duration - EPSILON:
+                return observer.drive("duration")
+            scene = world.step(command(scene))
+    return observer.drive("left")
+
+
+def in_processes(
+    function: Callable[[Task], Result],
+    tasks: Sequence[Task],
+    jobs: int,
+    died: Callable[[Task], Result],
+) -> Iterator[Result]:
+    """The results in the order of the tasks, from processes of their own.
+
+    Args:
+        function: of one task; a function of a module.
+        tasks: what to do.
+        jobs: how many processes work side by side.
+        died: the result of a task whose process dies.
+    """
+    rest = list(tasks)
+    while rest:
+        done = 0
+        with suppress(BrokenProcessPool):
+            for result in _pooled(function, rest, jobs):
+                yield result
+                done += 1
+        rest = rest[done:]
+        if rest:  # one of the next few killed its process: the first is tried by itself
+            try:
+                yield from _pooled(function, rest[:1], 1)
+            except BrokenProcessPool:
+                yield died(rest[0])
+            rest = rest[1:]
+
+
+def _pooled(
+    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int
+) -> Iterator[Result]:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        futures: list[Future[Result]] = []
+        try:
+            futures += [pool.submit(function, task) for task in tasks]
+            for future in futures:
+                yield future.result()
+        finally:
+            for future in futures:
+                future.cancel()
