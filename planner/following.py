@@ -36,6 +36,8 @@ def follow_on(
     lanes = [lane, *rest_of(network, lane)]
     seen = sum(network.lanes[name].length for name in lanes) - here.location.offset
     begun: float | None = None  # [m] from here at which the road beyond a junction begins
+    if _crossing(roads, lane):
+        begun = max(seen - network.lanes[lanes[-1]].length, 0.0)
     halt: Refusal | None = None
     while seen < FAR and not (goal and network.lanes[lanes[-1]].edge == goal.edge):
         link = straight_on(roads, lanes[-1], goal)
@@ -60,7 +62,7 @@ def follow_on(
             return halt
     way = Layout.of(roads, here, tuple(lanes), goal)
     waits = tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay))
-    end = max(min(end, FAR), 0.1)
+    end = max(min(end, FAR, way.path.length), 0.1)
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
 
 
@@ -80,14 +82,20 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
 
 def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
     """Why one cannot just go on from inside a junction."""
-    link = roads.network.link_via(lane)
-    if link is None or lane_end(roads, link.from_lane).joint == link:
+    link = _crossing(roads, lane)
+    if link is None:
         return None
     if roads.network.roundabout(roads.network.lanes[link.to_lane].edge) is not None:
         return Refusal("it is in a roundabout")
     if direction_of(roads, link) != "straight":
         return Refusal("it is turning at the junction")
     return None
+
+
+def _crossing(roads: Roads, lane: str) -> Link | None:
+    """The link by which one is just crossing a junction."""
+    link = roads.network.link_via(lane)
+    return None if link is None or lane_end(roads, link.from_lane).joint == link else link
 
 
 def _leads_on(roads: Roads, lane: str) -> bool:

@@ -2,11 +2,14 @@
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
-from planner.actions import Situation
+from planner.manoeuvres import Situation
+from planner.roundabouts import Roundabout, roundabout_ahead
+from planner.routes import Approach, approach, direction_of, lane_end
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Roads
-from sim.network import Link
+from sim.network import Direction, Link, Location, Network, angle_between, point_at, project
 
 BEYOND = 4.0  # [m] into its exit that a vehicle has reached its goal
 STOP_PRIOR = 0.02  # of stopping; the exits share the rest equally
@@ -22,6 +25,11 @@ class Goal:
     prior: float
 
 
+LATER = 20.0  # [m] from a roundabout at which the bearing of a road is taken
+OPPOSITE = 2.6  # [rad] between a road that leads there and one that leads back
+BACK = "the way back"
+ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
+
 PLACES: dict[Action, str] = {
     "exit-left": "the road to the left",
     "exit-right": "the road to the right",
@@ -31,44 +39,96 @@ PLACES: dict[Action, str] = {
 }
 
 
+#: The macro action that ends at an exit, the place in words, and where it is.
+_Exit: TypeAlias = tuple[Action, str, EgoGoal]
+
+
 def goals_in_view(roads: Roads, starts: tuple[Situation, ...], view: float) -> tuple[Goal, ...]:
-    """The goals of a vehicle that may be on one of several lanes, stopping last."""
-    found: dict[str, tuple[Action, EgoGoal]] = {}
+    """The goals of a vehicle that may be on one of several lanes, stopping last.
+
+    They are the roads that leave the next junction, or all exits of a roundabout; where none is
+    in view, to go on.
+    """
+    found: dict[str, _Exit] = {}
     for here in starts:
-        for kind, target in _exits(roads, here, view):
-            found.setdefault(target.edge, (kind, target))
+        for way in _exits(roads, here.location, view):
+            found.setdefault(way[2].edge, way)
     if not found:
         return (Goal("stop", PLACES["stop"], None, 1.0),)
     share = (1.0 - STOP_PRIOR) / len(found)
-    exits = tuple(Goal(kind, PLACES[kind], target, share) for kind, target in found.values())
+    exits = tuple(Goal(kind, place, target, share) for kind, place, target in found.values())
     return (*exits, Goal("stop", PLACES["stop"], None, STOP_PRIOR))
 
 
-def _exits(roads: Roads, here: Situation, view: float) -> list[tuple[Action, EgoGoal]]:
+def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:
+    ring = roundabout_ahead(roads, here, view)
+    if isinstance(ring, Roundabout):
+        return _ring_exits(roads, here, ring)
     network = roads.network
-    lane = network.lanes[here.location.lane]
-    inside = network.link_via(lane.id)
-    if inside is not None:
-        return [_exit(roads, inside)]
-    ahead = lane.length - here.location.offset
-    lanes = network.edge_lanes(lane.edge)
-    links = [link for other in lanes for link in network.links_from(other.id)]
-    if ahead > view or not links:
-        position = min(lane.length - 1.0, here.location.offset + view)
-        return [("continue", EgoGoal(lane.edge, max(position, here.location.offset), None))]
-    return [_exit(roads, link) for link in links if link.direction != "turnaround"]
+    inside = network.link_via(here.lane)
+    if inside is not None and lane_end(roads, inside.from_lane).joint != inside:
+        return [_exit(roads, inside, direction_of(roads, inside))]
+    ahead = approach(roads, here, view)
+    last = network.lanes[ahead.lanes[-1]]
+    lanes = () if last.internal else network.edge_lanes(last.edge)
+    leads = [lead for lane in lanes for lead in lane_end(roads, lane.id).leads]
+    if ahead.distance > view or not leads:
+        return [_farther(roads, here, ahead, view)]
+    forward = [lead for lead in leads if not lead.turnaround]
+    return [_exit(roads, lead.link, lead.direction) for lead in forward or leads]
 
 
-def _exit(roads: Roads, link: Link) -> tuple[Action, EgoGoal]:
-    target = roads.network.lanes[link.to_lane]
+def _exit(roads: Roads, link: Link, direction: Direction) -> _Exit:
     kind: Action = "continue"
-    if link.direction == "left":
+    if direction == "left":
         kind = "exit-left"
-    elif link.direction == "right":
+    elif direction == "right":
         kind = "exit-right"
     elif link.yields_to:
         kind = "exit-straight"
-    return kind, EgoGoal(target.edge, min(BEYOND, 0.5 * target.length), None)
+    place = BACK if link.direction == "turnaround" else PLACES[kind]
+    return kind, place, _beyond(roads, link)
+
+
+def _beyond(roads: Roads, link: Link) -> EgoGoal:
+    target = roads.network.lanes[link.to_lane]
+    return EgoGoal(target.edge, min(BEYOND, 0.5 * target.length), None)
+
+
+def _farther(roads: Roads, here: Location, ahead: Approach, view: float) -> _Exit:
+    """Some way on along the road, or at its end."""
+    rest = view + here.offset
+    for name in ahead.lanes:
+        lane = roads.network.lanes[name]
+        if not lane.internal:
+            edge, position = lane.edge, min(lane.length - 1.0, rest)
+        if rest <= lane.length:
+            break
+        rest -= lane.length
+    if edge == roads.network.lanes[here.lane].edge:
+        position = max(position, here.offset)
+    return "continue", PLACES["continue"], EgoGoal(edge, max(position, 0.0), None)
+
+
+def _ring_exits(roads: Roads, here: Location, ring: Roundabout) -> list[_Exit]:
+    """All exits of a roundabout but the one that leads back."""
+    kind: Action = "exit-right" if ring.side == "right" else "exit-left"
+    found = []
+    for number, way in enumerate(ring.exits[: len(ORDINALS)]):
+        which = "next" if number == 0 and ring.entry is None else ORDINALS[number]
+        for link in way.out:
+            if ring.entry is None or not _leads_back(roads.network, ring.entry, link):
+                found.append((kind, f"the {which} exit of the roundabout", _beyond(roads, link)))
+    return found
+
+
+def _leads_back(network: Network, entry: Link, out: Link) -> bool:
+    """Whether an exit leads back to where the entry came from."""
+    before, beyond = network.lanes[entry.from_lane], network.lanes[out.to_lane]
+    _, towards = point_at(before.centreline, before.length - LATER)
+    (x, y), away = point_at(beyond.centreline, LATER)
+    _, aside, _ = project(before.centreline, (x, y))
+    return abs(aside) < LATER and abs(angle_between(towards, away)) > OPPOSITE
 
 
 def stopping_time(distance: float, speed: float, limit: float, up: float, down: float) -> float:
