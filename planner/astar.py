@@ -44,9 +44,7 @@ class Solution:
         )
 
 
-def ways(
-    task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int
-) -> list[Solution]:
+def ways(task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int) -> list[Solution]:
     """The cheapest ways to the task's goal, best first.
 
     Args:
@@ -78,9 +76,7 @@ def ways(
     return found
 
 
-def _expand(
-    task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic
-) -> list[Leg]:
+def _expand(task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic) -> list[Leg]:
     if len(legs) >= DEPTH:
         return []
     first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0

@@ -170,9 +170,7 @@ def _ways_on(
     ]
 
 
-def _motion(
-    task: Task, solution: Solution, observed: Observed, others: Traffic
-) -> Obstacle:
+def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
     """A solution as an obstacle, driving on beyond its goal."""
     legs = solution.legs
     first = legs[-1].first + len(legs[-1].speed) - 1
@@ -191,9 +189,7 @@ def _motion(
     )
 
 
-def _stopping(
-    frame: Task, here: Situation, observed: Observed, others: Traffic
-) -> list[_Way]:
+def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic) -> list[_Way]:
     """Braking to a standstill and staying there; nobody means to stay inside a junction."""
     row = onward(frame.roads, (here.location.lane,), here.location.offset + 100.0)
     path = frame.roads.path(row, here.position, here.heading, 12.0, 100.0)
@@ -305,8 +301,6 @@ def trajectories_to(
     return _trajectories(onwards, settings) if onwards else ()
 
 
-def motion_along(
-    frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic
-) -> Obstacle:
+def motion_along(frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic) -> Obstacle:
     """Legs driven one after the other from now, and the road followed from there."""
     return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

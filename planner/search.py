@@ -240,7 +240,6 @@ class Search:
             )
         return found
 
-
     def _traffic(self, samples: Samples) -> Traffic:
         """The others' motions as sampled."""
         found = self._motions.get(samples)

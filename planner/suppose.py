@@ -147,9 +147,7 @@ def _acting(
     return Belief(goal, 0.0 if kept is None else kept.likelihood, 1.0, (way,))
 
 
-def _driven(
-    prospect: _Prospect, actions: Sequence[Action], others: Traffic
-) -> list[Leg] | Refusal:
+def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> list[Leg] | Refusal:
     """The actions in turn, from the first lane on which all of them apply."""
     tried = [_legs(prospect.task, start, actions, others) for start in prospect.starts]
     driven = (legs for legs in tried if not isinstance(legs, Refusal))

@@ -1,6 +1,7 @@
 """Driving along a path: car-following, giving way, stopping, within limits of comfort."""
 
 import math
+from typing import TypeAlias
 
 import numpy as np
 from numba import njit
@@ -11,6 +12,7 @@ from planner.kernels.projection import Stretches
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+Motion: TypeAlias = tuple[float, float, float]  # arc [m], speed [m/s], acceleration [m/s2]
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
@@ -78,9 +80,7 @@ def accelerate(
     caps: Floats,
     stops: bool,
     lines: Floats,
-    arc: float,
-    speed: float,
-    acceleration: float,
+    motion: Motion,
     step: int,
     others: Stretches,
     ignored: Bools,
@@ -95,7 +95,7 @@ def accelerate(
         caps: [m/s] at every metre of the path.
         stops: whether to brake to a standstill.
         lines: [L, 2] arcs [m] of lines to give way at, and at which the junction is left.
-        arc, speed, acceleration: of the vehicle.
+        motion: of the vehicle: arc [m], speed [m/s], acceleration [m/s2].
         step: now.
         others: the vehicles to keep behind of.
         ignored: [M] those that are behind, and so of no concern.
@@ -107,46 +107,54 @@ def accelerate(
     Returns:
         Acceleration [m/s2], the index of the one in the way (-1: nobody), and how it is.
     """
+    arc, speed, acceleration = motion
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
-    wanted, who, how = free, -1, LEADER
     hardest = COMFORT if stops else FOLLOWING
+    wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
+    how = LEADER if who < 0 else _manner(others, who, step)
+    for line in range(len(lines)):
+        gap = lines[line, 0] - arc
+        braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
+        safe = safe_speed(gap, 0.0, COMFORT)
+        if gap <= braking and arc < lines[line, 1] and safe < wanted:
+            stop = lines[line, 0]
+            blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
+            if blocker >= 0:
+                wanted, who, how = safe, blocker, RIGHT_OF_WAY
+    chosen = towards(speed, acceleration, wanted, hardest, dt)
+    return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
+
+
+@_jit
+def _follow(
+    motion: Motion,
+    step: int,
+    others: Stretches,
+    ignored: Bools,
+    length: float,
+    wanted: float,
+    hardest: float,
+) -> tuple[float, float, int]:
+    """The wanted speed [m/s] and hardest braking [m/s2] behind others, and whom that is for."""
+    arc, speed, _ = motion
+    who = -1
     t = min(step, others.low.shape[1] - 1)
     for m in range(len(others.low)):
         low, high = others.low[m, t], others.high[m, t]
         if ignored[m] or math.isnan(low) or 0.5 * (low + high) < arc - 0.5 * length:
             continue
         gap = low - arc
-        leader = max(others.along[m, t], 0.0)
-        safe = safe_speed(gap - MIN_GAP, leader, FOLLOWING)
+        safe = safe_speed(gap - MIN_GAP, max(others.along[m, t], 0.0), FOLLOWING)
         if safe < wanted:
-            wanted, who, how = safe, m, _manner(others, m, t)
+            wanted, who = safe, m
             hardest = EMERGENCY if gap < MIN_GAP or safe < speed - 3.0 else FOLLOWING
-    for line in range(len(lines)):
-        gap = lines[line, 0] - arc
-        braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
-        if gap <= braking and arc < lines[line, 1]:
-            safe = safe_speed(gap, 0.0, COMFORT)
-            if safe < wanted:
-                blocker = _blocker(
-                    caps,
-                    arc,
-                    speed,
-                    acceleration,
-                    step,
-                    lines[line, 0],
-                    crossing,
-                    firsts[line],
-                    length,
-                )
-                if blocker >= 0:
-                    wanted, who, how = safe, blocker, RIGHT_OF_WAY
-    chosen = towards(speed, acceleration, wanted, hardest, dt)
-    return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
+    return wanted, hardest, who
 
 
 @_jit
-def _manner(others: Stretches, m: int, t: int) -> int:
+def _manner(others: Stretches, m: int, step: int) -> int:
     """How a vehicle ahead holds up who comes behind."""
+    t = min(step, others.low.shape[1] - 1)
     entered, speed = others.entered[m, t], others.speed[m, t]
     if entered > 0 and t - entered <= CUT_IN_MEMORY and speed > CRAWL:
         return CUT_IN
@@ -156,9 +164,7 @@ def _manner(others: Stretches, m: int, t: int) -> int:
 @_jit
 def _blocker(
     caps: Floats,
-    arc: float,
-    speed: float,
-    acceleration: float,
+    motion: Motion,
     step: int,
     line: float,
     others: Stretches,
@@ -169,6 +175,7 @@ def _blocker(
 
     Beyond the line, that is asked only as long as one can stop before getting in the way.
     """
+    arc, speed, acceleration = motion
     last = others.low.shape[1] - 1
     concerned = firsts.copy()
     passed, until = -math.inf, -1.0
@@ -204,7 +211,7 @@ def drive(
     goal: float,
     lines: Floats,
     firsts: Bools,
-    start: tuple[float, float, float],
+    start: Motion,
     first: int,
     horizon: int,
     others: Stretches,
@@ -232,20 +239,9 @@ def drive(
     standing = 0
     for step in range(first, horizon):
         k = step - first
+        now = (arc, speed, acceleration)
         acceleration, who, how = accelerate(
-            caps,
-            stops,
-            lines,
-            arc,
-            speed,
-            acceleration,
-            step,
-            others,
-            ignored,
-            others,
-            waits,
-            length,
-            STEP,
+            caps, stops, lines, now, step, others, ignored, others, waits, length, STEP
         )
         before, was = arc, speed
         speed = max(speed + acceleration * STEP, 0.0)

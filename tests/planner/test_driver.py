@@ -7,7 +7,7 @@ import pytest
 
 from planner.driver import Driver, DriverError, DriveStep
 from planner.events import Event
-from planner.forward import ACCELERATION, EMERGENCY
+from planner.kernels.driving import ACCELERATION, EMERGENCY
 from planner.trace import EgoGoal, PlanTrace, Settings, encode
 from planner.trajectory import Path
 from sim.boxes import overlap

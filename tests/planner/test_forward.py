@@ -1,30 +1,25 @@
 import itertools
-import math
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from planner.actions import STANDING_TIME
-from planner.collision import first_overlap
-from planner.forward import (
+from planner.forward import DT, Drive, Lane, Motion, advance, drive
+from planner.kernels.collision import first_hit
+from planner.kernels.driving import (
     ACCELERATION,
     COMFORT,
-    DT,
     EMERGENCY,
     FOLLOWING,
     JERK_DOWN,
     JERK_UP,
     MIN_GAP,
-    Drive,
-    Lane,
-    Motion,
-    advance,
-    drive,
+    STANDING_TIME,
+    place,
     safe_speed,
 )
-from planner.obstacles import Obstacle
+from planner.obstacles import HOW, Obstacle, Traffic
 from sim.network import Direction
 from tests.planner.worlds import (
     LENGTH,
@@ -46,7 +41,7 @@ START = 20.0  # [m] from its beginning
 def cruise(speed: float, obstacles: tuple[Obstacle, ...] = (), horizon: int = HORIZON) -> Drive:
     """Continue from START."""
     plan = plan_of("s1", situation("s1", ALONG[0], START, speed), "continue")
-    return drive(plan, Motion(0.0, speed, 0.0), 0, obstacles, SIZE, horizon)
+    return drive(plan, Motion(0.0, speed, 0.0), 0, Traffic.of(obstacles), SIZE, horizon)
 
 
 def leader(gap: float, speed: float, braking: float, steps: int = HORIZON + 60) -> Obstacle:
@@ -58,33 +53,44 @@ def leader(gap: float, speed: float, braking: float, steps: int = HORIZON + 60) 
 
 
 def fronts(driven: Drive) -> np.ndarray:
-    return np.array([motion.arc for motion in driven.motions])
+    return driven.motion[:, 0]
 
 
 def speeds(driven: Drive) -> np.ndarray:
-    return np.array([motion.speed for motion in driven.motions])
+    return driven.motion[:, 1]
+
+
+def accelerations(driven: Drive) -> np.ndarray:
+    return driven.motion[:, 2]
+
+
+def held_up(driven: Drive) -> list[tuple[int, str, float]]:
+    """Who held it up at every step, how, and at which speed [m/s]."""
+    found = driven.hindrances
+    how = [HOW[k] for k in found.how]
+    return list(zip(found.vehicle.tolist(), how, found.speed.tolist(), strict=True))
 
 
 def test_a_free_road_is_driven_at_its_limit() -> None:
     driven = cruise(5.0)
     limit = roads("s1").network.lanes[ALONG[0]].speed_limit
-    assert driven.motions[0] == Motion(0.0, 5.0, 0.0)
+    assert driven.motion[0].tolist() == [0.0, 5.0, 0.0]
     assert np.all(np.diff(speeds(driven)) > -1e-6)
     assert speeds(driven)[-1] == pytest.approx(limit, abs=0.1)
     assert np.max(speeds(driven)) <= limit + 1e-6
-    assert driven.hindrances == ()
+    assert held_up(driven) == []
 
 
 @pytest.mark.parametrize("lane", ["from_s_0", "back_in_0"])
 def test_bends_are_braked_for(lane: str) -> None:
     here = situation("s1", lane, before_end("s1", lane, 60.0), 11.0)
     plan = plan_of("s1", here, "exit-right")
-    driven = drive(plan, Motion(0.0, 11.0, 0.0), 0, (), SIZE, HORIZON)
+    driven = drive(plan, Motion(0.0, 11.0, 0.0), 0, Traffic.of(()), SIZE, HORIZON)
     assert driven.finished
     allowed = np.interp(fronts(driven), plan.path.arc, plan.path.cap)
     assert np.max(speeds(driven) - allowed) < 0.6
     assert np.min(speeds(driven)) < 5.0
-    assert min(motion.acceleration for motion in driven.motions) >= -FOLLOWING - 1e-6
+    assert np.min(accelerations(driven)) >= -FOLLOWING - 1e-6
 
 
 def test_the_speed_ahead_of_a_bend_allows_comfortable_braking() -> None:
@@ -92,10 +98,10 @@ def test_the_speed_ahead_of_a_bend_allows_comfortable_braking() -> None:
     here = situation("s1", lane, before_end("s1", lane, 60.0), 11.0)
     plan = plan_of("s1", here, "exit-right")
     prepared = Lane(plan.path)
-    squares = [speed**2 for speed in prepared.speeds]
+    squares = (prepared.caps**2).tolist()
     falls = [(a - b) / 2.0 for a, b in itertools.pairwise(squares)]
     assert max(falls) <= COMFORT + 0.2
-    assert prepared.speed(1e6) == prepared.speeds[-1]
+    assert prepared.speed(1e6) == prepared.caps[-1]
 
 
 gaps = st.floats(MIN_GAP + 1.0, 70.0)
@@ -117,67 +123,65 @@ def test_motion_keeps_within_its_limits(gap: float, own: float, its: float, brak
     driven = cruise(own, (leader(gap, its, braking),))
     assert np.all(np.diff(fronts(driven)) >= 0.0)
     assert np.all(speeds(driven) >= 0.0)
-    for before, after in itertools.pairwise(driven.motions):
-        assert -EMERGENCY <= after.acceleration <= ACCELERATION
-        change = after.acceleration - before.acceleration
-        assert change >= -JERK_DOWN * DT - 1e-9
-        if after.acceleration > 0.0:
-            least = max(before.acceleration, 0.0)
-            assert after.acceleration - least <= JERK_UP * DT + 1e-9
+    for before, after in itertools.pairwise(accelerations(driven)):
+        assert -EMERGENCY <= after <= ACCELERATION
+        assert after - before >= -JERK_DOWN * DT - 1e-9
+        if after > 0.0:
+            assert after - max(before, 0.0) <= JERK_UP * DT + 1e-9
 
 
 @given(gaps, velocities)
 def test_who_stands_in_the_way_is_waited_for(gap: float, own: float) -> None:
     assume(own <= safe_speed(gap - MIN_GAP, 0.0, FOLLOWING))
     driven = cruise(own, (leader(gap, 0.0, 0.0),))
-    assert driven.motions[-1].speed < 0.3
-    assert gap - driven.motions[-1].arc == pytest.approx(MIN_GAP, abs=1.2)
-    assert {(h.vehicle, h.how) for h in driven.hindrances} <= {(1, "blocked")}
+    assert speeds(driven)[-1] < 0.3
+    assert gap - fronts(driven)[-1] == pytest.approx(MIN_GAP, abs=1.2)
+    assert {(who, how) for who, how, _ in held_up(driven)} <= {(1, "blocked")}
 
 
 def test_a_slow_leader_is_followed_and_named() -> None:
     driven = cruise(10.0, (leader(30.0, 5.0, 0.0),))
-    assert driven.motions[-1].speed == pytest.approx(5.0, abs=0.2)
-    assert {(h.vehicle, h.how) for h in driven.hindrances} == {(1, "leader")}
-    assert {round(h.speed, 1) for h in driven.hindrances} == {5.0}
+    assert speeds(driven)[-1] == pytest.approx(5.0, abs=0.2)
+    assert {(who, how) for who, how, _ in held_up(driven)} == {(1, "leader")}
+    assert {round(speed, 1) for _, _, speed in held_up(driven)} == {5.0}
 
 
 def test_nobody_brakes_for_who_comes_from_behind() -> None:
     behind = obstacle("s1", ALONG, [2.0 + 12.0 * DT * k for k in range(HORIZON)])
-    assert cruise(5.0, (behind,)).motions == cruise(5.0).motions
+    np.testing.assert_array_equal(cruise(5.0, (behind,)).motion, cruise(5.0).motion)
 
 
 def test_nobody_brakes_for_who_is_in_another_lane() -> None:
     beside = obstacle("s1", ("main_in_1",), [START + 15.0] * HORIZON)
-    assert cruise(10.0, (beside,)).motions == cruise(10.0).motions
+    np.testing.assert_array_equal(cruise(10.0, (beside,)).motion, cruise(10.0).motion)
 
 
 def test_stopping_ends_after_a_while_at_a_standstill() -> None:
     here = situation("s1", ALONG[0], START, 10.0)
     plan = plan_of("s1", here, "stop")
-    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, (), SIZE, HORIZON)
+    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, Traffic.of(()), SIZE, HORIZON)
     assert driven.finished
-    assert driven.motions[-1].speed == pytest.approx(0.0, abs=0.001)
-    standing = sum(1 for motion in driven.motions if motion.speed < 0.1)
+    assert speeds(driven)[-1] == pytest.approx(0.0, abs=0.001)
+    standing = int(np.sum(speeds(driven) < 0.1))
     assert standing * DT == pytest.approx(STANDING_TIME, abs=2 * DT)
-    assert min(motion.acceleration for motion in driven.motions) >= -COMFORT - 1e-9
-    assert driven.motions[-1].arc == pytest.approx(10.0**2 / (2.0 * COMFORT), abs=6.0)
+    assert np.min(accelerations(driven)) >= -COMFORT - 1e-9
+    assert fronts(driven)[-1] == pytest.approx(10.0**2 / (2.0 * COMFORT), abs=6.0)
 
 
 def test_the_horizon_ends_what_is_not_finished() -> None:
     driven = cruise(5.0, horizon=10)
     assert not driven.finished
-    assert len(driven.motions) == 11
+    assert len(driven.motion) == 11
     assert driven.goal_time is None
 
 
 def test_passing_the_goal_is_timed_between_the_samples() -> None:
     here = situation("s1", "main_out_0", 90.0, 10.0)
     plan = plan_of("s1", here, "continue", aim=True)
-    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, (), SIZE, HORIZON)
+    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, Traffic.of(()), SIZE, HORIZON)
     assert plan.goal == pytest.approx(10.0)
     assert driven.goal_time is not None
-    assert (len(driven.motions) - 2) * DT <= driven.goal_time <= (len(driven.motions) - 1) * DT
+    assert (len(driven.motion) - 2) * DT <= driven.goal_time <= (len(driven.motion) - 1) * DT
     assert driven.goal_time == pytest.approx(0.95, abs=0.06)
 
 
@@ -208,7 +212,7 @@ STEPS = HORIZON + 60
 def turn_right(*others: Obstacle, distance: float = 25.0, speed: float = 7.0) -> Drive:
     here = situation("s2", TURN[0], before_end("s2", TURN[0], distance), speed)
     plan = plan_of("s2", here, "exit-right")
-    return drive(plan, Motion(0.0, speed, 0.0), 0, others, SIZE, HORIZON)
+    return drive(plan, Motion(0.0, speed, 0.0), 0, Traffic.of(others), SIZE, HORIZON)
 
 
 def from_west(direction: Direction, away: float, speed: float) -> Obstacle:
@@ -220,34 +224,33 @@ def from_west(direction: Direction, away: float, speed: float) -> Obstacle:
 
 def entered(driven: Drive, distance: float = 25.0) -> float:
     """When [s] the front came into the junction."""
-    return next(k for k, motion in enumerate(driven.motions) if motion.arc > distance) * DT
+    return int(np.argmax(fronts(driven) > distance)) * DT
 
 
 def test_a_line_is_crossed_where_nobody_comes() -> None:
     driven = turn_right()
     assert driven.finished
-    assert driven.hindrances == ()
-    assert min(motion.speed for motion in driven.motions) > 2.5
+    assert held_up(driven) == []
+    assert np.min(speeds(driven)) > 2.5
 
 
 def test_a_line_is_a_place_to_wait_for_who_has_priority() -> None:
     other = from_west("straight", 50.0, 10.0)
     driven = turn_right(other)
     assert driven.finished
-    assert {(h.vehicle, h.how) for h in driven.hindrances} >= {(1, "right-of-way")}
+    assert {(who, how) for who, how, _ in held_up(driven)} >= {(1, "right-of-way")}
     # The ego's way joins that of the other where the junction ends.
     through = link("s2", WEST, "straight").via
     clear = (50.0 + roads("s2").network.lanes[through[0]].length) / 10.0
-    arrived = driven.motions[-1]
     assert entered(driven) > entered(turn_right())
-    assert (len(driven.motions) - 1) * DT > clear
-    assert arrived.arc > 25.0
+    assert (len(driven.motion) - 1) * DT > clear
+    assert fronts(driven)[-1] > 25.0
 
 
 def test_nobody_waits_for_who_turns_off() -> None:
     for direction in ("left", "right"):
         turning = from_west(direction, 50.0, 8.0)
-        assert turn_right(turning).motions == turn_right().motions
+        np.testing.assert_array_equal(turn_right(turning).motion, turn_right().motion)
 
 
 def test_nobody_waits_for_who_has_passed() -> None:
@@ -259,9 +262,9 @@ def test_who_waits_stays_behind_the_line() -> None:
     standing = obstacle("s2", row("s2", WEST, "straight"), [before_end("s2", WEST, -15.0)] * STEPS)
     driven = turn_right(standing)
     assert not driven.finished
-    assert driven.motions[-1].speed < 0.05
-    assert driven.motions[-1].arc <= 25.0
-    assert {h.vehicle for h in driven.hindrances} == {1}
+    assert speeds(driven)[-1] < 0.05
+    assert fronts(driven)[-1] <= 25.0
+    assert {who for who, _, _ in held_up(driven)} == {1}
 
 
 @given(st.floats(0.0, 90.0), st.floats(3.0, 13.0))
@@ -269,23 +272,17 @@ def test_giving_way_never_ends_in_a_collision(away: float, speed: float) -> None
     other = from_west("straight", away, speed)
     here = situation("s2", TURN[0], before_end("s2", TURN[0], 25.0), 7.0)
     plan = plan_of("s2", here, "exit-right")
-    driven = drive(plan, Motion(0.0, 7.0, 0.0), 0, (other,), SIZE, HORIZON)
-    poses = [plan.path.pose(motion.arc) for motion in driven.motions]
-    position = np.array([place for place, _ in poses])
-    heading = np.array([turned for _, turned in poses])
-    count = len(poses)
-    hit = first_overlap(
-        position, heading, SIZE, other.position[:count], other.heading[:count], SIZE
-    )
-    if hit is not None:  # only from behind: the other does not react
-        ahead = other.position[hit] - position[hit]
-        assert ahead[0] * math.cos(heading[hit]) + ahead[1] * math.sin(heading[hit]) < 0.0
+    driven = drive(plan, Motion(0.0, 7.0, 0.0), 0, Traffic.of((other,)), SIZE, HORIZON)
+    path, traffic = plan.path, Traffic.of((other,))
+    own, _ = place(path.points, path.arc, path.heading, path.curvature, driven.motion, SIZE[0])
+    # Who runs into the ego from behind does not count: the other does not react.
+    assert first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False) == (-1, -1)
 
 
 def test_who_has_gone_first_is_followed_and_not_waited_for() -> None:
     slow = from_west("straight", -26.0, 3.0)  # on the exit already, and slower than the ego
     driven = turn_right(slow)
-    assert {h.how for h in driven.hindrances} <= {"leader", "cut-in"}
+    assert {how for _, how, _ in held_up(driven)} <= {"leader", "cut-in"}
     assert entered(driven) == entered(turn_right())
 
 
@@ -296,10 +293,10 @@ def test_a_late_conflict_stops_the_ego_inside_the_junction_if_it_still_can() -> 
     other = from_west("straight", 30.0, 10.0)
     for beyond in (0.3, 0.8, 2.0):
         start = Motion(line + beyond, 1.0, 0.0)
-        driven = drive(plan, start, 0, (other,), SIZE, HORIZON)
-        assert min(motion.speed for motion in driven.motions[:15]) < 0.2
+        driven = drive(plan, start, 0, Traffic.of((other,)), SIZE, HORIZON)
+        assert np.min(speeds(driven)[:15]) < 0.2
         assert driven.finished
-        assert driven.hindrances[0].how == "right-of-way"
+        assert held_up(driven)[0][1] == "right-of-way"
     start = Motion(line + 8.0, 4.0, 0.0)  # in the way of the other: it had better clear it
-    driven = drive(plan, start, 0, (other,), SIZE, HORIZON)
-    assert min(motion.speed for motion in driven.motions) > 3.0
+    driven = drive(plan, start, 0, Traffic.of((other,)), SIZE, HORIZON)
+    assert np.min(speeds(driven)) > 3.0

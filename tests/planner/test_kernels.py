@@ -1,5 +1,6 @@
 """The compiled kernels agree with the plain ones, on scenes drawn at random."""
 
+import math
 import random
 
 import numpy as np
@@ -14,11 +15,11 @@ from planner.kernels.driving import GAP_HORIZON, place
 from planner.obstacles import HOW, NOBODY, Obstacle, Traffic, occupancy
 from planner.trace import ACTIONS
 from planner.tracks import links_of
-from sim.network import Location, point_at
+from sim.network import Lane, Location, point_at, project
 from tests.planner import reference
 from tests.planner.worlds import SIZE, roads
 
-SCENES = 60
+SCENES = 100
 HORIZON = 60
 WORLDS = ("s1", "s2", "s3")
 
@@ -34,13 +35,13 @@ class Scene:
         self.lanes = [lane for lane in self.roads.network.lanes.values() if not lane.internal]
         self.plan, self.start = self._task()
         self.first = self.rng.choice((0, 0, 7))
-        self.obstacles = [self._obstacle(k + 1) for k in range(self.rng.randint(0, 5))]
+        self.obstacles = [self._obstacle(k + 1) for k in range(self.rng.randint(1, 6))]
         self.traffic = Traffic.of(self.obstacles)
 
     def _task(self) -> tuple[ActionPlan, Motion]:
         while True:
             lane = self.rng.choice(self.lanes)
-            offset = self.rng.uniform(0.0, lane.length)
+            offset = max(0.0, lane.length - self.rng.uniform(0.0, 50.0))
             position, heading = point_at(lane.centreline, offset)
             speed = self.rng.uniform(0.0, 13.0)
             here = Situation(0.0, position, heading, speed, 0.0, Location(lane.id, offset, 0.0))
@@ -49,18 +50,27 @@ class Scene:
                 self.near = position
                 return plan, Motion(0.0, speed, 0.0)
 
+    def _near(self) -> list[Lane]:
+        """The lanes that pass within 40 m of the vehicle."""
+        return [
+            lane
+            for lane in self.lanes
+            if abs(project(lane.centreline, self.near)[1]) < 20.0
+            or min(math.dist(point, self.near) for point in lane.centreline) < 40.0
+        ]
+
     def _obstacle(self, vehicle: int) -> Obstacle:
         """Another vehicle: near us, along the lanes, aside of them or across."""
-        lane = self.rng.choice(self.lanes)
+        lane = self.rng.choice(self._near())
         links = self.roads.network.links_from(lane.id)
         row = (lane.id,)
         if links:
             link = self.rng.choice(links)
             row = (lane.id, *link.via, link.to_lane)
-        line = self.roads.line(row)
-        arc, speed = self.rng.uniform(0.0, line.length), self.rng.uniform(0.0, 12.0)
-        slowing = self.rng.uniform(-0.5, 0.5)
-        aside, turned = self.rng.gauss(0.0, 1.0), self.rng.choice((0.0, 0.0, 0.1, 1.5))
+        line, before = self.roads.line(row), lane.length
+        arc, speed = max(0.0, before - self.rng.uniform(0.0, 50.0)), self.rng.uniform(0.0, 12.0)
+        slowing = self.rng.choice((0.0, 0.5, -1.0, -2.0))
+        aside, turned = self.rng.gauss(0.0, 0.5), self.rng.choice((0.0, 0.0, 0.1, 1.5))
         states = []
         for _ in range(HORIZON + 1):
             (x, y), heading = line.pose(min(arc, line.length))

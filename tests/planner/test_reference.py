@@ -1,3 +1,5 @@
+"""What a path's occupancy means, shown on the plain reference; the kernels agree with it."""
+
 import math
 
 import numpy as np
@@ -5,10 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.obstacles import AFTER, BEFORE, SIDE_MARGIN, Obstacle, Occupancy, occupancy
+from planner.kernels.projection import AFTER, BEFORE, SIDE_MARGIN
+from planner.obstacles import Obstacle
 from planner.trajectory import Path
 from sim.boxes import overlap
 from sim.scene import VehicleState
+from tests.planner.reference import Occupancy, occupancy
 from tests.planner.worlds import LENGTH, SIZE, WIDTH, obstacle, roads, row, situation
 
 LANES = row("s1", "main_in_0", "straight")
