@@ -185,10 +185,10 @@ def _next(roads: Roads, lane: str, goal: EgoGoal | None) -> Link | None:
         return None
     there = goal is not None and roads.network.lanes[lane].edge == goal.edge
 
-    def cost(lead: Lead) -> tuple[float, bool, bool]:
+    def cost(lead: Lead) -> tuple[bool, bool, float, bool]:
         edge = roads.network.lanes[lead.link.to_lane].edge
         length = 0.0 if there else remaining(roads, edge, goal)
-        return length, lead.direction != "straight", lead.turnaround
+        return math.isinf(length), lead.turnaround, length, lead.direction != "straight"
 
     return min(leads, key=cost).link
 

@@ -21,6 +21,9 @@ LATERAL_ACCELERATION = 2.5  # [m/s2] comfortable in bends
 CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
+TIGHTEST = 0.3  # [1/m] of curvature, from which on a line is made wider
+ROUNDS = 20  # of widening at most
+HAIRPIN = (5, 2.2)  # path points on each side, and [rad] turned there: no corner to be widened
 OVERSHOOT = 6.0  # [m] beyond its lane at which a vehicle may be found
 STEEPEST = 0.6  # [rad] of heading against a lane with which a blend onto it begins
 
@@ -175,13 +178,13 @@ def _lanes(line: Path, offset: float, along: Array, arc: Array) -> tuple[tuple[s
 def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
     """Join and resample the centrelines of connected lanes."""
     points: list[Point] = []
-    starts: list[tuple[str, float]] = []
+    starts: list[float] = []
     caps: list[float] = []
     total = 0.0  # up to the last point
     for name in lanes:
         lane = network.lanes[name]
         gap = math.dist(points[-1], lane.centreline[0]) if points else 0.0
-        starts.append((name, total + gap))
+        starts.append(total + gap)
         caps.append(lane.speed_limit)
         last = len(lane.centreline) - 1
         for k, point in enumerate(lane.centreline):
@@ -195,10 +198,53 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
     at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(raw, axis=0).T))))
     arc = np.linspace(0.0, at[-1], max(3, math.ceil(at[-1] / SPACING) + 1))
     even = np.column_stack((np.interp(arc, at, raw[:, 0]), np.interp(arc, at, raw[:, 1])))
+    arc, even, begins = _rounded(arc, even, np.array(starts))
     heading = np.unwrap(np.arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
-    index = np.searchsorted(np.array([start for _, start in starts]), arc + 1e-9, side="right") - 1
-    cap = np.array(caps)[index]
-    return Path(even, arc, heading, _curvature(heading, arc), cap, tuple(starts))
+    cap = np.array(caps)[np.searchsorted(begins, arc + 1e-9, side="right") - 1]
+    row = tuple(zip(lanes, begins.tolist(), strict=True))
+    return Path(even, arc, heading, _curvature(heading, arc), cap, row)
+
+
+def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Array]:
+    """Corners that are tighter than a car can turn, made wider.
+
+    Args:
+        arc, points: of a line with even spacing.
+        starts: [m] arcs of places on it.
+
+    Returns:
+        Arc, points and starts of the line that can be driven; the same where it is one already.
+    """
+    bent, loose = points, ~_hairpins(points)
+    for _ in range(ROUNDS):
+        steps = np.diff(bent, axis=0)
+        heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+        sharp = np.abs(np.diff(heading)) > TIGHTEST * np.hypot(*steps[1:].T)
+        if not np.any(sharp):
+            break
+        moved = (np.convolve(sharp, np.ones(5), "same")[: len(sharp)] > 0.0) & loose
+        if not np.any(moved):
+            break
+        halfway = 0.5 * bent[1:-1] + 0.25 * (bent[:-2] + bent[2:])
+        bent = bent.copy()
+        bent[1:-1][moved] = halfway[moved]
+    if bent is points:
+        return arc, points, starts
+    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(bent, axis=0).T))))
+    even = np.linspace(0.0, at[-1], len(arc))
+    line = np.column_stack((np.interp(even, at, bent[:, 0]), np.interp(even, at, bent[:, 1])))
+    return even, line, np.interp(starts, arc, at)
+
+
+def _hairpins(points: Array) -> NDArray[np.bool_]:
+    """[N - 2] At which inner points a line turns back."""
+    steps = np.diff(points, axis=0)
+    heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    inner = np.arange(len(points) - 2)
+    low, high = np.maximum(inner - HAIRPIN[0], 0), inner + 1 + HAIRPIN[0]
+    turned = heading[np.minimum(high, len(heading) - 1)] - heading[low]
+    result: NDArray[np.bool_] = np.abs(turned) > HAIRPIN[1]
+    return result
 
 
 def _curvature(heading: Array, arc: Array) -> Array:
