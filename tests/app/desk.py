@@ -22,8 +22,27 @@ def until(condition: Callable[[], bool]) -> bool:
 
 
 def there(pid: int) -> bool:
-    """Whether a process is there, if only as a zombie."""
-    return Path(f"/proc/{pid}").exists()
+    """Whether there is a process; one that only its new parent has not noticed to end is not."""
+    return _stat(pid)[:1] not in ([], ["Z"])
+
+
+def remains(pid: int) -> bool:
+    """Whether there is anything of a process, if only a zombie."""
+    return bool(_stat(pid))
+
+
+def children(pid: int) -> list[int]:
+    """The processes that a process has started."""
+    found = [int(path.name) for path in Path("/proc").glob("[0-9]*")]
+    return sorted(child for child in found if _stat(child)[1:2] == [str(pid)])
+
+
+def _stat(pid: int) -> list[str]:
+    """State, parent and so on; nothing where there is no such process."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return []
 
 
 class Desk:

@@ -1,6 +1,8 @@
 """Planning again beside the driving: what is asked of the car, and what its workers do."""
 
+import os
 import queue
+import signal
 import subprocess
 import sys
 import time
@@ -14,19 +16,27 @@ from planner.trace import PlanTrace, WhatIf, decode, encode
 from planner.whatif import replan
 from sim.scenario import load
 from sim.scene import Scene
-from tests.app.desk import PATIENCE, Desk, there
+from tests.app.desk import PATIENCE, Desk, children, remains, there, until
 from tests.fakes import s1_moments
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 from xavi_dialogue.app import worker
 from xavi_dialogue.app.car import Car, Pace
-from xavi_dialogue.app.control import Orders
+from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.control import Orders, Until
+from xavi_dialogue.app.convoy import convoy, first_scene
 from xavi_dialogue.app.planning import Replanner, durations, workers
 from xavi_dialogue.app.pool import Job
 from xavi_dialogue.app.ride import Moment
 from xavi_dialogue.app.worker import Order, Result, obey
-from xavi_dialogue.transports.bus import Keys, Outcome, Refused
+from xavi_dialogue.transports.bus import Keys, Outcome, Refused, call
 from xavi_dialogue.transports.memory_bus import MemoryHub
-from xavi_dialogue.transports.messages import Failure, WhatIfRequest, pack, unpack
+from xavi_dialogue.transports.messages import (
+    Failure,
+    TraceReport,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
 
 KEY = Keys().of("@rpc/whatif")
 NETWORK = roads("s1").network
@@ -222,7 +232,7 @@ def test_workers_plan_as_this_process_does_and_end_with_the_pool(trace: PlanTrac
         for name, what_if in requests.items():
             assert desk.answer(name) == encode(replan(trace, NETWORK, what_if))
         pid = desk.pid()
-    assert not there(pid)
+    assert not remains(pid)
 
 
 @pytest.mark.slow
@@ -234,7 +244,7 @@ def test_a_worker_that_is_late_is_killed(trace: PlanTrace) -> None:
         late = desk.pid()
         desk.ask(text(order(trace, ENDLESS)), within=0.5, name="endless")
         assert desk.reason("endless") == "timed-out"
-        assert not there(late)
+        assert not remains(late)
 
 
 @pytest.mark.slow
@@ -249,3 +259,24 @@ def test_a_worker_ends_with_its_input_in_the_middle_of_planning(trace: PlanTrace
     assert process.stdout.read() == b""
     assert process.wait(PATIENCE) == 0
     process.stdout.close()
+
+
+@pytest.mark.slow
+def test_a_car_plans_again_over_the_bus_and_its_worker_dies_with_it() -> None:
+    found: queue.SimpleQueue[PlanTrace] = queue.SimpleQueue()
+    with convoy("s1", 0, 0.0) as behind:
+        client = Client(behind.bus, Keys(), "test")
+        first_scene(behind, client)
+        behind.drive(client, Until(1.0), halt=True)
+        behind.bus.subscribe(
+            Keys().of("trace"),
+            lambda _, told: found.put(unpack(told, TraceReport).trace),
+            kept=True,
+        )
+        seen = found.get(timeout=PATIENCE)
+        wanted = WhatIfRequest(request="q", trace_id=seen.trace_id, removed=1, rollouts=5)
+        answer = call(behind.bus, KEY, pack(wanted), PATIENCE)
+        assert answer == encode(replan(seen, NETWORK, WhatIf(removed=1, rollouts=5)))
+        (planner,) = children(behind.car.pid)
+        os.kill(behind.car.pid, signal.SIGKILL)
+        assert until(lambda: not there(planner))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.app.desk import Desk, there, until
+from tests.app.desk import Desk, remains, there, until
 from xavi_dialogue.app.pool import NICENESS, Pool
 from xavi_dialogue.transports.messages import Failure
 
@@ -69,7 +69,7 @@ def test_who_is_late_is_given_up_and_replaced(desk: Desk) -> None:
     assert desk.reason("sleep") == "timed-out"
     desk.ask("echo after")
     assert desk.answer("echo after") == b'"after"'
-    assert not there(late)
+    assert not remains(late)
     assert desk.pid() != late
 
 
@@ -105,7 +105,7 @@ def test_a_worker_that_dies_fails_its_job_alone(desk: Desk) -> None:
     desk.ask("echo after")
     assert desk.reason("die") == "planner-failed"
     assert desk.answer("echo after") == b'"after"'
-    assert not there(dead)
+    assert not remains(dead)
 
 
 def test_an_idle_worker_that_is_killed_is_replaced_before_anybody_asks(desk: Desk) -> None:
@@ -114,7 +114,7 @@ def test_an_idle_worker_that_is_killed_is_replaced_before_anybody_asks(desk: Des
     killed = desk.pid()
     os.kill(killed, signal.SIGKILL)
     assert until(lambda: bool(desk.pool.pids) and desk.pool.pids[0] != killed)
-    assert not there(killed)
+    assert not remains(killed)
     desk.ask("echo after")
     assert desk.answer("echo after") == b'"after"'
 
@@ -160,7 +160,7 @@ def test_at_the_end_nothing_is_left_and_nobody_waits() -> None:
         desk.ask("echo")
         worker = desk.pid()
     assert [desk.reason("sleep"), desk.reason("echo")] == ["planner-unavailable"] * 2
-    assert not there(worker)
+    assert not remains(worker)
 
 
 def test_no_worker_outlives_a_car_that_is_killed() -> None:
@@ -170,12 +170,4 @@ def test_no_worker_outlives_a_car_that_is_killed() -> None:
     assert there(worker)
     car.kill()
     car.communicate()
-    assert until(lambda: not there(worker) or _zombie(worker))
-
-
-def _zombie(pid: int) -> bool:
-    """Whether it has ended, and only its new parent has not noticed yet."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
+    assert until(lambda: not there(worker))

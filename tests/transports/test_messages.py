@@ -40,6 +40,9 @@ EXAMPLES = (
     CancelRequest(request="q1", session="ada"),
     WhatIfRequest(request="q1", trace_id=TRACE.trace_id, actions=("stop",)),
     Failure(reason="busy"),
+    WhatIfRequest(
+        request="q2", trace_id="t", vehicle=1, goal="exit-right", vehicle_actions=("exit-right",)
+    ),
 )
 ASK = json.loads(pack(EXAMPLES[3]))
 
