@@ -1,16 +1,19 @@
 """What SUMO makes of the shipped scenarios, seed by seed."""
 
+import math
+
 import pytest
 
 from sim.netfile import read_network
-from sim.scenario import load
+from sim.scenario import Scenario, load
 from sim.scene import Command, Scene
 from sim.sumo import Simulation
 from tests.sim.driver import LaneFollower, lane_line
 
 pytestmark = pytest.mark.slow
 
-S1, S2 = load("s1"), load("s2")
+S1, S2, S3, S4 = (load(name) for name in ("s1", "s2", "s3", "s4"))
+RING = 23.0  # [m] from the middle of s3: beyond it a vehicle has left the ring
 LANE_BOUNDARY = -3.5  # [m] y between the eastbound lanes of s1
 STOP_LINE = 40.5  # [m] x where main_in ends in s1
 
@@ -105,9 +108,76 @@ def test_vehicle_1_of_s2_stands_whatever_the_ego_does(seed: int) -> None:
 
 def ride_by_sumo(seed: int) -> list[Scene]:
     """Scenes of s2 with an ego that SUMO drives."""
-    with Simulation(S2, seed) as world:
+    return scenes_by_sumo(S2, seed, 14.0)
+
+
+def scenes_by_sumo(scenario: Scenario, seed: int, until: float) -> list[Scene]:
+    """Scenes up to a time [s] with an ego that SUMO drives."""
+    with Simulation(scenario, seed) as world:
         scenes = []
-        while world.time < 14.0:
+        while world.time < until:
             scenes.append(world.step(None))
             assert world.collisions() == ()
     return scenes
+
+
+def bearing(scene: Scene, name: int) -> float:
+    """Where a vehicle of s3 is [deg], anticlockwise from east round the middle of the ring."""
+    x, y = scene.vehicles[name].position
+    return math.degrees(math.atan2(y, x)) % 360.0
+
+
+def distance(scene: Scene, name: int) -> float:
+    """How far [m] a vehicle of s3 is from the middle of the ring."""
+    return math.hypot(*scene.vehicles[name].position)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_vehicle_1_of_s3_leaves_the_ring_before_the_entry_of_the_ego(seed: int) -> None:
+    scenes = scenes_by_sumo(S3, seed, 20.0)
+    entered = next(x for x in scenes if distance(x, 0) < RING)
+    assert 195.0 < bearing(entered, 1) < 265.0
+    for scene in scenes:
+        if 1 in scene.vehicles and distance(scene, 1) < RING:
+            assert bearing(scene, 1) < 270.0  # the entry of the ego is at 293
+    gone = next(x for x in scenes if 1 in x.vehicles and x.vehicles[1].position[1] < -RING - 10.0)
+    assert gone.vehicles[1].position[0] < 0.0  # by the exit of the same arm
+    assert min(x.ego.speed for x in scenes) > 4.0  # the ego waits for nobody
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_vehicle_2_of_s3_goes_on_round_after_the_ego(seed: int) -> None:
+    scenes = scenes_by_sumo(S3, seed, 20.0)
+    entered = next(x.time for x in scenes if distance(x, 0) < RING)
+    passed = next(
+        x.time
+        for x in scenes
+        if 2 in x.vehicles and distance(x, 2) < RING and 290.0 < bearing(x, 2) < 340.0
+    )
+    assert 3.0 < passed - entered < 12.0
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_lorry_of_s4_stops_short_of_the_junction_and_the_ego_goes_first(seed: int) -> None:
+    scenes = scenes_by_sumo(S4, seed, 40.0)
+    standing = [x for x in scenes if 1 in x.vehicles and x.vehicles[1].speed < 0.1]
+    assert standing[-1].time - standing[0].time >= 2.0
+    assert len(standing) == round((standing[-1].time - standing[0].time) / S4.step) + 1
+    assert all(-13.0 < x.vehicles[1].position[0] < -9.0 for x in standing)  # at its line
+    assert all(x.vehicles[1].kind == "truck" for x in standing)
+    merged = next(x for x in scenes if x.ego.position[0] > 10.0)
+    assert merged.vehicles[1].speed < 1.0
+    assert merged.vehicles[1].position[0] < -9.0
+    queue = [merged.vehicles[name] for name in (2, 3, 4)]
+    assert all(state.speed < 1.0 and state.position[0] > 10.0 for state in queue)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_queue_of_s4_dissolves_once_vehicle_2_has_turned(seed: int) -> None:
+    scenes = scenes_by_sumo(S4, seed, 40.0)
+    waiting = [x for x in scenes if 2 in x.vehicles and x.vehicles[2].speed < 0.1]
+    assert waiting[-1].time - waiting[0].time > 5.0
+    assert all("left" in x.vehicles[2].signals for x in waiting)
+    oncoming = [x.vehicles[name] for x in waiting for name in x.vehicles if name > 4]
+    assert any(abs(state.heading) > 3.0 and state.position[0] > 44.0 for state in oncoming)
+    assert scenes[-1].ego.position[0] > 120.0
