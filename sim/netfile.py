@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from sim.network import Direction, Lane, Link, Network, cumulative
+from sim.rings import find_rings
 from sim.scene import Point
 
 CAR = "passenger"
@@ -75,7 +76,8 @@ def read_network(path: Path) -> Network:
         raise NetworkInvalid(f"{path}: {error}") from error
     # The canonical form leaves out comments, among them netconvert's time stamp.
     canonical = ET.canonicalize(text, strip_text=True)
-    return Network(lanes, links, hashlib.sha256(canonical.encode()).hexdigest()[:16])
+    digest = hashlib.sha256(canonical.encode()).hexdigest()[:16]
+    return Network(lanes, links, digest, _roundabouts(root, lanes) or find_rings(lanes, links))
 
 
 def _attribute(element: ET.Element, key: str) -> str:
@@ -114,6 +116,13 @@ def _lanes(root: ET.Element) -> Iterator[Lane]:
                 internal=edge.get("function") == "internal",
                 length=cumulative(centreline)[-1],
             )
+
+
+def _roundabouts(root: ET.Element, lanes: dict[str, Lane]) -> tuple[frozenset[str], ...]:
+    """The rings that the file names, as far as they are open to cars."""
+    edges = {lane.edge for lane in lanes.values()}
+    named = (frozenset(x.get("edges", "").split()) & edges for x in root.iter("roundabout"))
+    return tuple(ring for ring in named if ring)
 
 
 def _open_to_cars(lane: ET.Element) -> bool:
