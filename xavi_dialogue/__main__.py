@@ -229,6 +229,21 @@ def bench_drive(
         _report(measure(_chosen(scenario), runs, _jobs(jobs), _note), as_json)
 
 
+@bench_app.command("recognise")
+def bench_recognise(
+    scenario: Scenarios = None,
+    seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 10,
+    jobs: Jobs = None,
+    as_json: AsJson = False,
+) -> None:
+    """How early, and how surely, it is known where others will go."""
+    from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
+
+    with _errors():
+        chosen = _chosen(scenario or list(SCENARIOS))
+        _report(measure(chosen, seeds, _jobs(jobs), _note), as_json)
+
+
 @bench_app.command("dialogue")
 def bench_dialogue(as_json: AsJson = False) -> None:
     """How long answers take."""

@@ -1,0 +1,55 @@
+"""A ride as scenes, and what the planner expects of the others at any moment of it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from planner.events import Event
+from planner.recognise import Belief, recognise
+from planner.trace import SAMPLE_PERIOD, Settings
+from planner.trajectory import Roads
+from sim.scenario import Scenario
+from sim.scene import EGO, Scene
+from xavi_dialogue.app.bench.approach import track_at
+from xavi_dialogue.app.ride import network_of, settings_of, start
+
+MEMORY = 50  # samples of a track that the car remembers
+
+
+@dataclass(frozen=True)
+class Recording:
+    """A ride at 5 Hz."""
+
+    roads: Roads
+    settings: Settings
+    scenes: Sequence[Scene]
+    events: Sequence[Event]
+    _known: dict[int, Mapping[int, Sequence[Belief]]] = field(default_factory=dict)
+
+    def beliefs(self, sample: int) -> Mapping[int, Sequence[Belief]]:
+        """What was to be expected of everybody in view, from their tracks up to a sample."""
+        found = self._known.get(sample)
+        if found is None:
+            scene = self.scenes[sample]
+            tracks = [track_at(self.scenes, sample, name, MEMORY) for name in scene.vehicles]
+            found = recognise(self.roads, tracks, self.settings, scene.time, EGO)
+            self._known[sample] = found
+        return found
+
+
+def record(scenario: Scenario, seed: int) -> Recording:
+    """Drive a scenario to its end, by our planner.
+
+    Raises:
+        SimulationError: SUMO is not installed or fails.
+        DriverError: the car cannot be driven on.
+    """
+    network = network_of(scenario)
+    stride = max(1, round(SAMPLE_PERIOD / scenario.step))
+    scenes: list[Scene] = []
+    events: list[Event] = []
+    with start(scenario, seed, network) as ride:
+        for count, moment in enumerate(ride):
+            events.extend(moment.events)
+            if count % stride == 0:
+                scenes.append(moment.scene)
+    return Recording(Roads(network), settings_of(scenario), scenes, events)
