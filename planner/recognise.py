@@ -7,7 +7,7 @@ share of drivers is taken to drive for reasons that we do not see, whatever thei
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -60,6 +60,15 @@ class _Way:
     motion: Obstacle
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Coasting:
+    """How one vehicle goes on if nothing changes, as others reckon with it."""
+
+    elapsed: int  # steps of its track
+    now: Obstacle  # from now on
+    past: Obstacle  # from the first sample of its track on
+
+
 def recognise(
     roads: Roads, tracks: Sequence[Observed], settings: Settings, time: float, ego: int
 ) -> dict[int, tuple[Belief, ...]]:
@@ -72,18 +81,31 @@ def recognise(
         time: [s] now.
         ego: name of the ego.
     """
+    steps = round(settings.horizon / DT)
+    coasting = {
+        track.vehicle: _Coasting(
+            track.elapsed,
+            coast(roads, track, steps, past=False),
+            coast(roads, track, steps, past=True),
+        )
+        for track in tracks
+    }
     return {
-        observed.vehicle: _beliefs(roads, observed, tracks, settings, time)
+        observed.vehicle: _beliefs(roads, observed, coasting, settings, time)
         for observed in tracks
         if observed.vehicle != ego
     }
 
 
 def _beliefs(
-    roads: Roads, observed: Observed, tracks: Sequence[Observed], settings: Settings, time: float
+    roads: Roads,
+    observed: Observed,
+    coasting: Mapping[int, _Coasting],
+    settings: Settings,
+    time: float,
 ) -> tuple[Belief, ...]:
     steps = round(settings.horizon / DT)
-    others = [track for track in tracks if track.vehicle != observed.vehicle]
+    others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(roads, -1, time)
     if not starts:
         return _unknown(roads, observed, steps)
@@ -91,7 +113,7 @@ def _beliefs(
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
     frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True)
-    now = Traffic.of([coast(roads, track, steps, past=False) for track in others])
+    now = Traffic.of([other.now for other in others])
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
     likelihood = _likelihoods(frame, observed, goals, onwards, others, settings)
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
@@ -117,7 +139,7 @@ def _likelihoods(
     observed: Observed,
     goals: Sequence[Goal],
     onwards: Sequence[list[_Way]],
-    others: Sequence[Observed],
+    others: Sequence[_Coasting],
     settings: Settings,
 ) -> list[float]:
     """How well each goal explains the track, relative to the one that does so best."""
@@ -125,14 +147,7 @@ def _likelihoods(
         return [1.0 if onward else 0.0 for onward in onwards]
     horizon = frame.horizon + observed.elapsed
     before = Traffic.of(
-        [
-            aligned(
-                coast(frame.roads, track, frame.horizon, past=True),
-                observed.elapsed - track.elapsed,
-                horizon,
-            )
-            for track in others
-        ]
+        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others]
     )
     excess = [
         _excess(frame, observed, goal, onward, before)

@@ -16,6 +16,17 @@ FOREVER = 1 << 30  # a step that never comes
 _jit = njit(cache=True, error_model="numpy")
 
 
+class Line(NamedTuple):
+    """A path, with what is needed of it again and again."""
+
+    points: Floats  # [m] [N, 2]
+    arc: Floats  # [m] [N]
+    heading: Floats  # [rad] [N]
+    cos: Floats  # [N] of the heading
+    sin: Floats  # [N]
+    spacing: float  # [m] largest distance between neighbouring points
+
+
 class Stretches(NamedTuple):
     """What other vehicles occupy of a path; NaN where the path is free of them."""
 
@@ -52,21 +63,23 @@ def project(
     """
     count, total = states.shape[0], states.shape[1]
     found = _empty(count, total)
-    spacing = 1e-9
-    for k in range(len(arc) - 1):
-        spacing = max(spacing, arc[k + 1] - arc[k])
+    line = _line(points, arc, heading)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     corridor = 0.5 * width + SIDE_MARGIN
     for m in range(count):
         found.speed[m] = states[m, :, 3]
-        near = 0
-        for t in range(start, stop):
-            near = _occupied(
-                points, arc, heading, states[m, t], sizes[m], corridor, spacing, near, found, m, t
-            )
+        _occupied(line, states[m, start:stop], sizes[m], corridor, found, m, start)
         _note_entries(found.low[m], found.entered[m])
         _widen(found, m)
     return found
+
+
+@_jit
+def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
+    spacing = 1e-9
+    for k in range(len(arc) - 1):
+        spacing = max(spacing, arc[k + 1] - arc[k])
+    return Line(points, arc, heading, np.cos(heading), np.sin(heading), spacing)
 
 
 @_jit
@@ -88,51 +101,43 @@ def _empty(count: int, total: int) -> Stretches:
 
 @_jit
 def _occupied(
-    points: Floats,
-    arc: Floats,
-    heading: Floats,
-    state: Floats,
+    line: Line,
+    states: Floats,
     size: Floats,
     corridor: float,
-    spacing: float,
-    near: int,
     found: Stretches,
     m: int,
-    t: int,
-) -> int:
-    """Fill in one step of one vehicle; returns the nearest path point, as a hint for the next."""
-    length = size[0]
-    x = state[0] - 0.5 * length * math.cos(state[2])
-    y = state[1] - 0.5 * length * math.sin(state[2])
-    if not math.isfinite(x):
-        return near
-    widest = corridor + 0.5 * math.hypot(length, size[1])
-    within = math.hypot(widest, spacing + length)
-    if _precedes(points, heading, x, y, widest):
-        within = math.inf
-    k = _nearest(points, x, y, spacing, near, within)
-    if k < 0:
-        return near
-    dx, dy = x - points[k, 0], y - points[k, 1]
-    ahead_x, ahead_y = math.cos(heading[k]), math.sin(heading[k])
-    centre, aside = dx * ahead_x + dy * ahead_y, dy * ahead_x - dx * ahead_y
-    turned = state[2] - heading[k]
-    cos, sin = math.cos(turned), math.sin(turned)
-    half = 0.5 * (length * abs(sin) + size[1] * abs(cos))
-    beyond = k == len(arc) - 1 and centre > length
-    if abs(aside) < half + corridor and not beyond:
-        low, high = _extent(length, size[1], aside, cos, sin, corridor)
-        found.low[m, t], found.high[m, t] = arc[k] + centre + low, arc[k] + centre + high
-        found.along[m, t], found.cosine[m, t] = state[3] * cos, cos
-    return k
-
-
-@_jit
-def _precedes(points: Floats, heading: Floats, x: float, y: float, widest: float) -> bool:
-    """Whether (x, y) lies straight behind the start of the path: a follower, however far."""
-    dx, dy = x - points[0, 0], y - points[0, 1]
-    cos, sin = math.cos(heading[0]), math.sin(heading[0])
-    return bool(dx * cos + dy * sin < 0.0 and abs(dy * cos - dx * sin) < widest)
+    start: int,
+) -> None:
+    """Fill in the steps of one vehicle, from step `start` on."""
+    points, arc, heading, line_cos, line_sin, spacing = line
+    low, high = found.low[m, start:], found.high[m, start:]
+    along, cosine = found.along[m, start:], found.cosine[m, start:]
+    length, width = size[0], size[1]
+    widest = corridor + 0.5 * (length + width)  # a body reaches no farther aside
+    end, near = len(arc) - 1, 0
+    for t in range(len(states)):
+        x = states[t, 0] - 0.5 * length * math.cos(states[t, 2])
+        y = states[t, 1] - 0.5 * length * math.sin(states[t, 2])
+        if not math.isfinite(x):
+            continue
+        dx, dy = x - points[0, 0], y - points[0, 1]
+        ahead, aside = dx * line_cos[0] + dy * line_sin[0], dy * line_cos[0] - dx * line_sin[0]
+        follows = ahead < 0.0 and abs(aside) < widest  # however far behind
+        k = _nearest(points, x, y, spacing, near, math.inf if follows else widest + length)
+        if k < 0:
+            continue
+        near = k
+        dx, dy = x - points[k, 0], y - points[k, 1]
+        ahead, aside = dx * line_cos[k] + dy * line_sin[k], dy * line_cos[k] - dx * line_sin[k]
+        if abs(aside) >= widest or (k == end and ahead > length):
+            continue
+        turned = states[t, 2] - heading[k]
+        cos, sin = math.cos(turned), math.sin(turned)
+        if abs(aside) < 0.5 * (length * abs(sin) + width * abs(cos)) + corridor:
+            least, most = _extent(length, width, aside, cos, sin, corridor)
+            low[t], high[t] = arc[k] + ahead + least, arc[k] + ahead + most
+            along[t], cosine[t] = states[t, 3] * cos, cos
 
 
 @_jit
@@ -143,12 +148,12 @@ def _nearest(points: Floats, x: float, y: float, spacing: float, hint: int, with
     that come before the distance could have shrunk to the best one known.
     """
     best, found = within, -1
-    d = _distance(points[hint], x, y)
+    d = _distance(points[hint, 0], points[hint, 1], x, y)
     if d < best:
         best, found = d, hint
     k = 0
     while k < len(points):
-        d = _distance(points[k], x, y)
+        d = _distance(points[k, 0], points[k, 1], x, y)
         if d < best or (d == best and k < found):
             best, found = d, k
         k += max(1, int((d - best) / spacing))
@@ -156,8 +161,8 @@ def _nearest(points: Floats, x: float, y: float, spacing: float, hint: int, with
 
 
 @_jit
-def _distance(point: Floats, x: float, y: float) -> float:
-    dx, dy = point[0] - x, point[1] - y
+def _distance(px: float, py: float, x: float, y: float) -> float:
+    dx, dy = px - x, py - y
     return math.sqrt(dx * dx + dy * dy)
 
 
@@ -211,14 +216,19 @@ def _note_entries(low: Floats, entered: Floats) -> None:
 def _widen(found: Stretches, m: int) -> None:
     """The union of the occupied stretches within the safety time around each step."""
     low, high = found.low[m], found.high[m]
+    wide_low, wide_high = found.wide_low[m], found.wide_high[m]
     last, top = -1, -math.inf
     total = len(low)
-    for t in range(total):
+    here = np.flatnonzero(~np.isnan(low))
+    begin, end = (
+        (max(here[0] - AFTER, 0), min(here[-1] + BEFORE + 1, total)) if len(here) else (0, 0)
+    )
+    for t in range(begin, end):
         least, most = math.inf, -math.inf
         for k in range(max(t - BEFORE, 0), min(t + AFTER + 1, total)):
             if not math.isnan(low[k]):
                 least, most = min(least, low[k]), max(most, high[k])
         if least < math.inf:
-            found.wide_low[m, t], found.wide_high[m, t] = least, most
+            wide_low[t], wide_high[t] = least, most
             last, top = t, max(top, most)
     found.last[m], found.top[m] = FOREVER if last == total - 1 else last, top
