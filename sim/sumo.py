@@ -25,6 +25,7 @@ from sim.names import VehicleNames
 from sim.network import angle_between
 from sim.scenario import Scenario
 from sim.scene import EGO, Command, Scene, VehicleState
+from sim.sight import Body, hidden
 
 SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
 LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a duration
@@ -89,6 +90,7 @@ class Simulation:
         self._coloured = frozenset(departure.id for departure in known if departure.coloured)
         self._coloured_types = routes.coloured_types(root)
         self._commanded = False
+        self._near: dict[str, VehicleState] = {}
         _running = self._open = True
         try:
             self._call(self._sumo.start, self._arguments(seed))
@@ -123,7 +125,7 @@ class Simulation:
         return round(self._steps * self._scenario.step, 9)
 
     def scene(self) -> Scene:
-        """Every vehicle within the scenario's view radius of the ego, now."""
+        """Every vehicle within the scenario's view radius that the ego can see, now."""
         return self._scene
 
     def step(self, command: Command | None) -> Scene:
@@ -153,10 +155,11 @@ class Simulation:
         return self._scene
 
     def collisions(self) -> tuple[int, ...]:
-        """The vehicles in view whose box overlaps the ego's now, by name."""
+        """The vehicles, seen or not, whose box overlaps the ego's now, by name."""
         ego = self._scene.ego
-        others = self._scene.vehicles.items()
-        return tuple(name for name, state in others if name != EGO and overlap(ego, state))
+        hit = [x for x, state in self._near.items() if overlap(ego, state)]
+        names = {self._names.of(x) for x in self._names.in_order(hit)}
+        return tuple(sorted(names - {EGO}))
 
     def sumo_collisions(self) -> tuple[int, ...]:
         """The vehicles that SUMO itself finds in collision with the ego: a cross-check."""
@@ -232,9 +235,23 @@ class Simulation:
             ego = replace(ego, acceleration=ego_acceleration)
             states[self._scenario.ego] = ego
         radius = self._scenario.view_radius
-        seen = [x for x in ids if math.dist(states[x].position, ego.position) <= radius]
-        named = {self._names.of(x): states[x] for x in self._names.in_order(seen)}
+        self._near = {
+            x: state
+            for x, state in states.items()
+            if math.dist(state.position, ego.position) <= radius
+        }
+        seen = self._names.in_order(self._seen())
+        named = {self._names.of(x): states[x] for x in seen}
         return Scene(self.time, dict(sorted(named.items())))
+
+    def _seen(self) -> list[str]:
+        """The vehicles near the ego that nothing hides from it, the ego among them."""
+        height = self._sumo.vehicle.getHeight
+        near = {x: Body(state, self._call(height, x)) for x, state in self._near.items()}
+        ego = self._scenario.ego
+        others = [body for x, body in near.items() if x != ego]
+        view = near[ego].state
+        return [x for x in near if x == ego or not hidden(view, near[x], others)]
 
     def _state(self, vehicle: str) -> VehicleState:
         api = self._sumo.vehicle
