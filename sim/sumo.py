@@ -23,12 +23,13 @@ from sim import appearance, routes
 from sim.boxes import overlap
 from sim.names import VehicleNames
 from sim.network import angle_between
+from sim.options import start_arguments
+from sim.quiet import errors_to, first_error
 from sim.scenario import Scenario
 from sim.scene import EGO, Command, Scene, VehicleState
 from sim.sight import Body, hidden
 
 SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
-LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a duration
 KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
 FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
 SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
@@ -93,8 +94,7 @@ class Simulation:
         self._near: dict[str, VehicleState] = {}
         _running = self._open = True
         try:
-            self._call(self._sumo.start, self._arguments(seed))
-            self._call(self._sumo.simulationStep)
+            self._start(seed)
             self._scene = self._look(None)
         except BaseException:
             self.close()
@@ -171,26 +171,18 @@ class Simulation:
         others = {b if a == self._scenario.ego else a for a, b in pairs}
         return tuple(sorted(self._names.of(other) for other in others))
 
-    def _arguments(self, seed: int) -> list[str]:
-        scenario = self._scenario
-        options = {
-            "--net-file": str(scenario.network),
-            "--route-files": str(self._routes(seed)),
-            "--step-length": repr(scenario.step),
-            "--seed": str(seed),
-            "--lanechange.duration": repr(LANE_CHANGE),
-            "--collision.action": "warn",
-            "--collision.check-junctions": "true",
-            "--collision.mingap-factor": "0",
-            "--time-to-teleport": "-1",
-            "--xml-validation": "never",
-            "--xml-validation.net": "never",
-            "--xml-validation.routes": "never",
-            "--no-step-log": "true",
-            "--no-warnings": "true",
-            "--duration-log.disable": "true",
-        }
-        return ["sumo", *(part for option in options.items() for part in option)]
+    def _start(self, seed: int) -> None:
+        """Start SUMO and put the first vehicles on the road."""
+        log = Path(self._scratch.name) / "errors.txt"
+        arguments = start_arguments(self._scenario, self._routes(seed), seed)
+        try:
+            with errors_to(log):
+                self._call(self._sumo.start, arguments)
+                self._call(self._sumo.simulationStep)
+        except SumoFailed as error:
+            # SUMO writes more than it raises: the vehicle and the attribute.
+            reason = first_error(log) or str(error)
+            raise SumoFailed(f"{self._scenario.routes}: SUMO refuses it: {reason}") from error
 
     def _routes(self, seed: int) -> Path:
         """The route file, with the starts of this seed."""

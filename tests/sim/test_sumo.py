@@ -169,13 +169,18 @@ def test_the_end_of_the_egos_route_is_told() -> None:
         ('departPos="10" type="nix"><route edges="south_in east_out"/>', "nix"),
         ('departPos="10"><route edges="south_in west_in"/>', "No connection between edge"),
         ('departPos="10" departLane="7"><route edges="south_in east_out"/>', "departLane"),
+        ('departPos="10" color="mauve"><route edges="south_in east_out"/>', "'ego'.*'mauve'"),
     ],
 )
-def test_errors_of_sumo_are_translated(tmp_path: Path, vehicle: str, words: str) -> None:
+def test_errors_of_sumo_are_translated(
+    tmp_path: Path, vehicle: str, words: str, capfd: pytest.CaptureFixture[str]
+) -> None:
     routes = tmp_path / "broken.rou.xml"
     routes.write_text(f'<routes><vehicle id="ego" depart="0" {vehicle}</vehicle></routes>')
-    with pytest.raises(SumoFailed, match=words):
+    with pytest.raises(SumoFailed, match=words) as caught:
         Simulation(dataclasses.replace(S2, routes=routes), 0)
+    assert str(caught.value).startswith(f"{routes}: ")
+    assert capfd.readouterr() == ("", "")
     assert len(ride(S2, 0, 1)) == 2  # a failed start leaves nothing behind
 
 
