@@ -263,7 +263,7 @@ def _curvature(heading: Array, arc: Array) -> Array:
         width = np.maximum(arc[high] - arc[low], 1e-6)
         turn = heading[high] - heading[low]
         bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
-        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + np.abs(bulge) <= CUT)
+        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
         result = np.where(open_, turn / width, result)
     return result
 

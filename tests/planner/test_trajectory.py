@@ -5,9 +5,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from planner.forward import Lane
+from planner.routes import onward
+from planner.trace import EgoGoal
 from planner.trajectory import LATERAL_ACCELERATION, Path
 from sim.network import Direction, angle_between, point_at, project
 from sim.scene import Point
+from tests.planner.nets import arc, drawn, lane, on_lane, shipped
+from tests.planner.nets import link as link_to
 from tests.planner.worlds import before_end, link, roads, row, situation
 
 LANE = "main_in_0"
@@ -139,10 +144,105 @@ def test_the_rear_follows_the_front_through_a_bend() -> None:
     lanes = row("s1", *BEND)
     line, length = roads("s1").line(lanes), 4.8
     begins = dict(line.lanes)
-    for arc in np.arange(begins[lanes[1]], begins[lanes[2]] + 6.0, 0.5):
-        (x, y), heading = line.pose(float(arc), length)
+    for at in np.arange(begins[lanes[1]], begins[lanes[2]] + 6.0, 0.5):
+        (x, y), heading = line.pose(float(at), length)
         rear = (x - length * math.cos(heading), y - length * math.sin(heading))
         gap = np.min(np.hypot(*(line.points - np.array(rear)).T))
-        assert gap < 0.8, arc
+        assert gap < 0.8, at
     turned = line.pose(begins[lanes[1]] + 5.0)[1] - line.pose(begins[lanes[1]] + 5.0, length)[1]
     assert turned < -0.1  # the front points further into the right turn than the body
+
+
+@pytest.mark.parametrize("radius", [8.0, 12.0, 20.0, 40.0, 150.0])
+@pytest.mark.parametrize("step", [0.6, 2.0, 5.0])
+def test_a_bend_is_driven_as_fast_as_its_radius_allows(radius: float, step: float) -> None:
+    angle = min(math.pi / 2.0, 60.0 / radius)
+    line = arc(radius, angle, step)
+    roads = drawn([lane("bend_0", line, 50.0)])
+    path = roads.path(("bend_0",), (0.0, 0.0), 0.0, 12.0, 500.0)
+    middle = 30.0 + 0.5 * radius * angle
+    around = np.abs(path.arc - middle) < 0.2 * radius * angle
+    slowest = float(np.min(path.cap[around]))
+    assert slowest == pytest.approx(math.sqrt(LATERAL_ACCELERATION * radius), rel=0.15)
+
+
+@pytest.mark.parametrize("kink", [0.01, 0.03, 0.05])
+def test_a_kink_in_a_straight_road_costs_little_speed(kink: float) -> None:
+    end = (100.0 + 100.0 * math.cos(kink), 100.0 * math.sin(kink))
+    roads = drawn([lane("road_0", [(0.0, 0.0), (100.0, 0.0), end], 50.0)])
+    path = roads.path(("road_0",), (0.0, 0.0), 0.0, 12.0, 500.0)
+    assert np.min(path.cap) > 26.0
+
+
+def test_a_step_aside_between_two_lanes_costs_no_speed() -> None:
+    lanes = [lane("a_0", [(0.0, 0.0), (50.0, 0.0)]), lane("b_0", [(50.02, 0.15), (100.0, 0.15)])]
+    roads = drawn(lanes, [link_to("a_0", "b_0")])
+    path = roads.path(("a_0", "b_0"), (0.0, 0.0), 0.0, 12.0, 500.0)
+    assert np.min(path.cap) == pytest.approx(13.89)
+
+
+def test_a_quick_chicane_is_a_bend() -> None:
+    points = [(0.0, 0.0), (40.0, 0.0), (43.5, 1.2), (47.0, 2.4), (90.0, 2.4)]
+    roads = drawn([lane("road_0", points, 50.0)])
+    path = roads.path(("road_0",), (0.0, 0.0), 0.0, 12.0, 500.0)
+    assert np.min(path.cap) < 8.5
+
+
+def test_the_lanes_of_a_path_keep_their_places_across_gaps() -> None:
+    lanes = [lane("a_0", [(0.0, 0.0), (50.0, 0.0)]), lane("b_0", [(62.0, 0.0), (100.0, 0.0)])]
+    roads = drawn(lanes, [link_to("a_0", "b_0")])
+    assert roads.line(("a_0", "b_0")).lanes == (("a_0", 0.0), ("b_0", pytest.approx(62.0)))
+
+
+def test_a_path_that_comes_by_again_begins_where_the_vehicle_is() -> None:
+    roads = shipped("s3")
+    ring = [x for x in roads.network.lanes.values() if x.edge == "ring_east"]
+    row = onward(roads, (ring[0].id,), 300.0)
+    assert row.count(ring[0].id) > 1
+    here = on_lane(roads, ring[0].id, 3.0)
+    path = roads.path(row, here.position, here.heading, 12.0, 200.0)
+    assert path.lanes[0] == (ring[0].id, pytest.approx(-3.0, abs=0.1))
+
+
+@pytest.mark.parametrize(
+    ("name", "rows"),
+    [
+        ("s1", [("from_s_0", "left"), ("from_s_0", "right"), ("main_in_0", "right")]),
+        ("s2", [("south_in_0", "left"), ("west_in_0", "left"), ("south_in_0", "right")]),
+    ],
+)
+def test_who_drives_at_the_caps_is_never_pushed_aside_hard(
+    name: str, rows: list[tuple[str, Direction]]
+) -> None:
+    for start, direction in rows:
+        assert pushed_aside(roads(name).line(row(name, start, direction)).lanes, name) < 2.8
+
+
+def test_who_drives_at_the_caps_goes_round_a_roundabout_smoothly() -> None:
+    way = onward(shipped("s3"), ("south_in_0",), 250.0, EgoGoal("west_out", 60.0, None))
+    assert "ring_north_0" in way
+    sides = 8.0  # [m] a little more than those of the polygons that draw its arms
+    assert pushed_aside(shipped("s3").line(way).lanes, "s3", sides) < 2.8
+
+
+def pushed_aside(lanes: tuple[tuple[str, float], ...], name: str, over: float = 4.0) -> float:
+    """The largest sideways acceleration [m/s2] of who drives at the caps.
+
+    Bends ahead are braked for in time, and speed grows by 2 m/s2 behind them. Turning is measured
+    over a length `over` [m].
+    """
+    network = shipped(name)
+    path = network.path(
+        tuple(lane for lane, _ in lanes),
+        network.network.lanes[lanes[0][0]].centreline[0],
+        float(network.line((lanes[0][0],)).heading[0]),
+        12.0,
+        500.0,
+    )
+    near = np.arange(0.0, path.length - over, 0.5)
+    speeds = Lane(path).caps.copy()
+    for k in range(1, len(speeds)):
+        speeds[k] = min(speeds[k], math.sqrt(speeds[k - 1] ** 2 + 2.0 * 2.0))
+    middle = np.interp(near + 0.5 * over, np.arange(len(speeds)), speeds)
+    after, before = np.interp([near + over, near], path.arc, path.heading)
+    return float(np.max(middle**2 * np.abs(after - before) / over))
