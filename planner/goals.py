@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 from planner.manoeuvres import Situation
 from planner.roundabouts import Roundabout, roundabout_ahead
-from planner.routes import Approach, approach, direction_of, lane_end, remaining, rest_of
+from planner.routes import Approach, approach, direction_of, lane_end
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Roads
 from sim.network import Direction, Link, Location, Network, angle_between, point_at, project
@@ -25,7 +25,6 @@ class Goal:
     prior: float
 
 
-AFTER = 20.0  # [m] into a road at which a waypoint lies
 LATER = 20.0  # [m] from a roundabout at which the bearing of a road is taken
 OPPOSITE = 2.6  # [rad] between a road that leads there and one that leads back
 BACK = "the way back"
@@ -59,41 +58,6 @@ def goals_in_view(roads: Roads, starts: tuple[Situation, ...], view: float) -> t
     share = (1.0 - STOP_PRIOR) / len(found)
     exits = tuple(Goal(kind, place, target, share) for kind, place, target in found.values())
     return (*exits, Goal("stop", PLACES["stop"], None, STOP_PRIOR))
-
-
-def waypoint(roads: Roads, here: Location, goal: EgoGoal, junctions: int) -> EgoGoal:
-    """The goal, or where it is far, a place on the shortest way to it.
-
-    Args:
-        roads: the road network.
-        here: where the vehicle is.
-        goal: where it wants to get.
-        junctions: how many junctions lie before that place; what comes beyond does not matter to
-            what is decided now.
-
-    Returns:
-        A place that lies as far along the way as told; the goal, where no way leads there.
-    """
-    network = roads.network
-    ahead = [here.lane, *rest_of(network, here.lane)]
-    edge, passed = network.lanes[ahead[-1]].edge, 0
-    if not math.isfinite(remaining(roads, edge, goal)) or network.lanes[ahead[-1]].internal:
-        return goal
-    if edge == goal.edge and here.offset <= goal.position:
-        return goal
-    while True:
-        links = [x for lane in network.edge_lanes(edge) for x in network.links_from(lane.id)]
-        link = min(
-            links, key=lambda x: remaining(roads, network.lanes[x.to_lane].edge, goal), default=None
-        )
-        if link is None:
-            return goal
-        edge = network.lanes[link.to_lane].edge
-        passed += lane_end(roads, link.from_lane).joint != link
-        if edge == goal.edge:
-            return goal
-        if passed >= junctions:
-            return EgoGoal(edge, min(AFTER, 0.5 * network.lanes[link.to_lane].length), None)
 
 
 def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:

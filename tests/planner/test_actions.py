@@ -1,13 +1,16 @@
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.actions import (
     CLEAR,
+    COMFORT,
     LANE_CHANGE_LENGTH,
     LANE_CHANGE_TIME,
+    ActionPlan,
     GiveWay,
     LaneChange,
     LaneFollow,
@@ -16,8 +19,11 @@ from planner.actions import (
     expand,
 )
 from planner.routes import Refusal, onward, straight_on
-from planner.trace import ACTIONS, Action
+from planner.trace import ACTIONS, Action, EgoGoal
+from planner.trajectory import LATERAL_ACCELERATION, Roads
 from sim.network import Direction, project
+from tests.planner.nets import drawn, lane, on_lane, shipped
+from tests.planner.nets import link as link_to
 from tests.planner.worlds import VIEW, before_end, goal, link, plan_of, roads, situation
 
 NO_ROUNDABOUT = "there is no roundabout ahead"
@@ -232,3 +238,191 @@ def test_onward_goes_straight_on_as_far_as_asked_or_the_road_goes() -> None:
     everything = onward(roads("s1"), ("main_in_0",), 1e6)
     assert everything == row
     assert sum(network.lanes[lane].length for lane in everything) < 1e6
+
+
+ARMS = ("south", "east", "north", "west")  # of s3, in driving order round the ring
+
+
+@pytest.mark.parametrize("arm", range(4))
+@pytest.mark.parametrize("number", [1, 2, 3, 4])
+def test_the_nth_exit_of_a_roundabout_is_reached_by_n_actions(arm: int, number: int) -> None:
+    ring = shipped("s3")
+    out = f"{ARMS[(arm + number) % 4]}_out"
+    here, aim = on_lane(ring, f"{ARMS[arm]}_in_0", -40.0), EgoGoal(out, 3.0, None)
+    for k in range(number):
+        action: Action = "exit-right" if k == number - 1 else "continue-next-exit"
+        plan = expand(ring, here, action, aim, VIEW)
+        assert isinstance(plan, ActionPlan)
+        assert len(plan.give_ways) == (1 if k == 0 else 0)
+        assert plan.goal is None or k == number - 1
+        lane, begin = plan.path.lane_at(plan.end)
+        here = on_lane(ring, lane, plan.end - begin)
+    assert plan.goal is not None
+    assert lane == f"{out}_0"
+
+
+def test_a_roundabout_is_entered_by_giving_way_to_those_in_the_ring() -> None:
+    ring = shipped("s3")
+    plan = expand(ring, on_lane(ring, "south_in_0", -40.0), "continue-next-exit", None, VIEW)
+    assert isinstance(plan, ActionPlan)
+    follow, wait, entry, around = plan.manoeuvres
+    assert isinstance(follow, LaneFollow)
+    assert isinstance(wait, GiveWay)
+    assert isinstance(entry, Turn)
+    assert isinstance(around, LaneFollow)
+    assert plan.commit == entry.start == pytest.approx(40.0)
+    circling = [x for x in ring.network.links if x.from_lane == "ring_south_0"]
+    assert wait.yields_to == {(x.junction, x.index) for x in circling}
+    left_behind = next(start for lane, start in plan.path.lanes if lane == "ring_east_0")
+    next_exit = next(start for lane, start in plan.path.lanes if lane == "ring_east_north_0")
+    assert left_behind < plan.end < next_exit + ring.network.lanes["ring_east_north_0"].length
+
+
+@pytest.mark.parametrize(
+    ("lane", "offset", "applicable"),
+    [
+        ("south_in_0", -40.0, {"continue-next-exit", "exit-right", "stop"}),
+        ("south_in_0", 2.0, {"continue", "stop"}),
+        ("ring_east_0", 2.0, {"continue-next-exit", "exit-right"}),
+        ("north_out_0", 5.0, {"continue", "stop"}),
+    ],
+)
+def test_what_applies_around_a_roundabout(lane: str, offset: float, applicable: set[str]) -> None:
+    ring = shipped("s3")
+    here = on_lane(ring, lane, offset)
+    found = {action: expand(ring, here, action, None, VIEW) for action in ACTIONS}
+    assert {a for a, x in found.items() if isinstance(x, ActionPlan)} - {"stop"} == (
+        applicable - {"stop"}
+    )
+    refused = {a: x.reason for a, x in found.items() if isinstance(x, Refusal)}
+    if "continue-next-exit" in applicable:
+        assert refused["exit-left"] == "a roundabout is left to the right"
+        inside = lane.startswith("ring")
+        comes = "an exit of the roundabout" if inside else "a roundabout"
+        assert refused["continue"] == f"{comes} comes first"
+    else:
+        assert refused["continue-next-exit"] == NO_ROUNDABOUT
+
+
+def merge() -> Roads:
+    """A lane that ends beside one that leads on."""
+    lanes = [
+        lane("on_0", [(0.0, 0.0), (150.0, 0.0)]),
+        lane("on_1", [(0.0, 3.5), (150.0, 3.5)]),
+        lane("off_0", [(150.0, 3.5), (400.0, 3.5)]),
+    ]
+    return drawn(lanes, [link_to("on_1", "off_0")])
+
+
+def test_who_continues_on_a_lane_that_ends_keeps_room_to_leave_it() -> None:
+    roads = merge()
+    plan = expand(roads, on_lane(roads, "on_0", 60.0), "continue", None, VIEW)
+    assert isinstance(plan, ActionPlan)
+    there = on_lane(roads, "on_0", 60.0 + plan.end)
+    assert isinstance(expand(roads, there, "change-left", None, VIEW), ActionPlan)
+    late = on_lane(roads, "on_0", 130.0)
+    assert expand(roads, late, "continue", None, VIEW) == Refusal("its lane ends")
+    assert isinstance(expand(roads, late, "stop", None, VIEW), ActionPlan)
+
+
+def test_the_lane_that_does_not_lead_there_is_the_reason() -> None:
+    lanes = [
+        lane("in_0", [(0.0, 0.0), (50.0, 0.0)]),
+        lane("in_1", [(0.0, 3.5), (50.0, 3.5)]),
+        lane("left_0", [(50.0, 3.5), (60.0, 60.0)]),
+        lane("on_0", [(50.0, 0.0), (90.0, 0.0)]),
+    ]
+    links = [link_to("in_0", "on_0"), link_to("in_1", "left_0", "left")]
+    roads = drawn(lanes, links)
+    found = expand(roads, on_lane(roads, "in_0", 10.0), "exit-left", None, VIEW)
+    assert found == Refusal("its lane does not lead to the left")
+
+
+def blocks(count: int, *, free: bool) -> Roads:
+    """Crossroads in a row, 80 m apart, with a side road to the left at each."""
+    lanes, links = [], []
+    for k in range(count + 1):
+        x = 80.0 * k
+        lanes.append(lane(f"b{k}_0", [(x, 0.0), (x + 80.0, 0.0)]))
+        lanes.append(lane(f"side{k}_0", [(x + 80.0, 0.0), (x + 80.0, 60.0)]))
+        due = () if free else (1,)
+        if k < count:
+            links.append(link_to(f"b{k}_0", f"b{k + 1}_0", yields_to=due, foes=(1,)))
+        links.append(link_to(f"b{k}_0", f"side{k}_0", "left", foes=(1,)))
+    return drawn(lanes, links)
+
+
+@pytest.mark.parametrize("turn", [0, 1, 2, 3])
+@pytest.mark.parametrize("free", [True, False])
+def test_any_turn_of_a_row_of_blocks_is_reached_one_junction_after_another(
+    turn: int, *, free: bool
+) -> None:
+    roads = blocks(4, free=free)
+    here, aim = on_lane(roads, "b0_0", 30.0), EgoGoal(f"side{turn}", 30.0, None)
+    straight: Action = "continue" if free else "exit-straight"
+    while here.location.lane != f"b{turn}_0":
+        plan = expand(roads, here, straight, aim, VIEW)
+        assert isinstance(plan, ActionPlan)
+        name, begin = plan.path.lane_at(plan.end)
+        assert name != here.location.lane
+        here = on_lane(roads, name, plan.end - begin)
+    assert here.location.lane == f"b{turn}_0"
+    plan = expand(roads, here, "exit-left", aim, VIEW)
+    assert isinstance(plan, ActionPlan)
+    assert plan.path.lane_at(plan.end)[0] == f"side{turn}_0"
+
+
+def test_a_bend_of_the_road_is_no_junction() -> None:
+    lanes = [
+        lane("a_0", [(0.0, 0.0), (50.0, 0.0)]),
+        lane("b_0", [(50.0, 0.0), (50.0, 50.0)]),
+        lane("c_0", [(50.0, 50.0), (120.0, 60.0)]),
+        lane("d_0", [(50.0, 50.0), (0.0, 60.0)]),
+    ]
+    links = [link_to("a_0", "b_0", "left"), link_to("b_0", "c_0", "right")]
+    roads = drawn(lanes, [*links, link_to("b_0", "d_0", "left")])
+    plan = expand(roads, on_lane(roads, "a_0", 20.0), "exit-right", None, VIEW)
+    assert isinstance(plan, ActionPlan)
+    assert [type(x) for x in plan.manoeuvres] == [LaneFollow, Turn]
+    assert plan.path.lane_at(plan.end)[0] == "c_0"
+
+
+@pytest.mark.parametrize("speed", [5.0, 14.0, 25.0, 36.0])
+@pytest.mark.parametrize("radius", [math.inf, 900.0])
+def test_a_lane_change_is_as_long_as_the_speed_needs(speed: float, radius: float) -> None:
+    outer = [bend(radius, 10.0 * k, 0.0) for k in range(60)]
+    inner = [bend(radius, 10.0 * k, 3.5) for k in range(60)]
+    roads = drawn([lane("road_0", outer, 40.0), lane("road_1", inner, 40.0)])
+    plan = expand(roads, on_lane(roads, "road_0", 50.0, speed), "change-left", None, VIEW)
+    assert isinstance(plan, ActionPlan)
+    assert 2.5 * speed <= plan.end <= max(15.0, 5.5 * speed)
+    pushed = speed**2 * np.abs(plan.path.curvature[plan.path.arc < plan.end])
+    assert np.max(pushed) < 1.1 * LATERAL_ACCELERATION
+    line = roads.line(("road_1",))
+    away = min(math.dist(plan.path.pose(plan.end + 2.0)[0], point) for point in line.points)
+    assert away < 0.6
+
+
+def bend(radius: float, along: float, aside: float) -> tuple[float, float]:
+    """A place beside a bend to the left."""
+    if math.isinf(radius):
+        return along, aside
+    angle = along / radius
+    return (radius - aside) * math.sin(angle), radius - (radius - aside) * math.cos(angle)
+
+
+def test_at_the_very_end_of_the_road_one_can_still_continue_and_stop() -> None:
+    roads = drawn([lane("in_0", [(0.0, 0.0), (50.0, 0.0)])])
+    for offset in (45.0, 49.9, 50.0):
+        for action in ("continue", "stop"):
+            plan = expand(roads, on_lane(roads, "in_0", offset, 10.0), action, None, VIEW)
+            assert isinstance(plan, ActionPlan)
+            assert 0.0 < plan.end <= plan.path.length
+    stopping = plan_of_stop(roads)
+    assert stopping.path.length >= 10.0**2 / (2.0 * COMFORT)
+
+
+def plan_of_stop(roads: Roads) -> ActionPlan:
+    plan = expand(roads, on_lane(roads, "in_0", 49.0, 10.0), "stop", None, VIEW)
+    assert isinstance(plan, ActionPlan)
+    return plan

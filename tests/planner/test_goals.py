@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from planner.goals import PLACES, STOP_PRIOR, goals_in_view, waypoint
+from planner.goals import PLACES, STOP_PRIOR, goals_in_view
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Roads
 from tests.planner.nets import drawn, lane, link, on_lane, shipped
@@ -80,28 +80,3 @@ def test_where_the_road_ends_its_end_is_a_goal() -> None:
     roads = drawn([lane("in_0", [(0.0, 0.0), (50.0, 0.0)])])
     (on, _) = goals_in_view(roads, (on_lane(roads, "in_0", 10.0),), VIEW)
     assert on.target == EgoGoal("in", 49.0, None)
-
-
-def test_a_waypoint_lies_on_the_shortest_way_behind_some_junctions() -> None:
-    roads = shipped("town")
-    network = roads.network
-    goal = EgoGoal("E1_south_east", 80.0, None)
-    far = network.distance_to(goal.edge)
-    start = max((edge for edge in far if edge != goal.edge), key=lambda edge: (far[edge], edge))
-    here = network.edge_lanes(start)[0]
-    left, passed = far[start], []
-    while here.edge != goal.edge:
-        aim = waypoint(roads, on_lane(roads, here.id, 0.0).location, goal, 1)
-        assert aim == goal or far[aim.edge] < left
-        left = far.get(aim.edge, 0.0)
-        passed.append(aim.edge)
-        here = network.edge_lanes(aim.edge)[0]
-    assert len(passed) >= 5
-    assert passed[-1] == goal.edge
-    nearly = on_lane(roads, network.edge_lanes(passed[-2])[0].id, 0.0)
-    assert waypoint(roads, nearly.location, goal, 1) == goal
-
-
-def test_without_a_way_to_the_goal_the_waypoint_is_the_goal() -> None:
-    goal = EgoGoal("in", 10.0, None)
-    assert waypoint(fork(), on_lane(fork(), "main_0", 5.0).location, goal, 2) == goal
