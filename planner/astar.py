@@ -12,6 +12,7 @@ from planner.obstacles import Traffic
 from planner.rollout import Leg, Task, take
 from planner.routes import Refusal
 from planner.trace import ACTIONS, Action
+from planner.waypoints import time_left
 
 LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
 DEPTH = 3  # macro actions in a row
@@ -110,17 +111,4 @@ def _lanes_moved(leg: Leg, starts: Sequence[Situation], index: int) -> float:
 
 
 def _remaining(task: Task, here: Situation) -> float:
-    """A lower bound of the time [s] to the goal: the distance at the highest speed limit."""
-    network = task.roads.network
-    lane = network.lanes[here.location.lane]
-    if lane.edge == task.goal.edge:
-        return max(task.goal.position - here.location.offset, 0.0) / lane.speed_limit
-    link = network.link_via(lane.id)
-    edge = lane.edge if link is None else network.lanes[link.to_lane].edge
-    distance = network.distance_to(task.goal.edge).get(edge)
-    if edge == task.goal.edge:
-        distance = 0.0
-    if distance is None:
-        return 1e6
-    rest = max(lane.length - here.location.offset, 0.0)
-    return (rest + distance + task.goal.position) / task.roads.fastest
+    return time_left(task.roads, here.location, task.goal)

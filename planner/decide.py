@@ -27,6 +27,7 @@ from planner.trace import (
 )
 from planner.tracks import Observed, lanes_at
 from planner.trajectory import Array, Roads
+from planner.waypoints import waypoint
 from sim.scene import EGO, Point, VehicleState
 
 DIGITS: dict[Component, int] = {
@@ -91,7 +92,7 @@ def prepare(
     ego = moment.scene[EGO]
     task = Task(
         frame.roads,
-        frame.goal,
+        waypoint(frame.roads, moment.root.here.location, frame.goal),
         (ego.length, ego.width),
         moment.time,
         round(frame.settings.horizon / DT),
@@ -137,6 +138,7 @@ def record(
         rollouts=rollouts(search.rollouts, moment.time),
         not_applicable=search.not_applicable(),
         plan=search.plan(),
+        waypoint=None if search.task.goal == frame.goal else search.task.goal,
     )
     return fitted(trace)
 

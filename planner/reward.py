@@ -15,23 +15,23 @@ WEIGHTS: dict[Component, float] = {
     "curvature": 20.0,  # per s/m
 }
 #: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
-#: within reach.
-PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 100.0, "termination": 50.0}
+#: within reach: that costs what was driven, and the time that is left at least, too.
+PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 5.0}
 
 
 def components(
     time: float, speed: Array, acceleration: Array, curvature: Array
-) -> dict[Component, float | None]:
-    """The components of a trajectory that reached the goal.
+) -> dict[Component, float]:
+    """The components of a trajectory.
 
     Args:
-        time: [s] from the decision to the goal.
+        time: [s] that it took.
         speed: [m/s] [N] at 5 Hz.
         acceleration: [m/s2] [N]
         curvature: [1/m] [N] of the path at the samples.
 
     Returns:
-        Time to the goal [s], and the mean absolute jerk [m/s3], angular acceleration [rad/s2]
+        The time [s], and the mean absolute jerk [m/s3], angular acceleration [rad/s2]
         and curvature [1/m] over the trajectory.
     """
     if len(speed) < 2:
@@ -50,10 +50,20 @@ def absent() -> dict[Component, float | None]:
     return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
 
 
-def reward(outcome: Outcome, parts: dict[Component, float | None]) -> float:
-    """The reward of a rollout, in (negative) seconds of travelling time."""
-    time = parts["time"]
-    if outcome == "done" and time is not None:
-        comfort = (WEIGHTS[name] * (parts[name] or 0.0) for name in parts if name != "time")
-        return -time * (WEIGHTS["time"] + sum(comfort))
-    return -PENALTY[outcome]
+def cost(parts: dict[Component, float]) -> float:
+    """What a trajectory costs [s]."""
+    comfort = (WEIGHTS[name] * value for name, value in parts.items() if name != "time")
+    return parts["time"] * (WEIGHTS["time"] + sum(comfort))
+
+
+def reward(outcome: Outcome, parts: dict[Component, float], left: float) -> float:
+    """The reward of a rollout, in (negative) seconds of travelling time.
+
+    Args:
+        outcome: of the rollout.
+        parts: the components of what was driven.
+        left: [s] that are left to the goal at least.
+    """
+    if outcome in ("collision", "dead"):
+        return -PENALTY[outcome]
+    return -cost(parts) - (PENALTY["termination"] + left if outcome == "termination" else 0.0)

@@ -10,7 +10,7 @@ from planner.forward import DT, Drive, Hindrances, Motion, drive
 from planner.kernels.collision import first_hit
 from planner.kernels.driving import place
 from planner.obstacles import HOW, Traffic
-from planner.reward import absent, components
+from planner.reward import components
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
 from planner.trajectory import Array, Roads
 from sim.network import Location
@@ -118,12 +118,13 @@ def _reachable(task: Task, here: Location) -> bool:
     return edge in network.distance_to(task.goal.edge)
 
 
-def summarise(legs: Sequence[Leg], outcome: Outcome) -> dict[Component, float | None]:
-    """The reward components of a rollout."""
-    if outcome != "done" or legs[-1].goal_time is None:
-        return absent()
+def summarise(task: Task, legs: Sequence[Leg]) -> dict[Component, float]:
+    """The reward components of what was driven, to the goal or as far as the rollout went."""
+    if not legs:
+        return components(0.0, np.empty(0), np.empty(0), np.empty(0))
+    passed = legs[-1].goal_time
     return components(
-        legs[-1].goal_time,
+        legs[-1].end.time - task.start if passed is None else passed,
         np.concatenate([leg.speed for leg in legs]),
         np.concatenate([leg.acceleration for leg in legs]),
         np.concatenate([leg.curvature for leg in legs]),

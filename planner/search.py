@@ -6,14 +6,14 @@ The same seed gives the same rollouts: the generator is made from arguments alon
 import random
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
-from planner.reward import reward
+from planner.reward import absent, reward
 from planner.rollout import Leg, Task, held_up, summarise, take
 from planner.routes import Refusal
 from planner.trace import (
@@ -28,6 +28,7 @@ from planner.trace import (
     Settings,
 )
 from planner.tree import Edge, Node, Tree
+from planner.waypoints import time_left
 
 Samples: TypeAlias = tuple[Sample, ...]
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
@@ -78,6 +79,7 @@ class Search:
         default_factory=dict
     )
     _legs: dict[tuple[tuple[Sample, ...], Node], Leg] = field(default_factory=dict)
+    _known: dict[tuple[tuple[Sample, ...], Node], Simulated] = field(default_factory=dict)
     _motions: dict[tuple[Sample, ...], Traffic] = field(default_factory=dict)
 
     def run(self) -> None:
@@ -174,12 +176,29 @@ class Search:
                 return None
             legs.append(self._leg(samples, (*node, action), options[action], legs))
             outcome = legs[-1].outcome
-        parts = summarise(legs, outcome)
-        gained = round(reward(outcome, parts), 3)
-        stretches = held_up(legs, self.task.start)
-        one = Simulated(forced, samples, tuple(legs), outcome, parts, gained, stretches)
+        one = self._simulated(samples, legs, outcome, forced=forced)
         self.rollouts.append(one)
         return one
+
+    def _simulated(
+        self, samples: Samples, legs: Sequence[Leg], outcome: Outcome, *, forced: bool
+    ) -> Simulated:
+        """What came of a rollout; the same actions under the same samples come to the same."""
+        key = (samples, tuple(leg.action for leg in legs))
+        found = self._known.get(key)
+        if found is None:
+            parts = summarise(self.task, legs)
+            gained = round(reward(outcome, parts, self._left(legs)), 3)
+            stretches = held_up(legs, self.task.start)
+            shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
+            found = Simulated(forced, samples, tuple(legs), outcome, shown, gained, stretches)
+            self._known[key] = found
+        return replace(found, forced=forced)
+
+    def _left(self, legs: Sequence[Leg]) -> float:
+        """The time [s] that is left to the goal at least after these legs."""
+        end = legs[-1].end if legs else self.root.here
+        return time_left(self.task.roads, end.location, self.task.goal)
 
     def _sample(self) -> tuple[Sample, ...]:
         """Draw a goal and a trajectory for every other vehicle."""
