@@ -28,10 +28,17 @@ class Departure:
     """A vehicle or trip of a route file."""
 
     id: str
-    at_start: bool  # departs at 0 s
+    depart: float | None  # [s] None where not a number
     edges: tuple[str, ...]  # of its route as written; a trip's are its ends
     position: float | None  # [m] departPos along the first edge, None where not a number
     coloured: bool  # has a colour of its own, beside that of its type
+    kind: str | None  # its vehicle type, None for SUMO's own
+    trip: bool  # SUMO finds the edges between its ends
+
+    @property
+    def at_start(self) -> bool:
+        """Whether it departs at 0 s."""
+        return self.depart == 0.0
 
 
 def parse(path: Path) -> ET.Element:
@@ -67,14 +74,29 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
         if route is None:
             route = routes.get(element.get("route"))
         edges = _edges(element) if route is None else _edges(route)
-        place, coloured = _number(element.get("departPos")), bool(element.get("color"))
-        found.append(Departure(name, _at_start(element), edges, place, coloured))
+        found.append(
+            Departure(
+                id=name,
+                depart=_number(element.get("depart")),
+                edges=edges,
+                position=_number(element.get("departPos")),
+                coloured=bool(element.get("color")),
+                kind=element.get("type"),
+                trip=route is None,
+            )
+        )
     return tuple(found)
 
 
 def coloured_types(root: ET.Element) -> frozenset[str]:
     """The vehicle types whose colour the file states."""
     return frozenset(kind.get("id", "") for kind in root.iter("vType") if kind.get("color"))
+
+
+def types(root: ET.Element) -> frozenset[str]:
+    """The vehicle types and their distributions that the file defines."""
+    kinds = (*root.iter("vType"), *root.iter("vTypeDistribution"))
+    return frozenset(kind.get("id", "") for kind in kinds)
 
 
 def mentioned_edges(root: ET.Element) -> dict[str, str]:

@@ -6,13 +6,13 @@ Errors:
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
 """
 
-import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 
 from sim import routes
+from sim.checks import check_routes, check_starts, edges_of, one_of
 from sim.netconvert import NetconvertError, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
@@ -156,10 +156,10 @@ def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path
         return path
     try:
         net = opendrive_net(path, {})
-        edges = _edges(read_network(net))
+        edges = edges_of(read_network(net))
         for edge in priority:
             if edge not in edges:
-                raise top.wrong(f"priority.{edge}", "there is no such edge", _one_of(edges))
+                raise top.wrong(f"priority.{edge}", "there is no such edge", one_of(edges))
         return opendrive_net(path, priority) if priority else net
     except (NetconvertError, NetworkError) as error:
         raise top.wrong("network", f"cannot convert {path}", str(error)) from error
@@ -176,71 +176,32 @@ def _check(scenario: Scenario, top: Table) -> None:
         departures = routes.departures(root)
     except RoutesError as error:
         raise TableError(scenario.routes, None, str(error), "mend the route file") from error
-    edges = _edges(network)
-    _check_routes(scenario, root, edges)
+    edges = edges_of(network)
+    check_routes(scenario.routes, root, network)
     ids = [departure.id for departure in departures]
     if scenario.ego not in ids:
         problem = f"{scenario.routes.name} has no vehicle {scenario.ego!r}"
-        raise top.wrong("ego", problem, _one_of(ids))
-    _check_starts(scenario, network, departures)
+        raise top.wrong("ego", problem, one_of(ids))
+    check_starts(scenario.routes, departures, network, scenario.ego, scenario.spawn)
     start = next(x.edges[0] for x in departures if x.id == scenario.ego)
     _check_goal(scenario.goal, top, network, edges, start)
 
 
-def _check_routes(scenario: Scenario, root: ET.Element, edges: set[str]) -> None:
-    for edge, owner in routes.mentioned_edges(root).items():
-        if edge not in edges:
-            key, problem = f"route of {owner!r}", f"there is no edge {edge!r} for cars"
-            raise TableError(scenario.routes, key, problem, _one_of(edges))
-
-
-def _check_starts(
-    scenario: Scenario, network: Network, departures: tuple[routes.Departure, ...]
-) -> None:
-    """The ego starts at 0 s, and every start that varies stays on its first edge."""
-    for vehicle in departures:
-        key = f"vehicle {vehicle.id!r}"
-        if not vehicle.edges:
-            remedy = 'give it <route edges="..."/>'
-            raise TableError(scenario.routes, key, "it has no route", remedy)
-        if not vehicle.at_start:
-            if vehicle.id == scenario.ego:
-                problem = "the ego departs late"
-                raise TableError(scenario.routes, key, problem, 'write depart="0"')
-            continue
-        if scenario.spawn is None:
-            continue
-        half = scenario.spawn.longitudinal / 2.0
-        length = min(lane.length for lane in network.edge_lanes(vehicle.edges[0]))
-        if vehicle.position is None or not half <= vehicle.position <= length - half:
-            problem = "departPos leaves no room for [spawn]"
-            remedy = f"write departPos as a number from {half:g} to {length - half:g} m"
-            raise TableError(scenario.routes, key, problem, remedy)
-
-
 def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start: str) -> None:
     if goal.edge not in edges:
-        raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", _one_of(edges))
+        raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
     if goal.edge != start and start not in network.distance_to(goal.edge):
         problem = f"{goal.edge!r} cannot be reached from {start!r}, where the ego starts"
-        raise top.wrong("goal.edge", problem, _one_of(_reachable(network, edges, start)))
+        raise top.wrong("goal.edge", problem, one_of(_reachable(network, edges, start)))
     lanes = network.edge_lanes(goal.edge)
     numbers = [str(lane.index) for lane in lanes]
     if goal.lane is not None and str(goal.lane) not in numbers:
-        raise top.wrong("goal.lane", f"{goal.edge!r} has no lane {goal.lane}", _one_of(numbers))
+        raise top.wrong("goal.lane", f"{goal.edge!r} has no lane {goal.lane}", one_of(numbers))
     length = min(lane.length for lane in lanes)
     if goal.position > length:
         problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"
         raise top.wrong("goal.position", problem, f"it must be at most {length:g}")
 
 
-def _edges(network: Network) -> set[str]:
-    return {lane.edge for lane in network.lanes.values() if not lane.internal}
-
-
 def _reachable(network: Network, edges: set[str], start: str) -> list[str]:
     return [edge for edge in sorted(edges) if start in network.distance_to(edge)]
-
-
-def _one_of(names: set[str] | list[str]) -> str:
-    return "choose one of " + ", ".join(sorted(names)) if names else "there is none to choose"

@@ -43,8 +43,7 @@ def test_a_folder_anywhere_loads_by_its_path(tmp_path: Path) -> None:
 
 def test_without_spawn_starts_do_not_vary(tmp_path: Path) -> None:
     folder = copy_of("s1", tmp_path)
-    text = (folder / "scenario.toml").read_text()
-    (folder / "scenario.toml").write_text(text[: text.index("[spawn]")])
+    without_spawn(folder)
     assert load(folder).spawn is None
 
 
@@ -111,6 +110,14 @@ ROUTES = [
     ('departPos="82"', 'departPos="189"', "vehicle '1': departPos leaves no room", "185.5"),
     ('id="ego" type="car" depart="0"', 'id="ego" depart="3"', "the ego departs late", 'depart="0"'),
     ('<route edges="main_in exit_s"/>', "", "vehicle '1': it has no route", "give it <route"),
+    (
+        'type="turning" depart',
+        'type="nix" depart',
+        "vehicle '1': there is no type 'nix'",
+        "car, pat",
+    ),
+    ("main_in exit_s", "main_in back_out", "route of '1': no way leads", "one of exit_n, exit_s"),
+    ('id="1" type="turning" depart="0"', 'id="1" depart="3"', "'2': it departs at 0 s", "in order"),
     ('vehicle id="1"', "vehicle", "a <vehicle> has no id", "mend the route file"),
     ("</routes>", "", "not an XML file", "mend the route file"),
 ]
@@ -126,6 +133,36 @@ def test_a_broken_route_file(tmp_path: Path, old: str, new: str, problem: str, r
     assert message.startswith(str(folder / "s1.rou.xml"))
     assert problem in message
     assert remedy in message
+
+
+def without_spawn(folder: Path) -> None:
+    text = (folder / "scenario.toml").read_text()
+    (folder / "scenario.toml").write_text(text[: text.index("[spawn]")])
+
+
+@pytest.mark.parametrize(("place", "problem"), [("195", "beyond"), ("-195", "beyond")])
+def test_a_start_beyond_the_edge(tmp_path: Path, place: str, problem: str) -> None:
+    """SUMO would put the vehicle somewhere else and say nothing."""
+    folder = copy_of("s1", tmp_path)
+    without_spawn(folder)
+    edit(folder / "s1.rou.xml", 'departPos="82"', f'departPos="{place}"')
+    with pytest.raises(ScenarioInvalid, match=rf"'1': departPos {place} is {problem} the end of"):
+        load(folder)
+
+
+@pytest.mark.parametrize("place", ["base", "-5", "190.5"])
+def test_a_start_that_does_not_vary_may_be_written_freely(tmp_path: Path, place: str) -> None:
+    folder = copy_of("s1", tmp_path)
+    without_spawn(folder)
+    edit(folder / "s1.rou.xml", 'departPos="82"', f'departPos="{place}"')
+    assert load(folder).name == "s1"
+
+
+def test_the_edges_of_a_trip_need_not_follow_one_another(tmp_path: Path) -> None:
+    folder = copy_of("s3", tmp_path)
+    trip = '<trip id="8" type="car" depart="4" from="north_in" to="east_out"/></routes>'
+    edit(folder / "s3.rou.xml", "</routes>", trip)
+    assert load(folder).name == "s3"
 
 
 @pytest.fixture
