@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
 
 import typer
 
+from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.exit_status import ExitStatus
 
 if TYPE_CHECKING:
     from sim.scenario import Scenario
-    from xavi_dialogue.app.bench.figures import Report
 
 app = typer.Typer(
     name="xavi",
@@ -39,16 +39,10 @@ trace_app = typer.Typer(
     help="Look into recorded decisions.", no_args_is_help=True, rich_markup_mode=None
 )
 app.add_typer(trace_app, name="trace")
-bench_app = typer.Typer(help="Measure.", no_args_is_help=True, rich_markup_mode=None)
-app.add_typer(bench_app, name="bench")
 
 ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a folder.")]
 Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
-Scenarios = Annotated[
-    list[str] | None, typer.Option("--scenario", help="A name, or a folder; may be repeated.")
-]
-Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one per processor.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
 SessionName = Annotated[str, typer.Option(callback=_session_name, help="Name of the conversation.")]
 SpeedFactor = Annotated[
@@ -206,53 +200,6 @@ def trace_show(
     _write(shown)
 
 
-@bench_app.command("plan")
-def bench_plan(as_json: AsJson = False) -> None:
-    """Time per decision."""
-    from xavi_dialogue.app.bench.plan import measure
-
-    with _errors():
-        _report(measure(), as_json)
-
-
-@bench_app.command("drive")
-def bench_drive(
-    scenario: Scenarios = None,
-    runs: Annotated[int, typer.Option(min=1, help="How many in all.")] = 500,
-    jobs: Jobs = None,
-    as_json: AsJson = False,
-) -> None:
-    """Safety and speed of driving, beside SUMO's own driver in the same seeds."""
-    from xavi_dialogue.app.bench.drive import measure
-
-    with _errors():
-        _report(measure(_chosen(scenario), runs, _jobs(jobs), _note), as_json)
-
-
-@bench_app.command("recognise")
-def bench_recognise(
-    scenario: Scenarios = None,
-    seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 10,
-    jobs: Jobs = None,
-    as_json: AsJson = False,
-) -> None:
-    """How early, and how surely, it is known where others will go."""
-    from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
-
-    with _errors():
-        chosen = _chosen(scenario or list(SCENARIOS))
-        _report(measure(chosen, seeds, _jobs(jobs), _note), as_json)
-
-
-@bench_app.command("dialogue")
-def bench_dialogue(as_json: AsJson = False) -> None:
-    """How long answers take."""
-    from xavi_dialogue.app.bench.dialogue import measure
-
-    with _errors():
-        _report(measure(), as_json)
-
-
 def _version(wanted: bool) -> None:
     if wanted:
         from importlib.metadata import version
@@ -268,6 +215,15 @@ def _options(
     ] = False,
 ) -> None:
     pass
+
+
+def _measured(measure: Measure, as_json: bool) -> None:
+    with _errors():
+        found = measure(_note)
+    _write(_json(found) if as_json else found.table())
+
+
+app.add_typer(commands(_measured), name="bench")
 
 
 @contextlib.contextmanager
@@ -289,25 +245,6 @@ def _load(name: str) -> "Scenario":
     from sim.scenario import load
 
     return load(name)
-
-
-def _chosen(names: list[str] | None) -> list[str]:
-    """The scenarios to measure: those asked for, which must be there, or all of ours."""
-    from sim.scenario import available
-
-    for name in names or ():
-        _load(name)
-    return names or list(available())
-
-
-def _jobs(asked: int | None) -> int:
-    import os
-
-    return asked or os.cpu_count() or 1
-
-
-def _report(found: "Report", as_json: bool) -> None:
-    _write(_json(found) if as_json else found.table())
 
 
 def _seed(asked: int | None, scenario: "Scenario") -> int:

@@ -35,12 +35,7 @@ class Figures(msgspec.Struct, frozen=True):
 
     def table(self) -> str:
         """The figures for people."""
-        rows = [("", "unit", "n", "p50", "p99", "most")]
-        rows += [
-            (f.name, f.unit, str(f.n), f"{f.p50:.2f}", f"{f.p99:.2f}", f"{f.most:.2f}")
-            for f in self.figures
-        ]
-        return in_columns(rows)
+        return figures_table(self.figures)
 
 
 class Watch:
@@ -62,6 +57,15 @@ class Watch:
             figure(name, "ms", [1000.0 * one for one in taken])
             for name, taken in self.taken.items()
         )
+
+
+def figures_table(figures: Sequence[Figure]) -> str:
+    """Figures for people."""
+    rows = [("", "unit", "n", "p50", "p99", "most")]
+    rows += [
+        (f.name, f.unit, str(f.n), f"{f.p50:.2f}", f"{f.p99:.2f}", f"{f.most:.2f}") for f in figures
+    ]
+    return in_columns(rows)
 
 
 def figure(name: str, unit: str, values: Sequence[float]) -> Figure:

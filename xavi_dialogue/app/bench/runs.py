@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
+from functools import cache
 from multiprocessing import get_context
 from typing import TypeVar
 
@@ -18,7 +19,10 @@ from sim.scene import Command, Scene
 from sim.sumo import EgoGone, Simulation
 from xavi_dialogue.app.bench.watch import Drive, Observer
 from xavi_dialogue.app.ride import network_of, settings_of
+from xavi_dialogue.app.worker import warm_up
 from xavi_dialogue.dialogue.state import EPSILON
+
+WARMING = "s2"  # scenario of the decision that warms a process up
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -44,6 +48,7 @@ def run(task: tuple[str, int]) -> Run:
     """Drive a scenario (name or folder) with a seed; what goes wrong is told in the result."""
     name, seed = task
     try:
+        warm()
         scenario = load(name)
         network = network_of(scenario)
         with Simulation(scenario, seed) as world:
@@ -53,6 +58,12 @@ def run(task: tuple[str, int]) -> Run:
     except Exception as error:
         return Run(name, seed, error=f"{type(error).__name__}: {error}")
     return Run(name, seed, ours, sumo, None, decisions)
+
+
+@cache
+def warm() -> None:
+    """Decide once, the first time in a process, so that no decision is timed that compiles."""
+    warm_up(network_of(load(WARMING)))
 
 
 def by_sumo(world: Simulation, scenario: Scenario, network: Network) -> Drive:

@@ -1,0 +1,118 @@
+"""The commands of `xavi bench`; what they measure is imported when they run."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import typer
+
+if TYPE_CHECKING:
+    from xavi_dialogue.app.bench.figures import Report
+
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # is told where notes go
+Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Scenarios = Annotated[
+    list[str] | None, typer.Option("--scenario", help="A name, or a folder; may be repeated.")
+]
+Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one per processor.")]
+
+
+def commands(show: Show) -> typer.Typer:
+    """The group of commands.
+
+    Args:
+        show: runs a measurement and prints what it found.
+    """
+    group = typer.Typer(help="Measure.", no_args_is_help=True, rich_markup_mode=None)
+
+    @group.command("plan")
+    def _plan(
+        hours: Annotated[float, typer.Option(min=0.0, help="Simulated, for the memory.")] = 0.0,
+        plot: Annotated[Path | None, typer.Option(help="Write growth there as SVG.")] = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """Time per decision, how it grows, time to start, memory."""
+        show(lambda _: plan(hours, plot), as_json)
+
+    @group.command("drive")
+    def _drive(
+        scenario: Scenarios = None,
+        runs: Annotated[int, typer.Option(min=1, help="How many in all.")] = 500,
+        jobs: Jobs = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """Safety and speed of driving, beside SUMO's own driver in the same seeds."""
+        show(lambda note: drive(scenario, runs, jobs, note), as_json)
+
+    @group.command("recognise")
+    def _recognise(
+        scenario: Scenarios = None,
+        seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 10,
+        jobs: Jobs = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """How early, and how surely, it is known where others will go."""
+        show(lambda note: recognise(scenario, seeds, jobs, note), as_json)
+
+    @group.command("dialogue")
+    def _dialogue(as_json: AsJson = False) -> None:
+        """How long answers take."""
+        show(lambda _: dialogue(), as_json)
+
+    return group
+
+
+def plan(hours: float, plot: Path | None) -> "Report":
+    """Measure planning, and draw its growth."""
+    from xavi_dialogue.app.bench.plan import measure
+
+    found = measure(hours)
+    if plot is not None:
+        plot.write_text(found.plot(), encoding="utf-8")
+    return found
+
+
+def drive(
+    scenarios: list[str] | None, runs: int, jobs: int | None, note: Callable[[str], None]
+) -> "Report":
+    """Measure driving in scenarios, or in all of ours."""
+    from sim.scenario import available
+    from xavi_dialogue.app.bench.drive import measure
+
+    return measure(_there(scenarios or list(available())), runs, _processes(jobs), note)
+
+
+def recognise(
+    scenarios: list[str] | None, seeds: int, jobs: int | None, note: Callable[[str], None]
+) -> "Report":
+    """Measure recognition in scenarios, or in those where others have a choice."""
+    from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
+
+    return measure(_there(scenarios or list(SCENARIOS)), seeds, _processes(jobs), note)
+
+
+def dialogue() -> "Report":
+    """Measure answers."""
+    from xavi_dialogue.app.bench.dialogue import measure
+
+    return measure()
+
+
+def _there(names: list[str]) -> list[str]:
+    """The scenarios, each of which can be loaded.
+
+    Raises:
+        ScenarioError: one cannot.
+    """
+    from sim.scenario import load
+
+    for name in names:
+        load(name)
+    return names
+
+
+def _processes(asked: int | None) -> int:
+    return asked or os.cpu_count() or 1
