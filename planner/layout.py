@@ -107,14 +107,15 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
         link = inside or _link_between(roads, lanes, k)
         if link is None:
             return
-        ahead = len(link.via) - link.via.index(lanes[k]) if inside else len(link.via) + 1
+        gone = link.via.index(lanes[k]) if inside else -1  # lanes of the link passed already
+        ahead = len(link.via) - gone
         out = begins[min(k + ahead, len(lanes) - 1)]
         enter = 0.0 if inside else begins[k] + network.lanes[lanes[k]].length
         if not inside and link.via:
             enter = begins[k + 1]
         waits = link.waits_inside and len(link.via) > 1
-        line = begins[k + ahead - len(link.via) + 1] if waits else enter
-        due = link.yields_to and (not inside or (waits and lanes[k] == link.via[0]))
+        line = begins[k + 1 - gone] if waits and gone <= 1 else enter
+        due = link.yields_to and (not inside or (waits and gone <= 1))
         yield Crossing(
             link,
             enter,
