@@ -5,6 +5,7 @@ The one error is TableError, which names file, vehicle, problem and remedy.
 
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
 from itertools import pairwise
 from pathlib import Path
 
@@ -91,6 +92,12 @@ def one_of(names: Iterable[str]) -> str:
     """A remedy: what there is to choose from."""
     listed = ", ".join(sorted(names))
     return f"choose one of {listed}" if listed else "there is none to choose"
+
+
+def near(name: str, names: Iterable[str]) -> str:
+    """A remedy: what there is to choose from that is spelt much the same, or else all."""
+    listed = sorted(names)
+    return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed)
 
 
 def _followers(network: Network) -> dict[str, set[str]]:

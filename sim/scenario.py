@@ -6,20 +6,23 @@ Errors:
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
 """
 
+import xml.etree.ElementTree as ET
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 
 from sim import routes
-from sim.checks import check_routes, check_starts, edges_of, one_of
+from sim.checks import check_routes, check_starts, edges_of, near, one_of
 from sim.netconvert import NetconvertError, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
+from sim.opendrive import conversion_warnings
 from sim.routes import RoutesError, Spawn
 from sim.tables import Table, TableError, read_toml
 
 CONFIG = "scenario.toml"
+OPENDRIVE = ".xodr"
 VIEW_RADIUS = 100.0  # [m]
 
 _KEYS = ("name", "description", "network", "routes", "ego", "step", "duration")
@@ -74,6 +77,7 @@ class Scenario:
     goal: Goal
     spawn: Spawn | None
     priority: Mapping[str, int]  # by edge
+    warnings: tuple[str, ...] = ()  # what looks wrong in it, in sentences
 
 
 def available() -> tuple[str, ...]:
@@ -116,8 +120,7 @@ def _read(folder: Path) -> Scenario:
         spawn=_spawn(top.table("spawn")) if "spawn" in top.values else None,
         priority=priorities,
     )
-    _check(scenario, top)
-    return scenario
+    return replace(scenario, warnings=_check(scenario, top))
 
 
 def _folder(name_or_path: str | Path) -> Path:
@@ -149,7 +152,7 @@ def _spawn(table: Table) -> Spawn:
 
 def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path:
     path = top.path("network", folder)
-    if path.suffix != ".xodr":
+    if path.suffix != OPENDRIVE:
         if priority:
             remedy = "remove it: the right of way of a SUMO net is part of the net"
             raise top.wrong("priority", "only for OpenDRIVE networks", remedy)
@@ -159,14 +162,14 @@ def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path
         edges = edges_of(read_network(net))
         for edge in priority:
             if edge not in edges:
-                raise top.wrong(f"priority.{edge}", "there is no such edge", one_of(edges))
+                raise top.wrong(f"priority.{edge}", "there is no such edge", near(edge, edges))
         return opendrive_net(path, priority) if priority else net
     except (NetconvertError, NetworkError) as error:
         raise top.wrong("network", f"cannot convert {path}", str(error)) from error
 
 
-def _check(scenario: Scenario, top: Table) -> None:
-    """Whether the files agree with one another."""
+def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
+    """Whether the files agree with one another; returns what may be wrong."""
     try:
         network = read_network(scenario.network)
     except NetworkError as error:
@@ -185,6 +188,10 @@ def _check(scenario: Scenario, top: Table) -> None:
     check_starts(scenario.routes, departures, network, scenario.ego, scenario.spawn)
     start = next(x.edges[0] for x in departures if x.id == scenario.ego)
     _check_goal(scenario.goal, top, network, edges, start)
+    source = scenario.folder / top.text("network")
+    if source.suffix != OPENDRIVE:
+        return ()
+    return conversion_warnings(ET.parse(source).getroot(), network, start, scenario.priority)
 
 
 def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start: str) -> None:

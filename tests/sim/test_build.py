@@ -8,8 +8,15 @@ from sim.netconvert import ConversionFailed, compile_plain
 from sim.scenario import available, load
 from tests.sim.folders import copy_of, edit
 
+PLAIN = [name for name in available() if (load(name).folder / f"{name}.nod.xml").is_file()]
 
-@pytest.mark.parametrize("name", available())
+
+def test_all_nets_but_those_of_maps_have_sources() -> None:
+    maps = {name for name in available() if load(name).network.parent != load(name).folder}
+    assert set(available()) - set(PLAIN) == maps
+
+
+@pytest.mark.parametrize("name", PLAIN)
 def test_compiling_again_gives_the_same_net(name: str, tmp_path: Path) -> None:
     target = tmp_path / "built.net.xml"
     scenario = load(name)
