@@ -159,10 +159,11 @@ def onward(
 ) -> tuple[str, ...]:
     """Extend connected lanes to `reach` [m] in all, as far as the road goes.
 
-    The way goes straight on where that is possible; with a goal, it leads there.
+    The way goes straight on where that is possible; with a goal, it leads there. Lanes that end
+    inside a junction are left as they are: `rest_of` completes them.
     """
     network = roads.network
-    row = [*lanes, *rest_of(network, lanes[-1])]
+    row = [*lanes]
     total = sum(network.lanes[lane].length for lane in row)
     while total < reach:
         link = _next(roads, row[-1], goal)

@@ -255,7 +255,7 @@ def _curvature(heading: Array, arc: Array) -> Array:
     """
     n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
     total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
-    result = np.zeros(n)
+    result: Array = np.zeros(n)
     open_ = np.ones(n, dtype=np.bool_)
     for window in WINDOWS:
         low = np.maximum(np.arange(n) - window, 0)
@@ -264,7 +264,9 @@ def _curvature(heading: Array, arc: Array) -> Array:
         turn = heading[high] - heading[low]
         bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
         open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
-        result = np.where(open_, turn / width, result)
+        wider = turn / width
+        gentler = open_ & (np.abs(wider) < np.abs(result))
+        result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
     return result
 
 
