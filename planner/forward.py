@@ -84,6 +84,7 @@ def drive(
     traffic: Traffic,
     size: tuple[float, float],
     horizon: int,
+    pace: float = math.inf,
 ) -> Drive:
     """Drive an action plan until it ends.
 
@@ -94,10 +95,11 @@ def drive(
         traffic: the other vehicles, in the common time base.
         size: length and width [m] of the vehicle.
         horizon: the last step.
+        pace: [m/s] faster than which it does not want to drive.
     """
     others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
     motion, held, finished, goal_time = driving.drive(
-        Lane(plan.path).caps,
+        np.minimum(Lane(plan.path).caps, pace),
         plan.stops,
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),

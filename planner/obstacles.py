@@ -1,7 +1,7 @@
 """Other vehicles as moving obstacles, and the stretches of a path that they occupy in time."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,6 +52,10 @@ class Traffic:
             np.array([(o.length, o.width) for o in obstacles]).reshape(-1, 2),
             tuple(obstacle.links for obstacle in obstacles),
         )
+
+    def since(self, step: int) -> "Traffic":
+        """The same motions, with a later step as step 0."""
+        return replace(self, states=np.ascontiguousarray(self.states[:, step:]))
 
 
 NOBODY = Traffic.of(())

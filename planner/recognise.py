@@ -1,9 +1,7 @@
-"""Goal recognition by inverse planning.
+"""Goal recognition by inverse planning: what the other vehicles may be up to, and how likely.
 
-A goal is the more probable, the less the observed track costs in excess of the best way to it:
-p(goal | track) ~ p(goal) exp(-beta (cost of the track and the best way on - cost of the best way
-from its start)), as in IGP2 (Albrecht et al. 2021, Equations 6 and 7). Costs are seconds. A small
-share of drivers is taken to drive for reasons that we do not see, whatever their goal.
+For every goal in view, the best ways there are planned; how well it explains what was seen so
+far tells `planner.likelihood`.
 """
 
 import math
@@ -13,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.actions import COMFORT, ActionPlan, Situation, Stop
-from planner.astar import LANE_CHANGE_COST, SLOW, SOLUTIONS, Solution, ways
+from planner.astar import SOLUTIONS, Solution, ways
 from planner.forward import DT, Motion, drive
-from planner.goals import PLACES, Goal, goals_in_view, stopping_time
-from planner.kernels.driving import ACCELERATION
+from planner.goals import PLACES, Goal, goals_in_view
+from planner.likelihood import likelihoods
 from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.rollout import Leg, Task
 from planner.routes import onward
@@ -25,9 +23,6 @@ from planner.tracks import Observed, aligned, coast, drive_on, links_of, sample_
 from planner.trajectory import Roads
 
 NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped
-UNEXPLAINED = 0.03  # share of drivers whose track says nothing of their goal
-NO_WAY = 30.0  # [s] in excess for a goal to which no way is found any more
-CLUTCH = 0.3  # [m] of sideways movement that is not taken for one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,8 +49,7 @@ class _Way:
     """One way on from now."""
 
     cost: float  # [s]
-    waiting: float  # [s] of it
-    waits_now: bool
+    waiting: float  # [s] of it, for others
     actions: tuple[Action, ...]
     motion: Obstacle
 
@@ -112,10 +106,16 @@ def _beliefs(
     goals = goals_in_view(roads, starts, settings.view_radius)
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
-    frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True)
+    pace = observed.pace
+    frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True, pace=pace)
     now = Traffic.of([other.now for other in others])
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
-    likelihood = _likelihoods(frame, observed, goals, onwards, others, settings)
+    left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
+    likelihood = (
+        likelihoods(frame, observed, goals, left, _before(frame, observed, others), settings)
+        if settings.recognition
+        else [0.0 if driving is None else 1.0 for driving in left]
+    )
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
     if sum(weights) == 0.0:
         return _unknown(roads, observed, steps)
@@ -127,39 +127,19 @@ def _beliefs(
     )
 
 
+def _before(frame: Task, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
+    """The others from the first sample of a track on."""
+    horizon = frame.horizon + observed.elapsed
+    return Traffic.of(
+        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others]
+    )
+
+
 def _unknown(roads: Roads, observed: Observed, steps: int) -> tuple[Belief, ...]:
     """A vehicle for which no goal makes sense: it is taken to go on as it does."""
     goal = Goal("continue", PLACES["continue"], None, 1.0)
     motion = coast(roads, observed, steps, past=False)
     return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), motion),)),)
-
-
-def _likelihoods(
-    frame: Task,
-    observed: Observed,
-    goals: Sequence[Goal],
-    onwards: Sequence[list[_Way]],
-    others: Sequence[_Coasting],
-    settings: Settings,
-) -> list[float]:
-    """How well each goal explains the track, relative to the one that does so best."""
-    if not settings.recognition:
-        return [1.0 if onward else 0.0 for onward in onwards]
-    horizon = frame.horizon + observed.elapsed
-    before = Traffic.of(
-        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others]
-    )
-    excess = [
-        _excess(frame, observed, goal, onward, before)
-        for goal, onward in zip(goals, onwards, strict=True)
-    ]
-    best = min(excess)
-    return [
-        (1.0 - UNEXPLAINED) * math.exp(-settings.rationality * (e - best)) + UNEXPLAINED
-        if onward
-        else 0.0
-        for e, onward in zip(excess, onwards, strict=True)
-    ]
 
 
 def _ways_on(
@@ -177,7 +157,6 @@ def _ways_on(
         _Way(
             solution.cost,
             len(solution.waits) * DT,
-            0 in solution.waits,
             solution.actions,
             _motion(task, solution, observed, others),
         )
@@ -190,7 +169,7 @@ def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic)
     legs = solution.legs
     first = legs[-1].first + len(legs[-1].speed) - 1
     position, heading, speed, lanes = drive_on(
-        task.roads, legs[-1].end, first, others, task.size, task.horizon
+        task.roads, legs[-1].end, first, others, task.size, task.horizon, task.pace
     )
     driven = [leg.position[1:] for leg in legs]
     return Obstacle(
@@ -224,71 +203,7 @@ def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic)
         np.concatenate((speed, np.zeros(rest))),
         links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
     )
-    return [_Way(here.speed / COMFORT, 0.0, False, ("stop",), motion)]
-
-
-def _excess(
-    frame: Task,
-    observed: Observed,
-    goal: Goal,
-    onwards: list[_Way],
-    before: Traffic,
-) -> float:
-    """By how much [s] the track and the best way on cost more than the best way from its start.
-
-    Waiting for others is never held against a goal: some take a gap that others let pass.
-    """
-    if not onwards:
-        return NO_WAY
-    if goal.target is None:
-        return _stop_excess(frame, observed)
-    start = frame.start - observed.elapsed * DT
-    task = replace(frame, goal=goal.target, start=start, horizon=frame.horizon + observed.elapsed)
-    then = observed.situation(frame.roads, 0, start)
-    best = ways(task, then, before, 1) or ways(task, then, NOBODY, 1)
-    if not best:
-        return NO_WAY
-    spent = observed.elapsed * DT + LANE_CHANGE_COST * _sideways(frame.roads, observed)
-    if onwards[0].waits_now:
-        spent -= _standing(observed)
-    usual = best[0].cost - len(best[0].waits) * DT
-    return max(spent + onwards[0].cost - onwards[0].waiting - usual, 0.0)
-
-
-def _standing(observed: Observed) -> float:
-    """For how long [s] the vehicle has been all but standing up to now."""
-    driving = np.flatnonzero(observed.speed >= SLOW)
-    return (observed.elapsed - int(driving[-1]) if len(driving) else observed.elapsed) * DT
-
-
-def _stop_excess(frame: Task, observed: Observed) -> float:
-    """The same for stopping where the vehicle would now come to rest."""
-    moving = np.flatnonzero(observed.speed > 0.1)
-    until = int(moving[-1]) if len(moving) else 0
-    rest = float(observed.speed[-1])
-    steps = np.hypot(*np.diff(observed.position, axis=0).T)
-    distance = float(np.sum(steps)) + rest**2 / (2.0 * COMFORT)
-    limit = max(frame.roads.fastest, float(np.max(observed.speed)))
-    best = stopping_time(distance, float(observed.speed[0]), limit, ACCELERATION, COMFORT)
-    return max(until * DT + rest / COMFORT - best, 0.0)
-
-
-def _sideways(roads: Roads, observed: Observed) -> float:
-    """By how many lane widths the vehicle moved sideways on its present edge."""
-    edge, last, moved = None, 0.0, 0.0
-    for sample in range(0, len(observed.speed), 2):
-        position = (float(observed.position[sample, 0]), float(observed.position[sample, 1]))
-        found = roads.network.locate(position, float(observed.heading[sample]))
-        lane = roads.network.lanes[found[0].lane] if found else None
-        if lane is None or lane.internal:
-            continue
-        across = lane.index * lane.width + found[0].lateral
-        if lane.edge != edge:
-            edge, last, moved = lane.edge, across, 0.0
-        elif abs(across - last) > CLUTCH:
-            moved += abs(across - last) / lane.width
-            last = across
-    return moved
+    return [_Way(here.speed / COMFORT, 0.0, ("stop",), motion)]
 
 
 def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:

@@ -1,5 +1,6 @@
 """Rollouts: the ego takes macro actions in turn while the others follow sampled trajectories."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -29,6 +30,7 @@ class Task:
     horizon: int  # last step
     view: float  # [m]
     yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
+    pace: float = math.inf  # [m/s] faster than which it does not want to drive
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,7 +62,11 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
         first: the step at which it is there.
         traffic: the others' sampled motions.
     """
-    return _leg(task, plan, drive(plan, motion, first, traffic, task.size, task.horizon), traffic)
+    return _leg(task, plan, _drive(task, plan, motion, first, traffic), traffic)
+
+
+def _drive(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Drive:
+    return drive(plan, motion, first, traffic, task.size, task.horizon, task.pace)
 
 
 def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:

@@ -17,6 +17,9 @@ from sim.network import Location
 from sim.scene import Point
 
 TREND = 5  # steps over which a change of speed is read off a track
+STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
+RIPPLE = 0.5  # [m/s] by which a steady speed varies
+LEAST_PACE = 4.0  # [m/s] below which nobody wants to drive for long
 AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
 
@@ -36,6 +39,17 @@ class Observed:
     def elapsed(self) -> int:
         """Steps from the first sample to now."""
         return len(self.speed) - 1
+
+    @property
+    def pace(self) -> float:
+        """The speed [m/s] faster than which it does not seem to want to drive; often infinite.
+
+        Who has driven steadily for a while, and never faster, has got to the speed it wants.
+        """
+        lately = self.speed[-STEADY:]
+        if self.elapsed < STEADY or float(np.ptp(lately)) > RIPPLE or lately[-1] < LEAST_PACE:
+            return math.inf
+        return float(np.max(self.speed)) + RIPPLE
 
     def situation(self, roads: Roads, sample: int, time: float) -> tuple[Situation, ...]:
         """Where it may have been at a sample: one entry for each lane that fits."""
@@ -141,6 +155,7 @@ def drive_on(
     traffic: Traffic,
     size: tuple[float, float],
     horizon: int,
+    pace: float = math.inf,
 ) -> tuple[Array, Array, Array, tuple[str, ...]]:
     """Follow the road until the horizon, or out of the network.
 
@@ -153,7 +168,7 @@ def drive_on(
     path = roads.path(row, here.position, here.heading, 12.0, reach)
     plan = ActionPlan("continue", path, (LaneFollow(0.0, path.length),), path.length, np.inf, None)
     start = Motion(0.0, here.speed, here.acceleration)
-    driven = drive(plan, start, first, traffic, size, horizon)
+    driven = drive(plan, start, first, traffic, size, horizon, pace)
     arcs, speed = driven.motion[1:, 0], driven.motion[1:, 1]
     position, heading = sample_path(path, arcs, size[0])
     missing = horizon - first - len(arcs)
