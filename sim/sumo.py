@@ -34,6 +34,9 @@ KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
 FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
 SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
 
+THIN = 0.01  # [m]
+BESIDE = 0.5  # [m] from the edge of its lane at which the ego may cross it in the coming step
+
 _running = False  # libsumo is one per process: a second start would silently replace the first
 
 Value = TypeVar("Value")
@@ -201,9 +204,23 @@ class Simulation:
             self._call(vehicle.setLaneChangeMode, ego, FREE_LANES)
             self._commanded = True
         (x, y), angle = command.position, 90.0 - math.degrees(command.heading)
+        self._call(vehicle.setWidth, ego, self._width_to_show())
         self._call(vehicle.setPreviousSpeed, ego, command.speed)
         self._call(vehicle.moveToXY, ego, "", -1, x, y, angle, KEEP_EXACT_PLACE)
         self._call(vehicle.setSpeed, ego, command.speed)
+
+    def _width_to_show(self) -> float:
+        """The ego's width [m] as SUMO is to know it in the coming step.
+
+        Where the ego crosses into a lane, SUMO would note that it overlaps the one it comes
+        from, and never strike that out: whoever it passes there would brake hard.
+        """
+        vehicle, ego = self._sumo.vehicle, self._scenario.ego
+        lane: str = self._call(vehicle.getLaneID, ego)
+        aside = abs(self._call(vehicle.getLateralLanePosition, ego))
+        half = self._call(self._sumo.lane.getWidth, lane) / 2.0 if lane else math.inf
+        width = self._scene.ego.width
+        return THIN if aside + width / 2.0 > half - BESIDE else width
 
     def _release(self) -> None:
         """Give the ego back to SUMO after commands."""
@@ -212,6 +229,7 @@ class Simulation:
             self._call(vehicle.setSpeedMode, ego, SUMO_SPEED)
             self._call(vehicle.setLaneChangeMode, ego, SUMO_LANES)
             self._call(vehicle.setSpeed, ego, -1.0)
+            self._call(vehicle.setWidth, ego, self._scene.ego.width)
             self._commanded = False
 
     def _look(self, ego_acceleration: float | None) -> Scene:
@@ -224,7 +242,8 @@ class Simulation:
         states = {vehicle: self._state(vehicle) for vehicle in ids}
         ego = states[self._scenario.ego]
         if ego_acceleration is not None:
-            ego = replace(ego, acceleration=ego_acceleration)
+            width = self._scene.ego.width
+            ego = replace(ego, acceleration=ego_acceleration, width=width)
             states[self._scenario.ego] = ego
         radius = self._scenario.view_radius
         self._near = {
@@ -262,7 +281,8 @@ class Simulation:
 
     def _colour(self, vehicle: str) -> str | None:
         """SUMO paints a vehicle yellow where nobody said how: then its colour is unknown."""
-        kind = self._call(self._sumo.vehicle.getTypeID, vehicle)
+        # A vehicle whose width was set has a type of its own, named after both.
+        kind = self._call(self._sumo.vehicle.getTypeID, vehicle).removesuffix(f"@{vehicle}")
         if vehicle in self._coloured:
             rgb = self._call(self._sumo.vehicle.getColor, vehicle)
         elif kind in self._coloured_types:

@@ -95,6 +95,45 @@ def test_the_ego_takes_exactly_the_pose_it_is_given() -> None:
     assert network.locate(ego.position, ego.heading)[0].lane == "exit_s_0"
 
 
+TWO = """<routes>
+  <vType id="slow" length="4.8" width="1.8" maxSpeed="12" sigma="0" speedFactor="1" speedDev="0"/>
+  <vType id="fast" length="4.8" width="1.8" color="white"/>
+  <vehicle id="ego" type="fast" depart="0" departLane="{ego}" departPos="60" departSpeed="12">
+    <route edges="road exit_lane road_on"/></vehicle>
+  <vehicle id="1" type="slow" depart="0" departLane="0" departPos="90" departSpeed="12">
+    <route edges="road exit_lane road_on"/></vehicle>
+</routes>"""
+
+
+def speeds_of_the_other(tmp_path: Path, lane: int, shift: float, since: float) -> list[float]:
+    """Speeds of vehicle 1, which the ego passes at 5 s; it moves `shift` m to the left in 4 s."""
+    routes = tmp_path / "two.rou.xml"
+    routes.write_text(TWO.format(ego=lane))
+    speeds = []
+    with Simulation(dataclasses.replace(load("motorway"), routes=routes, spawn=None), 0) as world:
+        (x, start) = world.scene().ego.position
+        y = start
+        for k in range(1, 100):
+            share = min(max((0.1 * k - since) / 4.0, 0.0), 1.0)
+            aside = start + shift * share**2 * (3.0 - 2.0 * share)
+            heading = math.atan2(aside - y, 1.8)
+            x, y = x + 1.8, aside
+            scene = world.step(Command((x, y), heading, 18.0))
+            speeds.append(scene.vehicles[1].speed)
+            assert (scene.ego.width, scene.ego.colour) == (1.8, "white")
+        assert world.scene().ego.position[0] > world.scene().vehicles[1].position[0] + 10.0
+        assert world.step(None).ego.width == 1.8
+    return speeds
+
+
+def test_nobody_brakes_for_the_ego_that_overtakes(tmp_path: Path) -> None:
+    assert min(speeds_of_the_other(tmp_path, lane=0, shift=3.75, since=1.0)) > 11.9
+
+
+def test_others_brake_for_the_ego_that_cuts_in(tmp_path: Path) -> None:
+    assert min(speeds_of_the_other(tmp_path, lane=1, shift=-3.75, since=4.5)) < 11.0
+
+
 def test_the_ego_can_be_given_back_to_sumo() -> None:
     with Simulation(S1, 0) as world:
         ego = world.scene().ego
