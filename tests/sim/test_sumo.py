@@ -105,33 +105,39 @@ TWO = """<routes>
 </routes>"""
 
 
-def speeds_of_the_other(tmp_path: Path, lane: int, shift: float, since: float) -> list[float]:
-    """Speeds of vehicle 1, which the ego passes at 5 s; it moves `shift` m to the left in 4 s."""
+def speeds_of_the_other(
+    tmp_path: Path, lane: int, shift: float, since: float, later: float
+) -> list[float]:
+    """Speeds of vehicle 1, which the ego passes at 5 s.
+
+    The ego moves `shift` m to the left in 4 s, and has the speed `later` [m/s] from 8 s on.
+    """
     routes = tmp_path / "two.rou.xml"
     routes.write_text(TWO.format(ego=lane))
     speeds = []
     with Simulation(dataclasses.replace(load("motorway"), routes=routes, spawn=None), 0) as world:
         (x, start) = world.scene().ego.position
         y = start
-        for k in range(1, 100):
+        for k in range(1, 140):
             share = min(max((0.1 * k - since) / 4.0, 0.0), 1.0)
             aside = start + shift * share**2 * (3.0 - 2.0 * share)
-            heading = math.atan2(aside - y, 1.8)
-            x, y = x + 1.8, aside
-            scene = world.step(Command((x, y), heading, 18.0))
+            speed = 18.0 if k < 80 else later
+            heading = math.atan2(aside - y, 0.1 * speed)
+            x, y = x + 0.1 * speed, aside
+            scene = world.step(Command((x, y), heading, speed))
             speeds.append(scene.vehicles[1].speed)
             assert (scene.ego.width, scene.ego.colour) == (1.8, "white")
-        assert world.scene().ego.position[0] > world.scene().vehicles[1].position[0] + 10.0
+        assert world.scene().ego.position[0] > world.scene().vehicles[1].position[0]
         assert world.step(None).ego.width == 1.8
     return speeds
 
 
 def test_nobody_brakes_for_the_ego_that_overtakes(tmp_path: Path) -> None:
-    assert min(speeds_of_the_other(tmp_path, lane=0, shift=3.75, since=1.0)) > 11.9
+    assert min(speeds_of_the_other(tmp_path, lane=0, shift=3.75, since=1.0, later=18.0)) > 11.9
 
 
 def test_others_brake_for_the_ego_that_cuts_in(tmp_path: Path) -> None:
-    assert min(speeds_of_the_other(tmp_path, lane=1, shift=-3.75, since=4.5)) < 11.0
+    assert min(speeds_of_the_other(tmp_path, lane=1, shift=-3.75, since=4.5, later=8.0)) < 11.0
 
 
 def test_the_ego_can_be_given_back_to_sumo() -> None:
