@@ -86,6 +86,21 @@ def available() -> tuple[str, ...]:
     return tuple(sorted(x.name for x in root.iterdir() if x.joinpath(CONFIG).is_file()))
 
 
+def descriptions() -> dict[str, str]:
+    """What the scenarios that come with the package show, by name.
+
+    Unlike `load` it needs no netconvert, as it leaves their networks alone.
+
+    Raises:
+        ScenarioInvalid: a scenario.toml lacks its description.
+    """
+    try:
+        found = {name: read_toml(_folder(name) / CONFIG) for name in available()}
+        return {name: table.text("description") for name, table in found.items()}
+    except TableError as error:
+        raise ScenarioInvalid(str(error)) from error
+
+
 def load(name_or_path: str | Path) -> Scenario:
     """Read and check a scenario by its name or its folder.
 

@@ -9,7 +9,14 @@ import pytest
 from sim import netconvert
 from sim.netfile import read_network
 from sim.routes import Spawn
-from sim.scenario import Goal, ScenarioInvalid, ScenarioNotFound, available, load
+from sim.scenario import (
+    Goal,
+    ScenarioInvalid,
+    ScenarioNotFound,
+    available,
+    descriptions,
+    load,
+)
 from tests.sim.folders import copy_of, edit
 
 
@@ -17,6 +24,17 @@ def test_shipped_scenarios_load_by_name() -> None:
     assert {"s1", "s2"} <= set(available())
     for name in available():
         assert load(name).name == name
+
+
+def test_scenarios_are_described_without_netconvert(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    found = descriptions()
+    assert tuple(found) == available()
+    assert found["s1"] == load("s1").description
 
 
 def test_what_is_read() -> None:
