@@ -187,7 +187,5 @@ def test_the_queue_of_s4_dissolves_once_vehicle_2_has_turned(seed: int) -> None:
 def test_the_ego_of_the_bend_goes_after_vehicle_1(seed: int) -> None:
     """Only with the right of way that the map states, and its conversion lost."""
     scenes = scenes_by_sumo(load("bend"), seed, 20.0)
-    slowest = min(scene.ego.speed for scene in scenes)
-    assert slowest < 9.0
     crossed = next(x for x in scenes if x.ego.position[0] < 0.0)
     assert crossed.vehicles[1].position[0] < crossed.ego.position[0] - 2.0
