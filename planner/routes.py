@@ -159,11 +159,10 @@ def onward(
 ) -> tuple[str, ...]:
     """Extend connected lanes to `reach` [m] in all, as far as the road goes.
 
-    The way goes straight on where that is possible; with a goal, it leads there. Lanes that end
-    inside a junction are left as they are: `rest_of` completes them.
+    The way goes straight on where that is possible; with a goal, it leads there.
     """
     network = roads.network
-    row = [*lanes]
+    row = [*lanes, *rest_of(network, lanes[-1])]
     total = sum(network.lanes[lane].length for lane in row)
     while total < reach:
         link = _next(roads, row[-1], goal)

@@ -81,7 +81,10 @@ def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, .
 
 def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
     """The links, as (junction, index), that a row of lanes drives along."""
-    links = (roads.network.link_via(lane) for lane in lanes)
+    network = roads.network
+    links = [network.link_via(lane) for lane in lanes]
+    for lane, after in itertools.pairwise(lanes):  # links without a lane of their own
+        links += [x for x in network.links_from(lane) if not x.via and x.to_lane == after]
     return frozenset((link.junction, link.index) for link in links if link is not None)
 
 
