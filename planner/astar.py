@@ -77,6 +77,36 @@ def ways(task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int)
     return found
 
 
+def held(
+    task: Task, starts: Sequence[Situation], actions: Sequence[Action], traffic: Traffic
+) -> tuple[Leg, ...]:
+    """The actions in turn, as far as others let it drive; () where the first one cannot be done.
+
+    Args:
+        task: frame; its size is that of the vehicle.
+        starts: where it may be; the first from which the actions apply counts.
+        actions: what it does.
+        traffic: the others' motions.
+    """
+    for start in starts:
+        legs: list[Leg] = []
+        here, first = start, 0
+        for action in actions:
+            plan = expand(task.roads, here, action, task.goal, task.view)
+            if isinstance(plan, Refusal):
+                break
+            leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
+            if leg.outcome == "collision":
+                break
+            legs.append(leg)
+            here, first = leg.end, leg.first + len(leg.speed) - 1
+            if leg.outcome is not None:
+                break
+        if legs:
+            return tuple(legs)
+    return ()
+
+
 def _expand(task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic) -> list[Leg]:
     if len(legs) >= DEPTH:
         return []

@@ -3,7 +3,7 @@
 import math
 
 from planner.layout import CLEAR, COMFORT, FAR, STRAIGHTEN, Layout, finish, lookahead
-from planner.manoeuvres import ActionPlan, GiveWay, LaneFollow, Situation, Stop
+from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LaneFollow, Situation, Stop
 from planner.routes import (
     Refusal,
     direction_of,
@@ -61,7 +61,7 @@ def follow_on(
         if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
             return halt
     way = Layout.of(roads, here, tuple(lanes), goal)
-    waits = tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay))
+    waits = tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear))
     end = max(min(end, FAR, way.path.length), 0.1)
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
 

@@ -104,6 +104,7 @@ def drive(
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
         _lines(plan),
+        _rooms(plan),
         others.firsts(line.yields_to for line in plan.give_ways),
         (float(start.arc), float(start.speed), float(start.acceleration)),
         first,
@@ -153,6 +154,7 @@ def accelerate(
         lane.caps,
         plan.stops,
         _lines(plan),
+        _rooms(plan),
         (float(motion.arc), float(motion.speed), float(motion.acceleration)),
         0,
         seen.stretches,
@@ -172,6 +174,11 @@ def accelerate(
 def _lines(plan: ActionPlan) -> Array:
     """Where to give way [L, 2]: arcs [m] of the waiting line and of the end of the junction."""
     return np.array([(line.stop, line.clear) for line in plan.give_ways]).reshape(-1, 2)
+
+
+def _rooms(plan: ActionPlan) -> Array:
+    """Where to keep clear [K, 2]: arcs [m] before and after the junctions."""
+    return np.array([(room.stop, room.out) for room in plan.keep_clears]).reshape(-1, 2)
 
 
 def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:

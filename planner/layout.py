@@ -3,7 +3,15 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.manoeuvres import ActionPlan, GiveWay, LaneFollow, Manoeuvre, Situation, Turn
+from planner.manoeuvres import (
+    ActionPlan,
+    GiveWay,
+    KeepClear,
+    LaneFollow,
+    Manoeuvre,
+    Situation,
+    Turn,
+)
 from planner.routes import direction_of, lane_end, onward
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Path, Roads
@@ -60,6 +68,8 @@ class Layout:
         for x in self.crossings:
             if x.turns and not x.inside:
                 found.append(LaneFollow(at, x.enter))
+            if x.link.foes and not x.inside:
+                found.append(KeepClear(x.enter - BEFORE_LINE, x.out))
             if x.line is not None:
                 foes = frozenset((x.link.junction, index) for index in x.link.yields_to)
                 found.append(GiveWay(x.line, x.out, x.link, foes))

@@ -36,6 +36,14 @@ class GiveWay:
 
 
 @dataclass(frozen=True, slots=True)
+class KeepClear:
+    """Wait before a junction that others cross until there is room beyond it."""
+
+    stop: float  # [m] arc at which to wait, for the front bumper
+    out: float  # [m] arc at which the junction is left
+
+
+@dataclass(frozen=True, slots=True)
 class Turn:
     """Cross a junction along a link."""
 
@@ -51,7 +59,7 @@ class Stop:
     start: float  # [m] arc
 
 
-Manoeuvre = LaneFollow | LaneChange | GiveWay | Turn | Stop
+Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | Turn | Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +89,11 @@ class ActionPlan:
     def give_ways(self) -> tuple[GiveWay, ...]:
         """The lines at which this action may have to wait."""
         return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
+
+    @property
+    def keep_clears(self) -> tuple[KeepClear, ...]:
+        """The junctions that this action must not block."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, KeepClear))
 
     @property
     def stops(self) -> bool:

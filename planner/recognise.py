@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.actions import COMFORT, ActionPlan, Situation, Stop
-from planner.astar import SOLUTIONS, Solution, ways
+from planner.astar import SOLUTIONS, Solution, held, ways
 from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.likelihood import likelihoods
@@ -152,7 +152,9 @@ def _ways_on(
     if goal.target is None:
         return _stopping(frame, starts[0], observed, others)
     task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others, SOLUTIONS) or ways(task, starts, NOBODY, 1)
+    solutions = ways(task, starts, others, SOLUTIONS)
+    if not solutions:
+        return _held_up(task, starts, observed, others)
     return [
         _Way(
             solution.cost,
@@ -162,6 +164,18 @@ def _ways_on(
         )
         for solution in solutions
     ]
+
+
+def _held_up(
+    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Traffic
+) -> list[_Way]:
+    """The best way to a goal that others keep it from, as far as they let it drive."""
+    found = []
+    for free in ways(task, starts, NOBODY, 1):
+        legs = held(task, starts, free.actions, others) or free.legs
+        motion = _motion(task, Solution(free.cost, legs), observed, others)
+        found.append(_Way(free.cost, 0.0, free.actions, motion))
+    return found
 
 
 def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:

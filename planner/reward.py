@@ -50,20 +50,26 @@ def absent() -> dict[Component, float | None]:
     return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
 
 
+#: What a stop of the car's own accord costs [s]: passengers wonder what is wrong.
+HALT = 2.0
+
+
 def cost(parts: dict[Component, float]) -> float:
     """What a trajectory costs [s]."""
     comfort = (WEIGHTS[name] * value for name, value in parts.items() if name != "time")
     return parts["time"] * (WEIGHTS["time"] + sum(comfort))
 
 
-def reward(outcome: Outcome, parts: dict[Component, float], left: float) -> float:
+def reward(outcome: Outcome, parts: dict[Component, float], left: float, halts: int) -> float:
     """The reward of a rollout, in (negative) seconds of travelling time.
 
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
         left: [s] that are left to the goal at least.
+        halts: how often the macro action Stop was taken.
     """
     if outcome in ("collision", "dead"):
         return -PENALTY[outcome]
-    return -cost(parts) - (PENALTY["termination"] + left if outcome == "termination" else 0.0)
+    late = PENALTY["termination"] + left if outcome == "termination" else 0.0
+    return -cost(parts) - late - HALT * halts

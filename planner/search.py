@@ -188,7 +188,8 @@ class Search:
         found = self._known.get(key)
         if found is None:
             parts = summarise(self.task, legs)
-            gained = round(reward(outcome, parts, self._left(legs)), 3)
+            halts = sum(leg.action == "stop" for leg in legs)
+            gained = round(reward(outcome, parts, self._left(legs), halts), 3)
             stretches = held_up(legs, self.task.start)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
             found = Simulated(forced, samples, tuple(legs), outcome, shown, gained, stretches)

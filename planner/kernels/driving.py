@@ -29,6 +29,7 @@ HINDERED = 0.5  # [m/s] below the free speed from which a vehicle counts as held
 STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
 ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
+JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
 
 # How a vehicle is held up, by index.
@@ -80,6 +81,7 @@ def accelerate(
     caps: Floats,
     stops: bool,
     lines: Floats,
+    rooms: Floats,
     motion: Motion,
     step: int,
     others: Stretches,
@@ -95,6 +97,7 @@ def accelerate(
         caps: [m/s] at every metre of the path.
         stops: whether to brake to a standstill.
         lines: [L, 2] arcs [m] of lines to give way at, and at which the junction is left.
+        rooms: [K, 2] arcs [m] at which to keep out of a junction, and at which it is left.
         motion: of the vehicle: arc [m], speed [m/s], acceleration [m/s2].
         step: now.
         others: the vehicles to keep behind of.
@@ -110,11 +113,18 @@ def accelerate(
     arc, speed, acceleration = motion
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
     hardest = COMFORT if stops else FOLLOWING
+    braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
     how = LEADER if who < 0 else _manner(others, who, step)
+    for k in range(len(rooms)):
+        gap = rooms[k, 0] - arc
+        safe = safe_speed(gap, 0.0, COMFORT)
+        if 0.0 <= gap <= braking and safe < wanted:
+            jam = _jam(others, ignored, step, rooms[k, 0], rooms[k, 1] + length)
+            if jam >= 0:
+                wanted, who, how = safe, jam, BLOCKED
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
-        braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
         safe = safe_speed(gap, 0.0, COMFORT)
         if gap <= braking and arc < lines[line, 1] and safe < wanted:
             stop = lines[line, 0]
@@ -149,6 +159,24 @@ def _follow(
             wanted, who = safe, m
             hardest = EMERGENCY if gap < MIN_GAP or safe < speed - 3.0 else FOLLOWING
     return wanted, hardest, who
+
+
+@_jit
+def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float) -> int:
+    """Who takes the room beyond a junction, at a crawl: the nearest vehicle ahead, if it does.
+
+    Args:
+        others, ignored, step: as for `accelerate`.
+        enter: [m] arc before the junction.
+        room: [m] arc up to which a vehicle needs to drive to leave the junction free.
+    """
+    t = min(step, others.low.shape[1] - 1)
+    found, nearest = -1, room + MIN_GAP
+    for m in range(len(others.low)):
+        low = others.low[m, t]
+        if not ignored[m] and enter <= low < nearest and others.cosine[m, t] > ALIGNED:
+            found, nearest = m, low
+    return found if found >= 0 and others.speed[found, t] < JAM else -1
 
 
 @_jit
@@ -210,6 +238,7 @@ def drive(
     end: float,
     goal: float,
     lines: Floats,
+    rooms: Floats,
     firsts: Bools,
     start: Motion,
     first: int,
@@ -220,7 +249,7 @@ def drive(
     """Drive until the end of an action, the goal, or the horizon.
 
     Args:
-        caps, stops, lines, firsts, others, length: as for `accelerate`.
+        caps, stops, lines, rooms, firsts, others, length: as for `accelerate`.
         end: [m] arc at which the action is over, unless it stops.
         goal: [m] arc of the goal, or infinite.
         start: arc [m], speed [m/s] and acceleration [m/s2] at step `first`.
@@ -241,7 +270,7 @@ def drive(
         k = step - first
         now = (arc, speed, acceleration)
         acceleration, who, how = accelerate(
-            caps, stops, lines, now, step, others, ignored, others, waits, length, STEP
+            caps, stops, lines, rooms, now, step, others, ignored, others, waits, length, STEP
         )
         before, was = arc, speed
         speed = max(speed + acceleration * STEP, 0.0)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.actions import ActionPlan, GiveWay
 from planner.forward import DT, Motion, advance
 from planner.kernels.collision import SAFE_CUT_IN
 from planner.kernels.driving import (
@@ -22,6 +21,7 @@ from planner.kernels.driving import (
     GAP_HORIZON,
     HINDERED,
     INTRUSION,
+    JAM,
     JERK_DOWN,
     JERK_UP,
     MIN_GAP,
@@ -30,6 +30,7 @@ from planner.kernels.driving import (
     STANDING_TIME,
 )
 from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
+from planner.manoeuvres import ActionPlan, GiveWay, KeepClear
 from planner.obstacles import Obstacle
 from planner.trace import HoldUp
 from planner.trajectory import Array, Path, relative
@@ -99,6 +100,11 @@ class Occupancy:
         """Whether it drives along the path already, ahead of a front at an arc [m]."""
         k = self._at(step)
         return self._low[k] > arc and self._aligned[k] > ALIGNED
+
+    def between(self, begin: float, end: float, step: int) -> bool:
+        """Whether it drives along the path, its rear between two arcs [m]."""
+        k = self._at(step)
+        return begin <= self._low[k] < end and self._aligned[k] > ALIGNED
 
     def meets(self, low: float, high: float, step: int) -> float | None:
         """Where [m] its own stretch begins, if within the safety time it shares one with ours."""
@@ -320,9 +326,15 @@ def accelerate(
         if speed < wanted:
             wanted, hindrance = speed, (other, other.manner(step))
             hardest = EMERGENCY if gap < MIN_GAP or speed < motion.speed - 3.0 else FOLLOWING
+    braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
+    for room in plan.keep_clears:
+        gap = room.stop - motion.arc
+        speed = safe_speed(gap, 0.0, COMFORT)
+        jam = _jam(others, step, room, length)
+        if 0.0 <= gap <= braking and jam is not None and speed < wanted:
+            wanted, hindrance = speed, (jam, "blocked")
     for line in plan.give_ways:
         gap = line.stop - motion.arc
-        braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
         if gap <= braking and motion.arc < line.clear:
             blocker = _blocker(lane, motion, step, line, first, length)
             speed = safe_speed(gap, 0.0, COMFORT)
@@ -333,6 +345,16 @@ def accelerate(
         return acceleration, None
     other, how = hindrance
     return acceleration, Hindrance(step, other.vehicle, how, other.speed(step))
+
+
+def _jam(
+    others: Sequence[Occupancy], step: int, room: KeepClear, length: float
+) -> Occupancy | None:
+    """Who takes the room beyond a junction, at a crawl."""
+    until = room.out + length + MIN_GAP
+    ahead = [other for other in others if other.between(room.stop, until, step)]
+    nearest = min(ahead, key=lambda other: other.gap(room.stop, step, length) or 0.0, default=None)
+    return nearest if nearest is not None and nearest.speed(step) < JAM else None
 
 
 def _towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:

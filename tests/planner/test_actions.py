@@ -18,6 +18,7 @@ from planner.actions import (
     Turn,
     expand,
 )
+from planner.manoeuvres import KeepClear
 from planner.routes import Refusal, onward, straight_on
 from planner.trace import ACTIONS, Action, EgoGoal
 from planner.trajectory import LATERAL_ACCELERATION, Roads
@@ -169,8 +170,10 @@ def test_a_lane_change_takes_its_time(speed: float) -> None:
 def test_an_exit_gives_way_turns_and_ends_beyond_the_junction(action: Action) -> None:
     here = situation("s2", "south_in_0", before_end("s2", "south_in_0", 40.0))
     plan = plan_of("s2", here, action)
-    follow, wait, turn = plan.manoeuvres
+    follow, room, wait, turn = plan.manoeuvres
     assert isinstance(follow, LaneFollow)
+    assert isinstance(room, KeepClear)
+    assert (room.stop, room.out) == (pytest.approx(39.5), turn.end)
     assert isinstance(wait, GiveWay)
     assert isinstance(turn, Turn)
     assert turn.direction == action.removeprefix("exit-")
@@ -265,11 +268,12 @@ def test_a_roundabout_is_entered_by_giving_way_to_those_in_the_ring() -> None:
     ring = shipped("s3")
     plan = expand(ring, on_lane(ring, "south_in_0", -40.0), "continue-next-exit", None, VIEW)
     assert isinstance(plan, ActionPlan)
-    follow, wait, entry, around = plan.manoeuvres
+    follow, room, wait, entry, *around = plan.manoeuvres
     assert isinstance(follow, LaneFollow)
+    assert isinstance(room, KeepClear)
     assert isinstance(wait, GiveWay)
     assert isinstance(entry, Turn)
-    assert isinstance(around, LaneFollow)
+    assert {type(part) for part in around} <= {KeepClear, LaneFollow}
     assert plan.commit == entry.start == pytest.approx(40.0)
     circling = [x for x in ring.network.links if x.from_lane == "ring_south_0"]
     assert wait.yields_to == {(x.junction, x.index) for x in circling}
