@@ -9,7 +9,16 @@ import math
 import numpy as np
 
 from planner.following import follow_on, stop
-from planner.layout import CLEAR, COMFORT, FAR, STANDING_TIME, Layout, finish, lookahead
+from planner.layout import (
+    CLEAR,
+    COMFORT,
+    FAR,
+    STANDING_TIME,
+    Layout,
+    finish,
+    lookahead,
+    waits_along,
+)
 from planner.manoeuvres import (
     ActionPlan,
     GiveWay,
@@ -102,7 +111,7 @@ def _change(
     reach = length + lookahead(roads, here)
     row = onward(roads, (target.id,), reach + here.location.offset, goal)
     path = roads.path(row, here.position, here.heading, length, reach, length)
-    manoeuvres = (LaneChange(0.0, length, side),)
+    manoeuvres = (LaneChange(0.0, length, side), *waits_along(roads, path, row))
     return finish(roads, action, path, manoeuvres, length, 0.0, goal)
 
 

@@ -2,6 +2,7 @@
 
 import math
 
+from planner.kernels.driving import EMERGENCY, FOLLOWING
 from planner.layout import CLEAR, COMFORT, FAR, STRAIGHTEN, Layout, finish, lookahead
 from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LaneFollow, Situation, Stop
 from planner.routes import (
@@ -18,6 +19,7 @@ from planner.trajectory import Roads
 from sim.network import Link
 
 MERGING = 35.0  # [m] before the end of a lane at which to look for a gap beside it
+SETTLING = 0.5  # [s] in which braking sets in and eases off
 MARGIN = 5.0  # [m] of path beyond where a vehicle comes to rest
 
 
@@ -71,13 +73,20 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
     network, lane = roads.network, here.location.lane
     if network.lanes[lane].internal:
         return Refusal("it must not stop inside a junction")
-    rest = here.speed**2 / (2.0 * COMFORT) + here.speed * 0.5
+    rest = _rest(here.speed, COMFORT)
     reach = rest + lookahead(roads, here)
     row = onward(roads, (lane,), reach + here.location.offset, goal)
     path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, rest + MARGIN)
-    if network.lanes[path.lane_at(rest)[0]].internal:
-        return Refusal("it would come to a stop inside the junction")
-    return finish(roads, "stop", path, (Stop(0.0),), path.length, math.inf, None)
+    for braking in (COMFORT, FOLLOWING, EMERGENCY):
+        if not network.lanes[path.lane_at(_rest(here.speed, braking))[0]].internal:
+            halt = Stop(0.0, braking)
+            return finish(roads, "stop", path, (halt,), path.length, math.inf, None)
+    return Refusal("it would come to a stop inside the junction")
+
+
+def _rest(speed: float, braking: float) -> float:
+    """Where [m] from here a vehicle that brakes comes to rest."""
+    return speed**2 / (2.0 * braking) + speed * SETTLING
 
 
 def _refused_inside(roads: Roads, lane: str) -> Refusal | None:

@@ -100,7 +100,7 @@ def drive(
     others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
     motion, held, finished, goal_time = driving.drive(
         np.minimum(Lane(plan.path).caps, pace),
-        plan.stops,
+        plan.halting,
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
         _lines(plan),
@@ -152,7 +152,7 @@ def accelerate(
     """
     acceleration, who, how = driving.accelerate(
         lane.caps,
-        plan.stops,
+        plan.halting,
         _lines(plan),
         _rooms(plan),
         (float(motion.arc), float(motion.speed), float(motion.acceleration)),

@@ -56,8 +56,7 @@ class Layout:
         reach = length + lookahead(roads, here)
         row = onward(roads, lanes, reach, goal)
         path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, 1.0)
-        passed = len(row) - len(path.lanes)
-        begins = [path.lanes[max(k - passed, 0)][1] for k in range(len(lanes))]
+        begins = _begins(path, row)[: len(lanes)]
         end = begins[-1] + roads.network.lanes[lanes[-1]].length
         return cls(path, end, tuple(_crossings(roads, lanes, begins)))
 
@@ -77,6 +76,18 @@ class Layout:
                 found.append(Turn(x.enter, x.out, x.direction))
                 at = x.out
         return tuple(found)
+
+
+def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuvre, ...]:
+    """Where to wait along the lanes of a path, should what comes after it lead straight on.
+
+    Args:
+        roads: the road network.
+        path: along the lanes, from somewhere in them on.
+        row: the lanes.
+    """
+    way = Layout(path, path.length, tuple(_crossings(roads, row, _begins(path, row))))
+    return tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear))
 
 
 def lookahead(roads: Roads, here: Situation) -> float:
@@ -108,6 +119,12 @@ def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | No
         if wanted and 0.0 <= start + goal.position <= end:
             return start + goal.position
     return None
+
+
+def _begins(path: Path, row: tuple[str, ...]) -> list[float]:
+    """The arc [m] at which each lane of a row begins; those passed begin where the first does."""
+    passed = len(row) - len(path.lanes)
+    return [path.lanes[max(k - passed, 0)][1] for k in range(len(row))]
 
 
 def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Iterator[Crossing]:

@@ -57,6 +57,7 @@ class Stop:
     """Brake to a standstill and stand for STANDING_TIME."""
 
     start: float  # [m] arc
+    braking: float  # [m/s2]
 
 
 Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | Turn | Stop
@@ -99,6 +100,11 @@ class ActionPlan:
     def stops(self) -> bool:
         """Whether the action ends at a standstill."""
         return self.action == "stop"
+
+    @property
+    def halting(self) -> float:
+        """The braking [m/s2] with which it comes to a standstill; 0 unless it stops."""
+        return max((m.braking for m in self.manoeuvres if isinstance(m, Stop)), default=0.0)
 
     @property
     def changes_lane(self) -> bool:

@@ -201,7 +201,7 @@ def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic)
     """Braking to a standstill and staying there; nobody means to stay inside a junction."""
     row = onward(frame.roads, (here.location.lane,), here.location.offset + 100.0)
     path = frame.roads.path(row, here.position, here.heading, 12.0, 100.0)
-    plan = ActionPlan("stop", path, (Stop(0.0),), path.length, math.inf, None)
+    plan = ActionPlan("stop", path, (Stop(0.0, COMFORT),), path.length, math.inf, None)
     driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
     arcs, speed = driven.motion[:, 0], driven.motion[:, 1]
     if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:

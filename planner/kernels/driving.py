@@ -79,7 +79,7 @@ def _cap(caps: Floats, arc: float) -> float:
 @_jit
 def accelerate(
     caps: Floats,
-    stops: bool,
+    halting: float,
     lines: Floats,
     rooms: Floats,
     motion: Motion,
@@ -95,7 +95,7 @@ def accelerate(
 
     Args:
         caps: [m/s] at every metre of the path.
-        stops: whether to brake to a standstill.
+        halting: [m/s2] of braking to a standstill; 0 to drive on.
         lines: [L, 2] arcs [m] of lines to give way at, and at which the junction is left.
         rooms: [K, 2] arcs [m] at which to keep out of a junction, and at which it is left.
         motion: of the vehicle: arc [m], speed [m/s], acceleration [m/s2].
@@ -111,8 +111,9 @@ def accelerate(
         Acceleration [m/s2], the index of the one in the way (-1: nobody), and how it is.
     """
     arc, speed, acceleration = motion
+    stops = halting > 0.0
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
-    hardest = COMFORT if stops else FOLLOWING
+    hardest = halting if stops else FOLLOWING
     braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
     how = LEADER if who < 0 else _manner(others, who, step)
@@ -234,7 +235,7 @@ def _blocker(
 @_jit
 def drive(
     caps: Floats,
-    stops: bool,
+    halting: float,
     end: float,
     goal: float,
     lines: Floats,
@@ -249,7 +250,7 @@ def drive(
     """Drive until the end of an action, the goal, or the horizon.
 
     Args:
-        caps, stops, lines, rooms, firsts, others, length: as for `accelerate`.
+        caps, halting, lines, rooms, firsts, others, length: as for `accelerate`.
         end: [m] arc at which the action is over, unless it stops.
         goal: [m] arc of the goal, or infinite.
         start: arc [m], speed [m/s] and acceleration [m/s2] at step `first`.
@@ -270,7 +271,7 @@ def drive(
         k = step - first
         now = (arc, speed, acceleration)
         acceleration, who, how = accelerate(
-            caps, stops, lines, rooms, now, step, others, ignored, others, waits, length, STEP
+            caps, halting, lines, rooms, now, step, others, ignored, others, waits, length, STEP
         )
         before, was = arc, speed
         speed = max(speed + acceleration * STEP, 0.0)
@@ -282,7 +283,7 @@ def drive(
             time = (step + min(max(share, 0.0), 1.0)) * STEP
             return motion[: k + 2], hindrance[: k + 1], True, time
         standing = standing + 1 if speed < 0.1 else 0
-        if (standing * STEP >= STANDING_TIME) if stops else (arc >= end):
+        if (standing * STEP >= STANDING_TIME) if halting > 0.0 else (arc >= end):
             return motion[: k + 2], hindrance[: k + 1], True, math.nan
     return motion, hindrance, False, math.nan
 

@@ -317,7 +317,7 @@ def accelerate(
     """
     first = others if crossing is None else crossing
     free = 0.0 if plan.stops else lane.speed(motion.arc + motion.speed * RELAXATION)
-    wanted, hardest, hindrance = free, COMFORT if plan.stops else FOLLOWING, None
+    wanted, hardest, hindrance = free, plan.halting or FOLLOWING, None
     for other in others:
         gap = other.gap(motion.arc, step, length)
         if gap is None:

@@ -219,7 +219,7 @@ def test_continue_cannot_be_taken_back_by_being_driven() -> None:
     assert plan_of("s1", here, "continue").commit == math.inf
     stop = plan_of("s1", here, "stop")
     assert stop.stops
-    assert stop.manoeuvres == (Stop(0.0),)
+    assert stop.manoeuvres == (Stop(0.0, COMFORT),)
     assert stop.commit == math.inf
 
 
