@@ -90,15 +90,30 @@ check_libsumo() {
     "$venv/bin/python" -c 'import libsumo' || fail "SUMO does not load; its message stands above"
 }
 
-ready && exit
+# What the planner's compiled kernels were made of.
+kernels() { cat planner/kernels/*.py; }
+
+# Compile them, so that the first ride starts at once.
+warm() {
+    kernels | cmp -s - "$venv/warm" && return
+    say "compiling the planner"
+    "$venv/bin/python" -m xavi_dialogue.app.warm ||
+        fail "the planner does not compile; its message stands above"
+    kernels >"$venv/warm"
+}
+
+finish() { warm; exit; }
+
+ready && finish
 # One set-up at a time; the lock goes with the process, however that ends.
 if command -v flock >/dev/null; then
     exec 9>.setup.lock
     flock -n 9 || { say "another set-up is under way; waiting for it"; flock 9; }
-    ready && exit
+    ready && finish
 fi
 make_venv
 install
 check_libsumo
 recipe >"$venv/finished-$level"
+warm
 say "ready"

@@ -4,6 +4,7 @@ Errors:
     ScenarioError
     ├── ScenarioNotFound    no scenario has this name, and no folder is there
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
+        └── NeedsMaps       its network is OpenDRIVE, and netconvert is not installed
 """
 
 import xml.etree.ElementTree as ET
@@ -14,7 +15,7 @@ from pathlib import Path
 
 from sim import routes
 from sim.checks import check_routes, check_starts, edges_of, near, one_of
-from sim.netconvert import NetconvertError, opendrive_net
+from sim.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
 from sim.opendrive import conversion_warnings
@@ -49,6 +50,10 @@ class ScenarioInvalid(ScenarioError):
 
     The message names file, key, problem and remedy.
     """
+
+
+class NeedsMaps(ScenarioInvalid):
+    """A scenario's network is OpenDRIVE, and netconvert is not installed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,12 +112,14 @@ def load(name_or_path: str | Path) -> Scenario:
     Raises:
         ScenarioNotFound: neither a name that exists nor a folder with a scenario.toml.
         ScenarioInvalid: the folder is wrong.
+        NeedsMaps: its network is OpenDRIVE, and netconvert is not installed.
     """
     folder = _folder(name_or_path)
     try:
         return _read(folder)
     except TableError as error:
-        raise ScenarioInvalid(str(error)) from error
+        missing = isinstance(error.__cause__, NetconvertMissing)
+        raise (NeedsMaps if missing else ScenarioInvalid)(str(error)) from error
 
 
 def _read(folder: Path) -> Scenario:

@@ -40,7 +40,10 @@ def activity(record: Record) -> Explanation:
 
 
 def scripted_mind() -> Mind:
-    """Understands the names of what it shall do: "answer", "lack", "lack more", "refuse", "huh"."""
+    """Understands the names of what it shall do.
+
+    These are "answer", "lack", "lack more", "suppose", "refuse" and "huh".
+    """
 
     def parse(text: str, _: frozenset[int], __: tuple[str, ...]) -> Query | NotUnderstood:
         if text == "huh":
@@ -55,6 +58,10 @@ def scripted_mind() -> Mind:
             raise ZeroDivisionError
         if query.time == "refuse":
             return NoExplanation(reason="too-little-evidence")
+        if query.time == "suppose" and not record.extra:
+            return NeedRollout(
+                trace_id="t", vehicle=1, goal="exit-right", vehicle_actions=("stop",)
+            )
         if len(record.extra) < wanted:
             return NeedRollout(trace_id="t", rollouts=len(record.extra) + 1)
         return activity(record)

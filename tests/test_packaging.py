@@ -8,6 +8,7 @@ import sys
 import sysconfig
 import venv
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -63,14 +64,21 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return place
 
 
-def run(place: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    """Run a program of the environment in an empty folder, told nothing of the checkout."""
+def run(place: Path, *command: str, home: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Run a program of the environment in an empty folder, told nothing of the checkout.
+
+    Of the environment that runs the tests it finds netconvert, as from the extra `maps`.
+    """
     folder = place.parent / "empty"
     folder.mkdir(exist_ok=True)
+    lent = place.parent / "maps"
+    lent.mkdir(exist_ok=True)
+    shutil.copy(Path(sys.executable).parent / "netconvert", lent)
+    path = os.pathsep.join((str(lent), os.defpath))
     return subprocess.run(
         [str(place / "bin" / command[0]), *command[1:]],
         cwd=folder,
-        env={"PATH": os.defpath, "HOME": str(folder), "LANG": "C.UTF-8"},
+        env={"PATH": path, "HOME": str(home or folder), "LANG": "C.UTF-8"},
         capture_output=True,
         text=True,
         check=False,
@@ -84,7 +92,7 @@ def test_the_wheel_holds_every_file_of_the_packages_and_nothing_else(
         path.relative_to(root).as_posix()
         for package in PACKAGES
         for path in (root / package).rglob("*")
-        if path.is_file() and path.suffix != ".pyc"
+        if path.is_file() and "__pycache__" not in path.parts
     }
     names = set(zipfile.ZipFile(wheel).namelist())
     assert {name for name in names if ".dist-info/" not in name} == expected
@@ -106,6 +114,40 @@ def test_an_installed_car_answers(installed: Path) -> None:
     assert reply["kind"] == "answer"
     assert reply["explanation"]["causes"] or reply["explanation"]["effects"]
     assert reply["text"]
+
+
+def test_an_installed_car_drives_on_a_map_in_opendrive(installed: Path) -> None:
+    done = run(installed, "xavi", "drive", "--scenario", "bend", "--duration", "1", "--json")
+    assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["decisions"] == 1
+
+
+def kernels_of(folder: Path) -> list[Path]:
+    return list(folder.rglob("*.nbi"))
+
+
+@pytest.fixture
+def read_only(installed: Path) -> Iterator[Path]:
+    """The environment, where nothing can be kept beside the planner's kernels."""
+    [cache] = installed.glob("lib/*/site-packages/planner/kernels/__pycache__")
+    aside = cache.rename(cache.with_name("aside"))
+    cache.write_text("not a folder")
+    yield installed
+    cache.unlink()
+    aside.rename(cache)
+
+
+def test_a_read_only_installation_keeps_its_kernels_in_the_users_cache(
+    read_only: Path, tmp_path: Path
+) -> None:
+    done = run(read_only, "xavi", "drive", "--duration", "0.1", home=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert kernels_of(tmp_path / ".cache")
+
+
+def test_an_installation_drives_where_nothing_can_be_kept(read_only: Path) -> None:
+    done = run(read_only, "xavi", "drive", "--duration", "0.1", home=Path(os.devnull))
+    assert done.returncode == 0, done.stderr
 
 
 def test_an_installed_car_declines(installed: Path) -> None:

@@ -30,6 +30,10 @@ class Checkout:
         shutil.copy(root / "scripts" / "setup.sh", folder / "scripts")
         for name in ("pyproject.toml", "constraints.txt"):
             shutil.copy(root / name, folder)
+        for kernel in (root / "planner" / "kernels").glob("*.py"):
+            copied = folder / kernel.relative_to(root)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(kernel, copied)
         self.python = self.program("python", STAND_IN)
         self.program("id", "#!/bin/sh\necho 1000\n")
         self.program("sudo", "#!/bin/sh\nexit 1\n")
@@ -102,6 +106,25 @@ def test_what_serves_the_passenger_is_not_enough_for_the_developer(checkout: Che
     checkout.setup("runtime")
     checkout.setup("develop")
     assert "pip install" in checkout.log
+
+
+def test_the_planner_is_compiled_once(checkout: Checkout) -> None:
+    checkout.setup()
+    assert "-m xavi_dialogue.app.warm" in checkout.log
+    checkout.setup("develop")
+    assert "warm" not in checkout.log
+    with (checkout.folder / "planner" / "kernels" / "driving.py").open("a") as changed:
+        changed.write("# changed\n")
+    assert checkout.setup().returncode == 0
+    assert checkout.log == "-m xavi_dialogue.app.warm\n"
+
+
+def test_a_planner_that_does_not_compile_is_tried_again(checkout: Checkout) -> None:
+    checkout.breaks("warm")
+    assert checkout.setup().returncode == 1
+    checkout.mends("warm")
+    assert checkout.setup().returncode == 0
+    assert checkout.log == "-m xavi_dialogue.app.warm\n"
 
 
 def test_an_installation_that_broke_off_is_made_anew(checkout: Checkout) -> None:

@@ -15,6 +15,7 @@ import typer
 
 from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.exit_status import ExitStatus
+from xavi_dialogue.app.kernels import find_place
 
 if TYPE_CHECKING:
     from sim.scenario import Scenario
@@ -132,7 +133,7 @@ def drive(
     from xavi_dialogue.app.narration import story
 
     with _errors():
-        loaded = _load(scenario)
+        loaded = _load(scenario, told=control)
         manner = Manner(speed or 0.0, duration, connect, control)
         summary = drive(loaded, _seed(seed, loaded), manner)
     if not control:
@@ -157,15 +158,15 @@ def serve(
 @app.command()
 def scenarios(as_json: AsJson = False) -> None:
     """List the scenarios that come with the program."""
-    from sim.scenario import available, load
+    from sim.scenario import descriptions
 
     with _errors():
-        found = [load(name) for name in available()]
+        found = descriptions()
     if as_json:
-        _write(_json([{"name": s.name, "description": s.description} for s in found]))
+        _write(_json([{"name": name, "description": text} for name, text in found.items()]))
     else:
-        for one in found:
-            _write(f"{one.name:12} {one.description}")
+        for name, text in found.items():
+            _write(f"{name:12} {text}")
 
 
 @app.command()
@@ -241,10 +242,14 @@ def _errors() -> Iterator[None]:
         raise typer.Exit(known.status) from None
 
 
-def _load(name: str) -> "Scenario":
+def _load(name: str, *, told: bool = False) -> "Scenario":
+    """Load a scenario, and tell its warnings unless the process that started this one did."""
     from sim.scenario import load
 
-    return load(name)
+    scenario = load(name)
+    for warning in () if told else scenario.warnings:
+        _note(f"warning: {warning}")
+    return scenario
 
 
 def _seed(asked: int | None, scenario: "Scenario") -> int:
@@ -280,6 +285,7 @@ def _note(text: str) -> None:
 def main() -> NoReturn:
     """Run the command line; SIGTERM ends it like an exception, so that all is cleaned up."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(ExitStatus.TERMINATED))
+    find_place()
     app()
     sys.exit(ExitStatus.ANSWERED)
 

@@ -2,12 +2,19 @@
 
 import json
 import shutil
+import subprocess
+import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner, Result
 
+from sim import scenario
 from xavi_dialogue.__main__ import app
+from xavi_dialogue.app import ask, chat, drive
+from xavi_dialogue.app.bench import drive as bench_drive
+from xavi_dialogue.app.bench.runs import Run
 from xavi_dialogue.app.exit_status import status_of
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import Reason
@@ -90,6 +97,78 @@ def test_scenarios_are_listed() -> None:
     listed = json.loads(xavi("scenarios", "--json").stdout)
     assert {"s1", "s2"} <= {one["name"] for one in listed}
     assert "s1" in xavi("scenarios").stdout
+
+
+def test_scenarios_are_listed_without_netconvert(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    without_netconvert(monkeypatch, tmp_path)
+    listed = json.loads(xavi("scenarios", "--json").stdout)
+    assert "bend" in {one["name"] for one in listed}
+
+
+def test_a_benchmark_of_all_scenarios_leaves_out_what_needs_netconvert(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    without_netconvert(monkeypatch, tmp_path)
+    monkeypatch.setattr(bench_drive, "run", lambda task: Run(*task, error="not driven"))
+    monkeypatch.setattr(bench_drive, "in_processes", lambda work, tasks, *_: map(work, tasks))
+    done = xavi("bench", "drive", "--runs", "7", "--json")
+    found = json.loads(done.stdout)
+    assert found["left_out"] == ["bend"]
+    assert {"s1", "s2"} <= {row["scenario"] for row in found["scenarios"]}
+    assert "leaving out bend" in done.stderr
+    assert "bend" in xavi("bench", "drive", "--runs", "7").stdout.splitlines()[-1]
+    asked = xavi("bench", "drive", "--scenario", "bend", "--runs", "1")
+    assert (asked.exit_code, asked.stdout) == (2, "")
+    assert "`maps`" in asked.stderr
+
+
+def without_netconvert(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    monkeypatch.setattr(sys, "executable", str(folder / "python"))
+    monkeypatch.setenv("PATH", str(folder))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(folder / "cache"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["drive"], 1),
+        (["drive", "--control"], 0),  # whoever started it has told
+        (["ask", "Why?"], 1),
+        (["chat"], 1),
+    ],
+)
+def test_what_looks_wrong_in_a_scenario_is_told_once(
+    monkeypatch: pytest.MonkeyPatch, arguments: list[str], told: int
+) -> None:
+    doubtful = replace(scenario.load("s1"), warnings=("a road ends",))
+    reply = Reply(text="", kind="answer", reason=None, sim_time=0.0)
+    monkeypatch.setattr(scenario, "load", lambda _: doubtful)
+    monkeypatch.setattr(drive, "drive", lambda *_: drive.Summary("s1", 0, "arrived"))
+    monkeypatch.setattr(ask, "ask_once", lambda *_: reply)
+    monkeypatch.setattr(chat, "through_pipe", lambda *_, **__: None)
+    done = xavi(*arguments)
+    assert done.exit_code == 0
+    assert done.stderr.splitlines() == ["xavi: warning: a road ends"] * told
+
+
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["parse", "Why did you change left?"], ["scenarios"]]
+)
+def test_what_does_not_plan_does_not_load_the_planner(arguments: list[str]) -> None:
+    code = (
+        "import sys\nfrom xavi_dialogue.__main__ import app\n"
+        "try: app(sys.argv[1:])\nexcept SystemExit as end: assert not end.code\n"
+        "print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=True
+    )
+    assert done.stdout
+    loaded = set(done.stderr.split())
+    assert "xavi_dialogue.__main__" in loaded
+    assert not loaded & {"numba", "scipy", "libsumo", "zenoh"}
 
 
 def test_a_question_is_parsed() -> None:

@@ -13,7 +13,15 @@ from xavi_dialogue.app.ledger import InOrder
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.service import Service
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.transports.bus import Bus, Call, Keys, NoAnswer, Refused, call
+from xavi_dialogue.transports.bus import (
+    Bus,
+    BusFailed,
+    Call,
+    Keys,
+    NoAnswer,
+    Refused,
+    call,
+)
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import (
     MESSAGES,
@@ -150,6 +158,47 @@ def test_the_car_plans_again_on_request(bench: Bench) -> None:
     came = bench.send("lack more")
     assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]
     assert [w.rollouts for w in wanted] == [1, 2]
+
+
+def test_the_car_is_told_what_is_supposed_of_another_vehicle(bench: Bench) -> None:
+    bench.drive()
+    trace = bench.service.desk.dialogue.traces[0]
+    wanted: list[WhatIfRequest] = []
+
+    def plan(asked: Call) -> None:
+        wanted.append(unpack(asked.payload, WhatIfRequest))
+        asked.reply(plan_trace.encode(trace))
+
+    bench.car.serve(KEYS.of("@rpc/whatif"), plan)
+    assert bench.ask("suppose").kind == "answer"
+    assert bench.ask("lack", request="q2").kind == "answer"
+    told = [(one.vehicle, one.goal, one.vehicle_actions) for one in wanted]
+    assert told == [(1, "exit-right", ("stop",)), (None, None, ())]
+
+
+class Gone:
+    """A call whose caller is gone."""
+
+    def __init__(self, payload: bytes) -> None:
+        self.payload = payload
+
+    def reply(self, payload: bytes) -> None:
+        raise BusFailed(f"{len(payload)} bytes for nobody")
+
+    refuse = reply
+
+    def drop(self) -> None:
+        raise AssertionError("it is to be answered")
+
+
+def test_who_asks_and_goes_harms_nobody(bench: Bench) -> None:
+    bench.drive()
+    asked = AskRequest(request="q0", session="ada", text="answer")
+    serve = bench.hub.servers[ASK][1]
+    serve(Gone(pack(asked)))
+    serve(Gone(b"junk"))
+    assert bench.ask("answer").kind == "answer"
+    assert bench.service.desk.questions == {}
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@ import msgspec
 import pytest
 
 from planner.events import Event
+from planner.trace import WhatIf
 from tests.traces import Ride, s1_ride, s1_world, s2_ride, s2_world, straight_track, trace_of
 from xavi_dialogue.explain.engine import explain, settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
@@ -192,6 +193,15 @@ def test_evidence_that_stays_thin_is_declined_with_numbers():
     assert found.reason == "too-little-evidence"
     assert (found.facts["rollouts"], found.facts["distinct"]) == (2, 1)
     assert found.facts["coverage"] < 0.5
+
+
+def test_plans_made_with_another_vehicles_doings_supposed_are_no_evidence():
+    ride, again = thin_ride(), thin_ride(40).traces[0]
+    query = Query(type="why_not", counterfactual=("continue",))
+    supposed = msgspec.structs.replace(again, what_if=WhatIf(vehicle=1, goal="continue"))
+    assert isinstance(explain(query, record(ride, extra=[supposed])), NeedRollout)
+    forced = msgspec.structs.replace(again, what_if=WhatIf(("continue",)))
+    assert isinstance(explain(query, record(ride, extra=[supposed, forced])), Explanation)
 
 
 def test_a_sequence_that_the_search_did_not_try_is_asked_for():

@@ -11,6 +11,7 @@ from sim.netfile import read_network
 from sim.routes import Spawn
 from sim.scenario import (
     Goal,
+    NeedsMaps,
     ScenarioInvalid,
     ScenarioNotFound,
     available,
@@ -243,7 +244,7 @@ def test_without_netconvert_the_error_names_the_extra(
 ) -> None:
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(ScenarioInvalid, match=r"network: .*extra `maps`"):
+    with pytest.raises(NeedsMaps, match=r"network: .*extra `maps`"):
         load(opendrive)
 
 

@@ -10,6 +10,7 @@ import pytest
 from xavi_dialogue.transports.bus import (
     Bus,
     BusError,
+    BusFailed,
     Call,
     EndpointTaken,
     HubUnreachable,
@@ -154,6 +155,24 @@ def test_over_zenoh_a_request_has_its_own_deadline() -> None:
         assert until(kept_waiting)
         for one in held:
             one.drop()
+
+
+def test_a_reply_that_zenoh_refuses_is_an_error_of_ours() -> None:
+    endpoint = free_endpoint()
+    held: list[Call] = []
+    with host(endpoint) as hub, join(endpoint) as client:
+        hub.serve(KEY("@rpc/ask"), held.append)
+
+        def asked() -> bool:
+            client.request(KEY("@rpc/ask"), b"", 2.0, lambda _: None)
+            return bool(held)
+
+        assert until(asked)
+        answered = held[0]
+        answered.reply(b"once")
+        for again in (answered.reply, answered.refuse):
+            with pytest.raises(BusFailed, match="not sent"):
+                again(b"twice")
 
 
 def test_zenoh_errors_are_ours() -> None:

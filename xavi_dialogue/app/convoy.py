@@ -15,7 +15,7 @@ from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
 
 ATTEMPTS = 3  # to find a port that stays free until the service listens at it
 RETRY = 0.2  # [s] between looks at whether the service is still coming up
-START_PATIENCE = 20.0  # [s] for the service, and for the first scene
+START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
 

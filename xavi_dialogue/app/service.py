@@ -4,6 +4,7 @@ Everything that comes in is put into one inbox and handled by one thread, so tha
 sees one row of inputs. The car is asked to plan again, and never waited for.
 """
 
+import contextlib
 import queue
 import time
 from collections.abc import Callable
@@ -17,7 +18,16 @@ from planner.trace import PlanTrace, TraceError
 from xavi_dialogue.app.desk import Answer, Desk, Errand, PlanAgain, Question
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import Reason
-from xavi_dialogue.transports.bus import Bus, Call, Keys, NobodyThere, Outcome, Refused, TooLate
+from xavi_dialogue.transports.bus import (
+    Bus,
+    BusError,
+    Call,
+    Keys,
+    NobodyThere,
+    Outcome,
+    Refused,
+    TooLate,
+)
 from xavi_dialogue.transports.messages import (
     MESSAGES,
     AnyMessage,
@@ -83,9 +93,9 @@ class Service:
         if deadline is not None:
             patience = min(patience, max(deadline - time.monotonic(), 0.0))
         try:
-            self._inbox.get(patience > 0.0, patience)()
+            _do(self._inbox.get(patience > 0.0, patience))
             while True:
-                self._inbox.get_nowait()()
+                _do(self._inbox.get_nowait())
         except queue.Empty:
             self._run(self.desk.settle(time.monotonic()))
 
@@ -162,17 +172,15 @@ class Service:
         taken = round((time.monotonic() - answer.question.came) * 1000.0, 3)
         fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
         reply = AskReply(**fields, request=asked.request, seq=self._next(), wall_time=time.time())
-        answer.question.call.reply(pack(reply))
+        _do(partial(answer.question.call.reply, pack(reply)))
 
     def _plan_again(self, errand: PlanAgain) -> None:
         need, request = errand.need, errand.question.asked.request
         remaining = max(errand.question.deadline - time.monotonic(), 0.001)
+        fields = msgspec.structs.asdict(need)
         wanted = WhatIfRequest(
+            **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
             request=request,
-            trace_id=need.trace_id,
-            actions=need.actions,
-            removed=need.removed,
-            rollouts=need.rollouts,
             deadline_ms=remaining * 1000.0,
         )
         done = partial(self._post, self._on_planned, request)
@@ -184,6 +192,11 @@ class Service:
     def _next(self) -> int:
         self._replies += 1
         return self._replies - 1
+
+
+def _do(job: _Job) -> None:
+    with contextlib.suppress(BusError):  # who asked is gone
+        job()
 
 
 def _planned(outcome: Outcome) -> PlanTrace | Reason:

@@ -148,13 +148,17 @@ class Ride:
         return found[0]
 
     def variants(self, trace: PlanTrace, removed: int | None = None) -> tuple[PlanTrace, ...]:
-        """The plans made again from a decision, without a vehicle or with all of them."""
+        """The plans made again from a decision, without a vehicle or with all of them.
+
+        Those for which something was supposed of another vehicle are left out.
+        """
         vehicles = set(trace.scene) - {removed}
         return tuple(
             extra
             for extra in self._extra
             if (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
             and set(extra.scene) == vehicles
+            and (extra.what_if is None or extra.what_if.vehicle is None)
         )
 
     def evidence(self, trace: PlanTrace, actions: Actions) -> tuple[CausalModel, Intervention]:

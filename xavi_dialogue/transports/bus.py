@@ -83,10 +83,19 @@ class Call(Protocol):
     @property
     def payload(self) -> bytes: ...
 
-    def reply(self, payload: bytes) -> None: ...
+    def reply(self, payload: bytes) -> None:
+        """Reply.
+
+        Raises:
+            BusFailed: the reply could not be sent.
+        """
 
     def refuse(self, payload: bytes) -> None:
-        """Reply with a failure."""
+        """Reply with a failure.
+
+        Raises:
+            BusFailed: it could not be sent.
+        """
 
     def drop(self) -> None:
         """Leave it without a reply."""

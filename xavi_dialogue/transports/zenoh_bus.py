@@ -9,7 +9,8 @@ import itertools
 import json
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from types import TracebackType
 from typing import Self
 
@@ -18,6 +19,7 @@ from zenoh import CongestionControl, SampleKind, ext
 from zenoh.handlers import Callback
 
 from xavi_dialogue.transports.bus import (
+    BusFailed,
     CallHandler,
     EndpointTaken,
     Handler,
@@ -169,15 +171,24 @@ class _ZenohCall:
         self.payload = b"" if query.payload is None else query.payload.to_bytes()
 
     def reply(self, payload: bytes) -> None:
-        with self._query as query:
+        with _translated("reply"), self._query as query:
             query.reply(query.key_expr, payload, encoding=JSON)
 
     def refuse(self, payload: bytes) -> None:
-        with self._query as query:
+        with _translated("refusal"), self._query as query:
             query.reply_err(payload, encoding=JSON)
 
     def drop(self) -> None:
         self._query.drop()  # type: ignore[no-untyped-call]
+
+
+@contextmanager
+def _translated(what: str) -> Iterator[None]:
+    """Zenoh's error as ours."""
+    try:
+        yield
+    except zenoh.ZError as error:
+        raise BusFailed(f"the {what} was not sent: {error}") from error
 
 
 def host(endpoint: str) -> ZenohBus:

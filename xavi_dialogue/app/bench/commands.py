@@ -79,10 +79,13 @@ def drive(
     scenarios: list[str] | None, runs: int, jobs: int | None, note: Callable[[str], None]
 ) -> "Report":
     """Measure driving in scenarios, or in all of ours."""
-    from sim.scenario import available
+    from msgspec.structs import replace
+
     from xavi_dialogue.app.bench.drive import measure
 
-    return measure(_there(scenarios or list(available())), runs, _processes(jobs), note)
+    chosen, left_out = (_there(scenarios), ()) if scenarios else _all(note)
+    found = measure(chosen, runs, _processes(jobs), note)
+    return replace(found, left_out=left_out)
 
 
 def recognise(
@@ -112,6 +115,22 @@ def _there(names: list[str]) -> list[str]:
     for name in names:
         load(name)
     return names
+
+
+def _all(note: Callable[[str], None]) -> tuple[list[str], tuple[str, ...]]:
+    """Our scenarios, and those among them that cannot be driven for want of netconvert."""
+    from sim.scenario import NeedsMaps, available, load
+
+    there, left_out = [], []
+    for name in available():
+        try:
+            load(name)
+        except NeedsMaps as error:
+            note(f"leaving out {name}: {error}")
+            left_out.append(name)
+        else:
+            there.append(name)
+    return there, tuple(left_out)
 
 
 def _processes(asked: int | None) -> int:

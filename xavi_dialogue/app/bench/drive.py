@@ -54,6 +54,7 @@ class DriveReport(msgspec.Struct, frozen=True):
     scenarios: tuple[Tally, ...]
     all: Tally
     worst: tuple[Bad, ...]
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
 
     def table(self) -> str:
         """The report for people."""
@@ -70,9 +71,10 @@ class DriveReport(msgspec.Struct, frozen=True):
             for f in self.figures
         ]
         worst = [f"{bad.what}\n    {bad.reproduce}" for bad in self.worst] or ["none"]
-        return "\n".join(
-            (in_columns(rows), "", in_columns(times), "", "runs that did not go well:", *worst)
-        )
+        parts = [in_columns(rows), "", in_columns(times), "", "runs that did not go well:", *worst]
+        if self.left_out:
+            parts += ["", f"left out for want of netconvert: {', '.join(self.left_out)}"]
+        return "\n".join(parts)
 
 
 def measure(
