@@ -15,7 +15,7 @@ WEIGHTS: dict[Component, float] = {
     "curvature": 20.0,  # per s/m
 }
 #: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
-#: within reach: that costs what was driven, and the time that is left at least, too.
+#: within reach: that costs what was driven, and the rest of the way.
 PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 5.0}
 
 
@@ -66,7 +66,7 @@ def reward(outcome: Outcome, parts: dict[Component, float], left: float, halts: 
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
-        left: [s] that are left to the goal at least.
+        left: [s] that the rest of the way costs where nobody is in the way.
         halts: how often the macro action Stop was taken.
     """
     if outcome in ("collision", "dead"):

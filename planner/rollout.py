@@ -84,10 +84,10 @@ def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:
         outcome: Outcome | None = "collision"
     elif driven.goal_time is not None:
         outcome = "done"
-    elif not driven.finished:
-        outcome = "termination"
+    elif not _reachable(task, end.location):
+        outcome = "dead"
     else:
-        outcome = None if _reachable(task, end.location) else "dead"
+        outcome = None if driven.finished else "termination"
     return Leg(
         plan.action,
         driven.first,

@@ -28,7 +28,7 @@ from planner.trace import (
     Settings,
 )
 from planner.tree import Edge, Node, Tree
-from planner.waypoints import time_left
+from planner.waypoints import cost_left
 
 Samples: TypeAlias = tuple[Sample, ...]
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
@@ -197,9 +197,9 @@ class Search:
         return replace(found, forced=forced)
 
     def _left(self, legs: Sequence[Leg]) -> float:
-        """The time [s] that is left to the goal at least after these legs."""
+        """What is left to the goal [s] after these legs, where nobody is in the way."""
         end = legs[-1].end if legs else self.root.here
-        return time_left(self.task.roads, end.location, self.task.goal)
+        return cost_left(self.task.roads, end.location, self.task.goal)
 
     def _sample(self) -> tuple[Sample, ...]:
         """Draw a goal and a trajectory for every other vehicle."""

@@ -4,15 +4,43 @@ Rollouts cannot reach a goal on the other side of town. They aim for a place on 
 to it; what comes beyond does not matter to what is decided now.
 """
 
+import heapq
 import math
+from collections.abc import Mapping
+from typing import NamedTuple
 
+import numpy as np
+
+from planner.reward import WEIGHTS
 from planner.routes import remaining, rest_of
 from planner.trace import EgoGoal
 from planner.trajectory import Roads
-from sim.network import Location
+from sim.network import Link, Location
 
 AIM = 20.0  # [s] of free driving ahead that a decision aims for at most
 LEAST = 10.0  # [m] into a road at which a waypoint lies
+
+
+class Toll(NamedTuple):
+    """What driving along a lane takes where nobody is in the way."""
+
+    time: float  # [s]
+    cost: float  # [s] with what its bends cost in comfort
+
+
+def toll(roads: Roads, lane: str) -> Toll:
+    """What driving along a lane takes, at the speed that its limit and its bends allow."""
+    found = roads.tolls.get(lane)
+    if found is None:
+        line = roads.line((lane,))
+        pace, steps = 0.5 * (line.cap[1:] + line.cap[:-1]), np.diff(line.arc)
+        bend = np.abs(0.5 * (line.curvature[1:] + line.curvature[:-1]))
+        time = float(np.sum(steps / pace))
+        turning = float(np.sum(np.abs(np.diff(line.cap * line.curvature))))
+        bending = float(np.sum(bend * steps / pace))
+        comfort = WEIGHTS["angular-acceleration"] * turning + WEIGHTS["curvature"] * bending
+        found = roads.tolls[lane] = Toll(time, time + comfort)
+    return found
 
 
 def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> EgoGoal:
@@ -22,25 +50,25 @@ def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> E
     """
     network = roads.network
     ahead = [here.lane, *rest_of(network, here.lane)]
-    edge, used = network.lanes[ahead[-1]].edge, -here.offset / network.lanes[here.lane].speed_limit
-    for name in ahead[:-1]:
-        used += network.lanes[name].length / network.lanes[name].speed_limit
+    edge = network.lanes[ahead[-1]].edge
     if network.lanes[ahead[-1]].internal or not math.isfinite(remaining(roads, edge, goal)):
         return goal
-    passed = network.lanes[ahead[-1]].edge == goal.edge and len(ahead) == 1
-    passed = passed and here.offset > goal.position
+    used = sum(toll(roads, lane).time for lane in ahead[:-1])
+    used -= here.offset / network.lanes[here.lane].speed_limit
+    passed = len(ahead) == 1 and edge == goal.edge and here.offset > goal.position
     while True:
         lane = network.edge_lanes(edge)[0]
         if edge == goal.edge and not passed:
             late = used + goal.position / lane.speed_limit >= aim
             return _at(roads, edge, (aim - used) * lane.speed_limit) if late else goal
-        if used + lane.length / lane.speed_limit >= aim:
+        if used + toll(roads, lane.id).time >= aim:
             return _at(roads, edge, (aim - used) * lane.speed_limit)
-        used += lane.length / lane.speed_limit
-        onward = _next_edge(roads, edge, goal)
-        if onward is None:
+        used += toll(roads, lane.id).time
+        link = _next_link(roads, edge, goal)
+        if link is None:
             return goal
-        edge, passed = onward, False
+        used += sum(toll(roads, via).time for via in link.via)
+        edge, passed = network.lanes[link.to_lane].edge, False
 
 
 def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
@@ -60,15 +88,71 @@ def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
     return (max(lane.length - here.offset, 0.0) + distance + goal.position) / roads.fastest
 
 
+def cost_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
+    """What free driving to a goal costs [s], comfort included; infinite where no way leads there.
+
+    Unlike `time_left` an estimate and no bound: it knows the bends on the way.
+    """
+    network = roads.network
+    lane = network.lanes[here.lane]
+    pace = network.edge_lanes(goal.edge)[0].speed_limit
+    if lane.edge == goal.edge and here.offset <= goal.position:
+        return (goal.position - here.offset) / pace
+    ahead = rest_of(network, lane.id)
+    edge = network.lanes[ahead[-1]].edge if ahead else lane.edge
+    share = max(1.0 - here.offset / lane.length, 0.0)
+    cost = share * toll(roads, lane.id).cost + goal.position / pace
+    cost += sum(toll(roads, name).cost for name in ahead[:-1])
+    if ahead and edge == goal.edge:
+        return cost
+    cost += toll(roads, ahead[-1]).cost if ahead else 0.0
+    return cost + _costs_to(roads, goal.edge).get(edge, math.inf)
+
+
+def _costs_to(roads: Roads, edge: str) -> Mapping[str, float]:
+    """The cost [s] from the end of each edge to the start of one, where a way leads there."""
+    found = roads.costs.get(edge)
+    if found is None:
+        found = roads.costs[edge] = _search_back(roads, edge)
+    return found
+
+
+def _search_back(roads: Roads, target: str) -> dict[str, float]:
+    """Dijkstra against the driving direction; lane changes are free."""
+    network = roads.network
+    before: dict[str, dict[str, float]] = {}
+    for link in network.links:
+        start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
+        across = sum(toll(roads, lane).cost for lane in link.via)
+        known = before.setdefault(end, {})
+        known[start] = min(known.get(start, math.inf), across)
+    costs: dict[str, float] = {}
+    frontier = [(across, start) for start, across in before.get(target, {}).items()]
+    heapq.heapify(frontier)
+    while frontier:
+        cost, edge = heapq.heappop(frontier)
+        if edge in costs:
+            continue
+        costs[edge] = cost
+        along = cost + toll(roads, network.edge_lanes(edge)[0].id).cost
+        for start, across in before.get(edge, {}).items():
+            if start not in costs:
+                heapq.heappush(frontier, (along + across, start))
+    return costs
+
+
 def _at(roads: Roads, edge: str, position: float) -> EgoGoal:
     """A place on an edge, neither right at its beginning nor beyond its end."""
     length = roads.network.edge_lanes(edge)[0].length
     return EgoGoal(edge, round(min(max(position, LEAST), 0.9 * length), 2), None)
 
 
-def _next_edge(roads: Roads, edge: str, goal: EgoGoal) -> str | None:
-    """The edge after this one on the shortest way to the goal."""
+def _next_link(roads: Roads, edge: str, goal: EgoGoal) -> Link | None:
+    """The link from an edge on the shortest way to the goal."""
     network = roads.network
     links = [x for lane in network.edge_lanes(edge) for x in network.links_from(lane.id)]
-    edges = dict.fromkeys(network.lanes[link.to_lane].edge for link in links)
-    return min(edges, key=lambda onward: remaining(roads, onward, goal), default=None)
+    return min(
+        links,
+        key=lambda link: remaining(roads, network.lanes[link.to_lane].edge, goal),
+        default=None,
+    )
