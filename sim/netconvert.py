@@ -124,6 +124,14 @@ def _run(*arguments: str) -> None:
         raise ConversionFailed(f"netconvert failed: {reason.strip()}")
 
 
+def main(folders: list[str]) -> None:
+    """Compile the plain-XML files of folders, each named as its folder is."""
+    for folder in (Path(name).resolve() for name in folders):
+        try:
+            compile_plain(folder, folder.name, folder / f"{folder.name}.net.xml")
+        except NetconvertError as error:
+            sys.exit(f"{folder}: {error}")
+
+
 if __name__ == "__main__":
-    for folder in map(Path, sys.argv[1:]):
-        compile_plain(folder, folder.name, folder / f"{folder.name}.net.xml")
+    main(sys.argv[1:] or sys.exit("usage: python -m sim.netconvert FOLDER..."))

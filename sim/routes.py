@@ -62,7 +62,7 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
     """The vehicles and trips of a route file, in file order.
 
     Raises:
-        RoutesError: a vehicle has no id.
+        RoutesError: a vehicle has no id, or no depart.
     """
     routes = {route.get("id"): route for route in root.iter("route") if route.get("id")}
     found = []
@@ -70,6 +70,8 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
         name = element.get("id")
         if not name:
             raise RoutesError(f"a <{element.tag}> has no id")
+        if element.get("depart") is None:
+            raise RoutesError(f"vehicle {name!r} has no depart")
         route = element.find("route")
         if route is None:
             route = routes.get(element.get("route"))

@@ -27,6 +27,17 @@ def test_a_ride_is_told_line_by_line() -> None:
     assert story(events) == "1:00 The ride ends here."
 
 
+def test_a_turn_that_was_given_up_has_not_been_done() -> None:
+    given_up = (
+        Event("action-started", 0.0, "exit-left", 0),
+        Event("action-ended", 2.0, "exit-left"),
+    )
+    done = (Event("action-committed", 4.0, "exit-left", 4), Event("action-ended", 6.0, "exit-left"))
+    assert story(given_up) == ""
+    assert story((*given_up, *done)) == "0:04 I turn left.\n0:06 I have turned left."
+    assert story((*done, *given_up)) == "0:04 I turn left.\n0:06 I have turned left."
+
+
 @pytest.mark.parametrize("action", ACTIONS)
 def test_every_action_has_words(action: str) -> None:
     assert plan_in_words((action,)).strip()  # type: ignore[arg-type]

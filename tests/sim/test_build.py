@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.netconvert import ConversionFailed, compile_plain
+from sim.netconvert import ConversionFailed, compile_plain, main
 from sim.scenario import available, load
 from tests.sim.folders import copy_of, edit
 
@@ -29,3 +29,12 @@ def test_sources_that_netconvert_refuses(tmp_path: Path) -> None:
     edit(folder / "s1.edg.xml", 'from="west"', 'from="nowhere"')
     with pytest.raises(ConversionFailed, match="nowhere"):
         compile_plain(folder, "s1", tmp_path / "built.net.xml")
+
+
+def test_a_folder_that_cannot_be_compiled_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine").mkdir()
+    monkeypatch.chdir(tmp_path / "mine")
+    with pytest.raises(SystemExit, match=r"/mine: netconvert failed: .*mine\.nod\.xml"):
+        main(["."])

@@ -10,7 +10,7 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.cabin import RemoteCabin
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.convoy import Convoy, convoy, first_scene
-from xavi_dialogue.app.narration import narrate
+from xavi_dialogue.app.narration import Narrator
 from xavi_dialogue.dialogue.reply import Reply, encode
 from xavi_dialogue.transports.bus import Keys
 from xavi_dialogue.transports.messages import MAX_TEXT, EventReport
@@ -86,9 +86,10 @@ async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
     from xavi_dialogue.transports.terminal import TerminalChat
 
     told: list[Write] = []
+    narrator = Narrator()
 
     def on_event(report: EventReport) -> None:
-        line = narrate(report.event)
+        line = narrator.tell(report.event)
         if line is not None:
             for tell in told:
                 tell(line)

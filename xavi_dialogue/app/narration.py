@@ -16,9 +16,26 @@ def narrate(event: Event) -> str | None:
     return None if phrase is None else f"{clock(event.sim_time)} {phrase.format(event.vehicle)}"
 
 
+class Narrator:
+    """Tells a ride event by event; of what was given up before it began it tells no end."""
+
+    def __init__(self) -> None:
+        self._begun: Action | None = None
+
+    def tell(self, event: Event) -> str | None:
+        """The line for the next event, if any."""
+        begun = self._begun
+        if event.kind == "action-committed":
+            self._begun = event.action
+        elif event.kind == "action-ended":
+            self._begun = None
+            return narrate(event) if begun == event.action else None
+        return narrate(event)
+
+
 def story(events: Iterable[Event]) -> str:
     """All that happened, a line each."""
-    return "\n".join(line for line in map(narrate, events) if line is not None)
+    return "\n".join(line for line in map(Narrator().tell, events) if line is not None)
 
 
 def clock(time: float) -> str:
