@@ -3,7 +3,16 @@
 import math
 
 from planner.kernels.driving import EMERGENCY, FOLLOWING
-from planner.layout import CLEAR, COMFORT, FAR, STRAIGHTEN, Layout, finish, lookahead
+from planner.layout import (
+    CLEAR,
+    COMFORT,
+    FAR,
+    STRAIGHTEN,
+    Layout,
+    finish,
+    lookahead,
+    waits_along,
+)
 from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LaneFollow, Situation, Stop
 from planner.routes import (
     Refusal,
@@ -77,8 +86,10 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
     reach = rest + lookahead(roads, here)
     row = onward(roads, (lane,), reach + here.location.offset, goal)
     path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, rest + MARGIN)
+    lines = [m.stop for m in waits_along(roads, path, row) if isinstance(m, GiveWay)]
     for braking in (COMFORT, FOLLOWING, EMERGENCY):
-        if not network.lanes[path.lane_at(_rest(here.speed, braking))[0]].internal:
+        end = _rest(here.speed, braking)
+        if end <= min(lines, default=end) and not network.lanes[path.lane_at(end)[0]].internal:
             halt = Stop(0.0, braking)
             return finish(roads, "stop", path, (halt,), path.length, math.inf, None)
     return Refusal("it would come to a stop inside the junction")

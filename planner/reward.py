@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planner.trace import SAMPLE_PERIOD, Component, Outcome
+from planner.trace import SAMPLE_PERIOD, Action, Component, Outcome
 from planner.trajectory import Array
 
 #: What a drive costs, in seconds of travelling time: time as it is, and for each of the others
@@ -16,7 +16,7 @@ WEIGHTS: dict[Component, float] = {
 }
 #: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
 #: within reach: that costs what was driven, and the rest of the way.
-PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 5.0}
+PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 10.0}
 
 
 def components(
@@ -50,8 +50,9 @@ def absent() -> dict[Component, float | None]:
     return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
 
 
-#: What a stop of the car's own accord costs [s]: passengers wonder what is wrong.
-HALT = 2.0
+#: What an action costs by itself [s]: passengers wonder what a stop is for, and every change of
+#: lanes is a risk.
+EFFORT: dict[Action, float] = {"stop": 2.0, "change-left": 1.0, "change-right": 1.0}
 
 
 def cost(parts: dict[Component, float]) -> float:
@@ -60,16 +61,16 @@ def cost(parts: dict[Component, float]) -> float:
     return parts["time"] * (WEIGHTS["time"] + sum(comfort))
 
 
-def reward(outcome: Outcome, parts: dict[Component, float], left: float, halts: int) -> float:
+def reward(outcome: Outcome, parts: dict[Component, float], left: float, effort: float) -> float:
     """The reward of a rollout, in (negative) seconds of travelling time.
 
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
         left: [s] that the rest of the way costs where nobody is in the way.
-        halts: how often the macro action Stop was taken.
+        effort: [s] that its actions cost by themselves.
     """
     if outcome in ("collision", "dead"):
         return -PENALTY[outcome]
     late = PENALTY["termination"] + left if outcome == "termination" else 0.0
-    return -cost(parts) - late - HALT * halts
+    return -cost(parts) - late - effort

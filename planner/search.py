@@ -13,7 +13,7 @@ from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
-from planner.reward import absent, reward
+from planner.reward import EFFORT, absent, reward
 from planner.rollout import Leg, Task, held_up, summarise, take
 from planner.routes import Refusal
 from planner.trace import (
@@ -188,8 +188,8 @@ class Search:
         found = self._known.get(key)
         if found is None:
             parts = summarise(self.task, legs)
-            halts = sum(leg.action == "stop" for leg in legs)
-            gained = round(reward(outcome, parts, self._left(legs), halts), 3)
+            effort = sum(EFFORT.get(leg.action, 0.0) for leg in legs)
+            gained = round(reward(outcome, parts, self._left(legs), effort), 3)
             stretches = held_up(legs, self.task.start)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
             found = Simulated(forced, samples, tuple(legs), outcome, shown, gained, stretches)
