@@ -18,6 +18,7 @@ from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings, Track
 from planner.tracks import aligned, coast
 from planner.trajectory import Roads
+from planner.waypoints import way
 from sim.network import Location, Network
 from sim.scene import EGO, Command, Scene, VehicleState
 
@@ -46,6 +47,7 @@ class _Execution:
 
     plan: ActionPlan
     lane: Lane
+    edges: tuple[str, ...]  # that it leads along, and on to the goal
     motion: Motion
     decision: int
     committed: bool = False
@@ -142,7 +144,9 @@ class Driver:
         motion = Motion(0.0, here.speed, here.acceleration)
         if current is not None:
             events.append(_event("action-ended", moment.time, current))
-        self._current = _Execution(expanded, Lane(expanded.path), motion, moment.number)
+        ahead = tuple(lane for lane, start in expanded.path.lanes if start <= expanded.end)
+        edges = way(frame.roads, ahead, frame.goal)
+        self._current = _Execution(expanded, Lane(expanded.path), edges, motion, moment.number)
         events.append(_event("action-started", moment.time, self._current))
 
     def _situation(self, scene: Scene) -> Situation:
@@ -173,7 +177,7 @@ class Driver:
         self._note_waiting(hindrance, motion, later, current, events)
         position, heading = current.plan.path.pose(motion.arc, scene.ego.length)
         self._current = self._close(current, later, events)
-        return Command(position, heading, motion.speed)
+        return Command(position, heading, motion.speed, current.edges)
 
     def _close(self, current: _Execution, time: float, events: list[Event]) -> _Execution | None:
         goal = current.plan.goal
@@ -222,9 +226,9 @@ class Driver:
             here = scene.vehicles.get(vehicle)
             least = CAUTION if here is None or here.speed < STANDING else 0.0
             for belief in beliefs:
-                for way in belief.trajectories:
-                    if belief.probability * way.probability >= least:
-                        found.append(aligned(way.motion, -elapsed, GAP_HORIZON + 10))
+                for line in belief.trajectories:
+                    if belief.probability * line.probability >= least:
+                        found.append(aligned(line.motion, -elapsed, GAP_HORIZON + 10))
         return found
 
     def _note_waiting(

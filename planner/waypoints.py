@@ -71,6 +71,22 @@ def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> E
         edge, passed = network.lanes[link.to_lane].edge, False
 
 
+def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
+    """The edges along connected lanes, and from there on the shortest way to the goal."""
+    network = roads.network
+    ahead = [lane for lane in lanes if not network.lanes[lane].internal]
+    ahead += [lane for lane in rest_of(network, lanes[-1]) if not network.lanes[lane].internal]
+    edges = list(dict.fromkeys(network.lanes[lane].edge for lane in ahead))
+    if goal.edge in edges:
+        return tuple(edges[: edges.index(goal.edge) + 1])
+    while edges and edges[-1] != goal.edge and math.isfinite(remaining(roads, edges[-1], goal)):
+        link = _next_link(roads, edges[-1], goal)
+        if link is None:
+            break
+        edges.append(network.lanes[link.to_lane].edge)
+    return tuple(edges)
+
+
 def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
     """A lower bound of the time [s] to a goal: the distance at the highest speed limit.
 

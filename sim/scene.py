@@ -49,3 +49,4 @@ class Command:
     position: Point  # [m] centre of the front bumper
     heading: float  # [rad]
     speed: float  # [m/s]
+    edges: tuple[str, ...] = ()  # that it will drive along, as its indicators show; () unknown

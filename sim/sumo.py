@@ -94,6 +94,7 @@ class Simulation:
         self._coloured = frozenset(departure.id for departure in known if departure.coloured)
         self._coloured_types = routes.coloured_types(root)
         self._commanded = False
+        self._announced: tuple[str, ...] = ()  # the edges that the others expect the ego on
         self._near: dict[str, VehicleState] = {}
         _running = self._open = True
         try:
@@ -204,10 +205,19 @@ class Simulation:
             self._call(vehicle.setLaneChangeMode, ego, FREE_LANES)
             self._commanded = True
         (x, y), angle = command.position, 90.0 - math.degrees(command.heading)
+        self._announce(command.edges)
         self._call(vehicle.setWidth, ego, self._width_to_show())
         self._call(vehicle.setPreviousSpeed, ego, command.speed)
         self._call(vehicle.moveToXY, ego, "", -1, x, y, angle, KEEP_EXACT_PLACE)
         self._call(vehicle.setSpeed, ego, command.speed)
+
+    def _announce(self, edges: tuple[str, ...]) -> None:
+        """Let the others know where the ego goes: in SUMO, right of way goes by routes."""
+        road: str = self._call(self._sumo.vehicle.getRoadID, self._scenario.ego)
+        if edges != self._announced and road in edges:
+            ahead = edges[edges.index(road) :]
+            self._call(self._sumo.vehicle.setRoute, self._scenario.ego, ahead)
+            self._announced = edges
 
     def _width_to_show(self) -> float:
         """The ego's width [m] as SUMO is to know it in the coming step.
