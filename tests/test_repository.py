@@ -54,6 +54,20 @@ def test_programs_in_the_readme_exist(root: Path) -> None:
     assert set(re.findall(r"\bxavi ([a-z]+)", shown)) <= set(re.findall(r"\w+", helped.stdout))
 
 
+def test_the_search_tree_in_the_readme_is_what_is_shown(root: Path) -> None:
+    page = (root / "README.md").read_text(encoding="utf-8")
+    found = re.search(r"`xavi (trace show [^`]*--at[^`]*)`.*?```text\n(.*?)```", page, re.DOTALL)
+    assert found is not None
+    shown = subprocess.run(
+        [sys.executable, "-m", "xavi_dialogue", *found[1].split()],
+        cwd=root,
+        capture_output=True,
+        check=True,
+        text=True,
+    )
+    assert found[2] in shown.stdout
+
+
 def test_the_makefile_offers_what_everybody_expects(root: Path) -> None:
     assert targets(root) >= {"chat", "test", "lint", "bench", "clean", "help"}
 
