@@ -1,5 +1,6 @@
 """One decision: recognise the others, search, and record it all as a PlanTrace."""
 
+import math
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ from planner.trajectory import Array, Roads
 from planner.waypoints import waypoint
 from sim.scene import EGO, Point, VehicleState
 
+CROWD = 16  # vehicles of which the goals are recognised at most
 DIGITS: dict[Component, int] = {
     "time": 2,
     "jerk": 4,
@@ -77,10 +79,14 @@ def decide(frame: Frame, moment: Moment) -> Decision:
 
 
 def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
-    """Recognise the goals of all others in view."""
+    """Recognise the goals of the others in view; in a crowd, of those nearest to the ego."""
+    here = moment.scene[EGO].position
+    nearest = sorted(
+        moment.scene, key=lambda vehicle: math.dist(moment.scene[vehicle].position, here)
+    )
     tracks = [
         observed(vehicle, moment.history[vehicle], moment.scene[vehicle])
-        for vehicle in moment.scene
+        for vehicle in sorted(nearest[: 1 + CROWD])
     ]
     return recognise(frame.roads, tracks, frame.settings, moment.time, EGO)
 

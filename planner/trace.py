@@ -15,7 +15,7 @@ from sim.scene import Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/1"
 MAX_BYTES = 256 * 1024
-IMPROBABLE = 0.1  # probability up to which a prediction's line is dropped first
+IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
 
 Action = Literal[
@@ -233,11 +233,12 @@ def encode(trace: PlanTrace) -> bytes:
 def fitted(trace: PlanTrace) -> PlanTrace:
     """The trace without the lines that it has no room for.
 
-    Where it is larger than MAX_BYTES, improbable predictions lose path and speed, then the
+    Where it is larger than MAX_BYTES, the less probable predictions lose path and speed, then the
     rollouts recorded last, then all predictions; what rollouts came to, and why, always stays.
     """
-    if len(encode(trace)) > MAX_BYTES:
-        trace = _without_lines(trace, IMPROBABLE)
+    for below in IMPROBABLE:
+        if len(encode(trace)) > MAX_BYTES:
+            trace = _without_lines(trace, below)
     excess = len(encode(trace)) - MAX_BYTES
     if excess <= 0:
         return trace

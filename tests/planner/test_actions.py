@@ -84,6 +84,17 @@ def reasons(name: str, lane: str, offset: float, speed: float = 8.0) -> dict[Act
                 "change-right": "there is no lane to the right",
                 "exit-left": "its lane does not lead to the left",
                 "exit-straight": NO_NEED,
+            },
+        ),
+        (
+            "s1",
+            "main_in_0",
+            6.0,
+            {
+                "change-left": "the lane ends too soon to change",
+                "change-right": "there is no lane to the right",
+                "exit-left": "its lane does not lead to the left",
+                "exit-straight": NO_NEED,
                 "stop": "it would come to a stop inside the junction",
             },
         ),
