@@ -2,7 +2,7 @@ import msgspec
 import pytest
 
 from planner.events import Event
-from planner.trace import WhatIf
+from planner.trace import EgoGoal, WhatIf
 from tests.traces import Ride, s1_ride, s1_world, s2_ride, s2_world, straight_track, trace_of
 from xavi_dialogue.explain.engine import explain, settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
@@ -342,6 +342,16 @@ def test_what_the_ego_does_and_where_it_goes():
     assert ask(S1, 4.0, type="when", tense="future").arrival == pytest.approx(12.0)
     assert ask(S1, type="when", factual=("change-left",)).moment == 4.1
     assert ask(S1, 4.0, type="confidence").outcome.probability == pytest.approx(1.0)
+
+
+def test_of_a_goal_that_is_far_the_time_to_a_place_before_it_says_nothing():
+    before = EgoGoal("main_in", 80.0, None)
+    traces = tuple(msgspec.structs.replace(trace, waypoint=before) for trace in S1.traces)
+    far = Ride(S1.now, traces, S1.events)
+    assert ask(S1, 4.0, type="when", tense="future").arrival is not None
+    assert ask(far, 4.0, type="when", tense="future").arrival is None
+    assert ask(far, 4.0, type="where_goal", tense="future").arrival is None
+    assert ask(far, 4.0, type="confidence").arrival is None
 
 
 def test_a_turn_is_done_only_once_it_has_begun():

@@ -109,7 +109,7 @@ def explain_contrast(
         causes=causes,
         evidence=evidence(model, ride, here, there),
         sim_time=model.trace.sim_time,
-        arrival=here.expectation("time"),
+        arrival=arrival(model.trace, here),
     )
 
 
@@ -119,6 +119,11 @@ def outcome(intervention: Intervention) -> OutcomeEstimate:
     struck = intervention.collisions() if name == "collision" else {}
     vehicle = max(struck, key=lambda v: struck[v], default=None)
     return OutcomeEstimate(name, min(intervention.outcomes[name], 1.0), vehicle)
+
+
+def arrival(trace: PlanTrace, plan: Intervention) -> float | None:
+    """Expected time [s] to the goal; None where a plan only goes to a place on the way there."""
+    return None if trace.waypoint is not None else plan.expectation("time")
 
 
 def evidence(model: CausalModel, ride: Ride, *sides: Intervention) -> Evidence:
@@ -157,7 +162,7 @@ def _against_best(ride: Ride, trace: PlanTrace, node: Actions) -> Explanation:
         causes=holding_up(model, here),
         evidence=evidence(model, ride, here),
         sim_time=trace.sim_time,
-        arrival=here.expectation("time"),
+        arrival=arrival(trace, here),
     )
 
 

@@ -132,7 +132,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     evidence: Evidence
     activity: Activity | None = None  # answers to "what"
     sim_time: float = 0.0  # [s] when the explained decision was taken, or the moment asked about
-    arrival: float | None = None  # [s] expected time to the goal under the factual plan
+    arrival: float | None = None  # [s] expected time to the goal, if the plan gets there
     destination: Destination | None = None  # answers to "where", goals behind "why"
     rival: tuple[QueryAction, ...] = ()  # what that vehicle is expected to do almost as probably
     moment: float | None = None  # [s] when what was asked about happened

@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from sim.scene import EGO
-from xavi_dialogue.explain.contrast import evidence, factual, outcome
+from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened
 from xavi_dialogue.explain.explanation import (
     Activity,
@@ -83,7 +83,7 @@ def confidence(query: Query, ride: Ride) -> Explanation:
         causes=(),
         evidence=evidence(model, ride, plan),
         sim_time=trace.sim_time,
-        arrival=plan.expectation("time"),
+        arrival=arrival(trace, plan),
     )
 
 
@@ -109,7 +109,7 @@ def _of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
     trace = ride.latest
     model = ride.model(trace)
     plan = factual(model, trace)
-    expected = plan.expectation("time")
+    expected = arrival(trace, plan)
     left = None if expected is None else max(trace.sim_time + expected - ride.now, 0.0)
     return Explanation(
         factual=plan.plan,

@@ -6,7 +6,7 @@ from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.causes import expected_actions, holding_up
-from xavi_dialogue.explain.contrast import evidence, factual, outcome
+from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
 from xavi_dialogue.explain.deeds import did_not_happen
 from xavi_dialogue.explain.explanation import Activity, Cause, Explanation, Mechanism
 from xavi_dialogue.explain.motion import Motion, Sighting
@@ -62,7 +62,7 @@ def _explanation(
         evidence=evidence(model, ride, plan),
         activity=Activity(EGO, plan.plan, None, then.speed[-1], then.trend),
         sim_time=model.trace.sim_time,
-        arrival=plan.expectation("time"),
+        arrival=arrival(model.trace, plan),
         moment=seen.start,
     )
 

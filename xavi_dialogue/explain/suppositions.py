@@ -3,7 +3,7 @@
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.explain.causes import expected_actions
-from xavi_dialogue.explain.contrast import evidence, factual, outcome, to_effects
+from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome, to_effects
 from xavi_dialogue.explain.explanation import Cause, Evidence, Explanation, NeedRollout
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.explain.ride import (
@@ -94,7 +94,7 @@ def _supposing(
         causes=(cause,),
         evidence=evidence(model, ride, there, *(() if later else (here,))),
         sim_time=trace.sim_time,
-        arrival=here.expectation("time"),
+        arrival=arrival(trace, here),
     )
 
 
@@ -145,5 +145,5 @@ def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
             (*here_rests.traces, *there_rests.traces),
         ),
         sim_time=trace.sim_time,
-        arrival=here.expectation("time"),
+        arrival=arrival(trace, here),
     )
