@@ -23,9 +23,9 @@ from sim.network import Location, Network
 from sim.scene import EGO, Command, Scene, VehicleState
 
 MEMORY = 10.0  # [s] of history
-CAUTION = 0.05  # probability from which a motion of a standing vehicle must be given way to
+CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
-STANDING = 1.0  # [m/s] who drives faster is given way to in every motion that is foreseen
+STANDING = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
 class DriverError(Exception):

@@ -17,7 +17,7 @@ from sim.scene import Point
 Array = NDArray[np.float64]
 
 SPACING = 1.0  # [m] between path points
-LATERAL_ACCELERATION = 2.5  # [m/s2] comfortable in bends
+LATERAL_ACCELERATION = 3.5  # [m/s2] in bends, as people drive in town
 CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
