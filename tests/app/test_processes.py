@@ -167,7 +167,8 @@ def test_a_child_that_cannot_start_is_named(root: Path, tmp_path: Path) -> None:
     status, out, err = Chat("--scenario", str(folder)).end()
     assert (status, out) == (1, "")
     [message] = [line for line in err.splitlines() if "has ended" in line]
-    assert message.startswith("xavi: the car has ended (exit status 1): SUMO")
+    assert message.startswith("xavi: the car has ended (exit status 1): ")
+    assert "s1.rou.xml: SUMO refuses it: " in message
     assert "Traceback" not in err
 
 
