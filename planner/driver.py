@@ -11,7 +11,7 @@ from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.decide import Decision, Frame, Moment, decide, observed, root_at
 from planner.events import Event, EventKind
 from planner.forward import DT, Hindrance, Lane, Motion, accelerate, advance
-from planner.kernels.driving import GAP_HORIZON
+from planner.kernels.driving import FORESIGHT, GAP_HORIZON
 from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.routes import Refusal
 from planner.search import Root
@@ -25,6 +25,7 @@ from sim.scene import EGO, Command, Scene, VehicleState
 MEMORY = 10.0  # [s] of history
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
+LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
 STANDING = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
@@ -196,13 +197,15 @@ class Driver:
         """Keep behind what is seen, and give way to what is predicted."""
         path, width = current.plan.path, scene.ego.width
         seen = Traffic.of(self._seen(scene))
-        crossing = Traffic.of(self._crossing(scene) if current.plan.give_ways else [])
+        crossing = Traffic.of(self._predicted(scene, 0.0) if current.plan.give_ways else [])
+        foreseen = Traffic.of(self._predicted(scene, LIKELY))
         return accelerate(
             current.plan,
             current.lane,
             current.motion,
             occupancy(path, seen, width, 0, 2),
             occupancy(path, crossing, width, 0, GAP_HORIZON),
+            occupancy(path, foreseen, width, 0, FORESIGHT),
             scene.ego.length,
             dt,
         )
@@ -216,15 +219,16 @@ class Driver:
                 found.append(coast(self._frame.roads, track, 2, past=False))
         return found
 
-    def _crossing(self, scene: Scene) -> list[Obstacle]:
-        """The motions predicted by the last decision, from now on."""
+    def _predicted(self, scene: Scene, likely: float) -> list[Obstacle]:
+        """The motions that the last decision found likely enough, from now on."""
         found: list[Obstacle] = []
         if self._last is None:
             return found
         elapsed = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():
             here = scene.vehicles.get(vehicle)
-            least = CAUTION if here is None or here.speed < STANDING else 0.0
+            slow = here is None or here.speed < STANDING
+            least = max(likely, CAUTION if slow else 0.0)
             for belief in beliefs:
                 for line in belief.trajectories:
                     if belief.probability * line.probability >= least:

@@ -133,6 +133,7 @@ def accelerate(
     motion: Motion,
     seen: Occupancy,
     crossing: Occupancy,
+    foreseen: Occupancy,
     length: float,
     dt: float,
 ) -> tuple[float, Hindrance | None]:
@@ -144,6 +145,7 @@ def accelerate(
         motion: where on the path the vehicle is.
         seen: the vehicles to keep behind of, from now on.
         crossing: motions to give way to, from now on.
+        foreseen: motions to make room for where they lead onto the path, from now on.
         length: [m] of the vehicle.
         dt: [s] length of the coming step.
 
@@ -161,12 +163,13 @@ def accelerate(
         driving.behind(seen.stretches, motion.arc - 0.5 * length, 0),
         crossing.stretches,
         crossing.firsts(line.yields_to for line in plan.give_ways),
+        foreseen.stretches,
         float(length),
         dt,
     )
     if who < 0:
         return acceleration, None
-    others = crossing if how == driving.RIGHT_OF_WAY else seen
+    others = {driving.RIGHT_OF_WAY: crossing, driving.NEWCOMER: foreseen}.get(how, seen)
     speed = float(others.stretches.speed[who, 0])
     return acceleration, Hindrance(others.traffic.vehicles[who], HOW[how], speed)
 

@@ -12,7 +12,7 @@ from planner.trajectory import Roads
 from sim.network import Direction, Link, Location, Network, angle_between, point_at, project
 
 BEYOND = 4.0  # [m] into its exit that a vehicle has reached its goal
-STOP_PRIOR = 0.02  # of stopping; the exits share the rest equally
+STOP_PRIOR = 0.01  # of stopping; the exits share the rest equally
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from planner.trace import HoldUp
 from planner.trajectory import Array, Path
 
 #: How a vehicle is held up, by the kernel's index.
-HOW: tuple[HoldUp, ...] = ("leader", "right-of-way", "cut-in", "blocked")
+HOW: tuple[HoldUp, ...] = ("leader", "right-of-way", "cut-in", "blocked", "cut-in")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

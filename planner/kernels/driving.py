@@ -30,10 +30,11 @@ STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
 ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
 JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
+FORESIGHT = 10  # steps ahead in which a vehicle that moves in is made room for
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
 
 # How a vehicle is held up, by index.
-LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED = 0, 1, 2, 3
+LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -88,6 +89,7 @@ def accelerate(
     ignored: Bools,
     crossing: Stretches,
     firsts: Bools,
+    foreseen: Stretches,
     length: float,
     dt: float,
 ) -> tuple[float, int, int]:
@@ -104,6 +106,7 @@ def accelerate(
         ignored: [M] those that are behind, and so of no concern.
         crossing: [C] the vehicles that may have the right of way.
         firsts: [L, C] who goes first at which line.
+        foreseen: motions to make room for where they lead onto the path.
         length: [m] of the vehicle.
         dt: [s] of the coming step.
 
@@ -117,6 +120,9 @@ def accelerate(
     braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
     how = LEADER if who < 0 else _manner(others, who, step)
+    safe, newcomer = _make_room(motion, step, foreseen, length, wanted)
+    if newcomer >= 0:
+        wanted, who, how = safe, newcomer, NEWCOMER
     for k in range(len(rooms)):
         gap = rooms[k, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
@@ -160,6 +166,31 @@ def _follow(
             wanted, who = safe, m
             hardest = EMERGENCY if gap < MIN_GAP or safe < speed - 3.0 else FOLLOWING
     return wanted, hardest, who
+
+
+@_jit
+def _make_room(
+    motion: Motion, step: int, others: Stretches, length: float, wanted: float
+) -> tuple[float, int]:
+    """The wanted speed [m/s] behind vehicles that are about to move in ahead, and for whom.
+
+    A newcomer counts as a leader from now on: where it would be had it come along the path.
+    """
+    arc, _, _ = motion
+    who, last = -1, others.low.shape[1] - 1
+    for m in range(len(others.low)):
+        if not math.isnan(others.low[m, min(step, last)]):
+            continue
+        for t in range(min(step + 1, last), min(step + FORESIGHT, last) + 1):
+            if not math.isnan(others.low[m, t]) and others.cosine[m, t] > ALIGNED:
+                pace = max(others.along[m, t], 0.0)
+                back = pace * (t - step) * STEP
+                low, high = others.low[m, t] - back, others.high[m, t] - back
+                safe = safe_speed(low - arc - MIN_GAP, pace, FOLLOWING)
+                if 0.5 * (low + high) > arc - 0.5 * length and safe < wanted:
+                    wanted, who = safe, m
+                break
+    return wanted, who
 
 
 @_jit
@@ -271,7 +302,19 @@ def drive(
         k = step - first
         now = (arc, speed, acceleration)
         acceleration, who, how = accelerate(
-            caps, halting, lines, rooms, now, step, others, ignored, others, waits, length, STEP
+            caps,
+            halting,
+            lines,
+            rooms,
+            now,
+            step,
+            others,
+            ignored,
+            others,
+            waits,
+            others,
+            length,
+            STEP,
         )
         before, was = arc, speed
         speed = max(speed + acceleration * STEP, 0.0)

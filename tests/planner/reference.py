@@ -18,6 +18,7 @@ from planner.kernels.driving import (
     CUT_IN_MEMORY,
     EMERGENCY,
     FOLLOWING,
+    FORESIGHT,
     GAP_HORIZON,
     HINDERED,
     INTRUSION,
@@ -100,6 +101,18 @@ class Occupancy:
         """Whether it drives along the path already, ahead of a front at an arc [m]."""
         k = self._at(step)
         return self._low[k] > arc and self._aligned[k] > ALIGNED
+
+    def newcomer(self, step: int) -> tuple[float, float, float] | None:
+        """Arcs [m] and speed [m/s] of one that moves in, had it come along the path."""
+        last = len(self._low) - 1
+        if not math.isnan(self._low[min(step, last)]):
+            return None
+        for k in range(min(step + 1, last), min(step + FORESIGHT, last) + 1):
+            if not math.isnan(self._low[k]) and self._aligned[k] > ALIGNED:
+                pace = max(self._along[k], 0.0)
+                back = pace * (k - step) * DT
+                return self._low[k] - back, self._high[k] - back, pace
+        return None
 
     def between(self, begin: float, end: float, step: int) -> bool:
         """Whether it drives along the path, its rear between two arcs [m]."""
@@ -267,14 +280,14 @@ def drive(
         horizon: the last step.
     """
     lane = Lane(plan.path)
-    others = tuple(
+    everybody = tuple(
         occupancy(plan.path, obstacle, size, first, horizon + GAP_HORIZON) for obstacle in obstacles
     )
-    others = tuple(o for o in others if not o.follows(start.arc - size[0] / 2.0, first))
+    others = tuple(o for o in everybody if not o.follows(start.arc - size[0] / 2.0, first))
     motion, motions, hindrances = start, [start], []
     standing, goal_time, finished = 0, None, False
     for step in range(first, horizon):
-        acceleration, hindrance = accelerate(plan, lane, motion, step, others, size[0])
+        acceleration, hindrance = accelerate(plan, lane, motion, step, others, everybody, size[0])
         if hindrance is not None:
             hindrances.append(hindrance)
         before, motion = motion, advance(motion, acceleration, DT)
@@ -296,6 +309,7 @@ def accelerate(
     motion: Motion,
     step: int,
     others: Sequence[Occupancy],
+    everybody: Sequence[Occupancy],
     length: float,
     dt: float = DT,
     crossing: Sequence[Occupancy] | None = None,
@@ -326,6 +340,13 @@ def accelerate(
         if speed < wanted:
             wanted, hindrance = speed, (other, other.manner(step))
             hardest = EMERGENCY if gap < MIN_GAP or speed < motion.speed - 3.0 else FOLLOWING
+    for other in everybody:
+        newcomer = other.newcomer(step)
+        if newcomer is not None:
+            low, high, pace = newcomer
+            speed = safe_speed(low - motion.arc - MIN_GAP, pace, FOLLOWING)
+            if 0.5 * (low + high) > motion.arc - 0.5 * length and speed < wanted:
+                wanted, hindrance = speed, (other, "cut-in")
     braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
     for room in plan.keep_clears:
         gap = room.stop - motion.arc
