@@ -124,7 +124,7 @@ def test_what_does_not_fit_loses_the_lines_recorded_last(trace: PlanTrace) -> No
     assert small.rollouts[-1].path is None
     for goal, before in zip(small.predictions[0].goals, trace.predictions[0].goals, strict=True):
         for way, known in zip(goal.trajectories, before.trajectories, strict=True):
-            likely = before.probability * known.probability > IMPROBABLE
+            likely = before.probability * known.probability > max(IMPROBABLE)
             assert way == known if likely else way.path == ()
 
 

@@ -18,6 +18,8 @@ from tests.planner.worlds import before_end, link, roads, row, situation
 LANE = "main_in_0"
 BEND = ("from_s_0", "right")
 
+MOST = 1.12 * LATERAL_ACCELERATION  # [m/s2]: the driver lags behind the caps a little
+
 
 def beside(lane: str, offset: float, lateral: float, turned: float) -> tuple[Point, float]:
     """A pose beside a lane."""
@@ -215,14 +217,14 @@ def test_who_drives_at_the_caps_is_never_pushed_aside_hard(
     name: str, rows: list[tuple[str, Direction]]
 ) -> None:
     for start, direction in rows:
-        assert pushed_aside(roads(name).line(row(name, start, direction)).lanes, name) < 2.8
+        assert pushed_aside(roads(name).line(row(name, start, direction)).lanes, name) < MOST
 
 
 def test_who_drives_at_the_caps_goes_round_a_roundabout_smoothly() -> None:
     way = onward(shipped("s3"), ("south_in_0",), 250.0, EgoGoal("west_out", 60.0, None))
     assert "ring_north_0" in way
     sides = 8.0  # [m] a little more than those of the polygons that draw its arms
-    assert pushed_aside(shipped("s3").line(way).lanes, "s3", sides) < 2.8
+    assert pushed_aside(shipped("s3").line(way).lanes, "s3", sides) < MOST
 
 
 def pushed_aside(lanes: tuple[tuple[str, float], ...], name: str, over: float = 4.0) -> float:

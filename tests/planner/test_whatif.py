@@ -17,7 +17,7 @@ def trace() -> PlanTrace:
     waits = roads("s1").line(("from_s_0",))
     scene = {
         0: still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0)),
-        1: driven(line, 14.0, [8.0] * 8),
+        1: driven(line, 14.0, [5.0] * 8),
         4: driven(waits, before_end("s1", "from_s_0", 2.0), [0.0] * 8),
     }
     return decide(frame("s1", QUICK, seed=5), moment("s1", scene, time=2.0, number=3)).trace
