@@ -3,7 +3,7 @@
 import math
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -60,6 +60,7 @@ class Moment:
     scene: Mapping[int, VehicleState]
     history: Mapping[int, Track]
     root: Root
+    unseen: Mapping[int, float] = field(default_factory=dict)  # [s] hidden ones were seen last
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,6 +145,7 @@ def record(
         rollouts=rollouts(search.rollouts, moment.time),
         not_applicable=search.not_applicable(),
         plan=search.plan(),
+        unseen=dict(sorted(moment.unseen.items())),
         waypoint=None if search.task.goal == frame.goal else search.task.goal,
     )
     return fitted(trace)

@@ -4,7 +4,6 @@ Pure: scenes in, commands, traces and events out. What it drives is what it plan
 """
 
 import math
-from collections import deque
 from dataclasses import dataclass, replace
 
 from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
@@ -12,17 +11,17 @@ from planner.decide import Decision, Frame, Moment, decide, observed, root_at
 from planner.events import Event, EventKind
 from planner.forward import DT, Hindrance, Lane, Motion, accelerate, advance
 from planner.kernels.driving import FORESIGHT, GAP_HORIZON
+from planner.memory import Memory
 from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.routes import Refusal
 from planner.search import Root
-from planner.trace import Action, EgoGoal, PlanTrace, Settings, Track
+from planner.trace import Action, EgoGoal, PlanTrace, Settings
 from planner.tracks import aligned, coast
 from planner.trajectory import Roads
 from planner.waypoints import way
 from sim.network import Location, Network
-from sim.scene import EGO, Command, Scene, VehicleState
+from sim.scene import EGO, Command, Scene
 
-MEMORY = 10.0  # [s] of history
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
@@ -68,7 +67,7 @@ class Driver:
         self, network: Network, goal: EgoGoal, settings: Settings, seed: int, vehicle: str = "car"
     ) -> None:
         self._frame = Frame(Roads(network), goal, settings, seed, vehicle)
-        self._history: dict[int, deque[tuple[float, VehicleState]]] = {}
+        self._memory = Memory(self._frame.roads)
         self._current: _Execution | None = None
         self._last: Decision | None = None
         self._decided = -math.inf
@@ -87,7 +86,7 @@ class Driver:
             DriverError: the ego is not on any lane.
         """
         events: list[Event] = []
-        self._observe(scene)
+        self._memory.observe(scene)
         trace = None
         due = scene.time - self._decided >= self._frame.settings.period - 1e-6
         if (due or self._current is None) and not self.finished:
@@ -95,31 +94,18 @@ class Driver:
         command = self._drive(scene, dt, events)
         return DriveStep(command, trace, tuple(events))
 
-    def _observe(self, scene: Scene) -> None:
-        gone = [vehicle for vehicle in self._history if vehicle not in scene.vehicles]
-        for vehicle in gone:
-            del self._history[vehicle]
-        for vehicle, state in scene.vehicles.items():
-            seen = self._history.setdefault(vehicle, deque())
-            seen.append((scene.time, _rounded(state)))
-            while seen[0][0] < scene.time - MEMORY - 1e-6:
-                seen.popleft()
-
-    def _tracks(self, time: float) -> dict[int, Track]:
-        """All histories at 5 Hz, the last sample now."""
-        return {vehicle: _resampled(seen, time) for vehicle, seen in self._history.items()}
-
     def _decide(self, scene: Scene, events: list[Event]) -> PlanTrace:
         current = self._current
         committed = current is not None and current.committed
         under_way = (current.plan, current.motion) if current is not None and committed else None
-        now = {vehicle: seen[-1][1] for vehicle, seen in self._history.items()}
+        now = self._memory.now
         moment = Moment(
             self._number,
             round(scene.time, 3),
             now,
-            self._tracks(scene.time),
+            {vehicle: self._memory.track(vehicle, scene.time) for vehicle in now},
             Root(self._situation(scene), under_way),
+            self._memory.unseen,
         )
         decision = decide(self._frame, moment)
         self._last, self._decided = decision, scene.time
@@ -153,13 +139,13 @@ class Driver:
     def _situation(self, scene: Scene) -> Situation:
         current = self._current
         if current is None:
-            here = root_at(self._frame.roads, self._history[EGO][-1][1], scene.time)
+            here = root_at(self._frame.roads, self._memory.now[EGO], scene.time)
             if here is None:
                 raise DriverError(f"the ego is on no lane at {scene.time:.1f} s")
             return here
         lane, begin = current.plan.path.lane_at(current.motion.arc)
         location = Location(lane, current.motion.arc - begin, 0.0)
-        ego = self._history[EGO][-1][1]  # as the trace records it
+        ego = self._memory.now[EGO]  # as the trace records it
         return Situation(
             scene.time, ego.position, ego.heading, ego.speed, ego.acceleration, location
         )
@@ -213,9 +199,9 @@ class Driver:
     def _seen(self, scene: Scene) -> list[Obstacle]:
         """The others where they are, going on as they do."""
         found = []
-        for vehicle, state in scene.vehicles.items():
+        for vehicle, state in self._memory.now.items():
             if vehicle != EGO:
-                track = observed(vehicle, _resampled(self._history[vehicle], scene.time), state)
+                track = observed(vehicle, self._memory.track(vehicle, scene.time), state)
                 found.append(coast(self._frame.roads, track, 2, past=False))
         return found
 
@@ -258,31 +244,3 @@ def _event(
     action = None if current is None else current.plan.action
     decision = None if current is None else current.decision
     return Event(kind, round(time, 3), action, decision, vehicle)
-
-
-def _rounded(state: VehicleState) -> VehicleState:
-    """The state as traces record it, so that a trace holds all that a decision used."""
-    return replace(
-        state,
-        position=(round(state.position[0], 2), round(state.position[1], 2)),
-        heading=round(state.heading, 4),
-        speed=round(state.speed, 2),
-        acceleration=round(state.acceleration, 2),
-    )
-
-
-def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
-    """A history at 5 Hz, counted back from now."""
-    states: list[VehicleState] = []
-    start, wanted = time, time
-    for moment, state in reversed(seen):
-        if moment <= wanted + 1e-6:
-            states.append(state)
-            start, wanted = moment, wanted - DT
-    states.reverse()
-    return Track(
-        round(start, 3),
-        tuple(state.position for state in states),
-        tuple(state.heading for state in states),
-        tuple(state.speed for state in states),
-    )

@@ -209,6 +209,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True):
     rollouts: tuple[Rollout, ...]
     not_applicable: tuple[NotApplicable, ...]
     plan: tuple[PlannedAction, ...]
+    unseen: dict[int, float] = {}  # hidden vehicles in the scene, and when [s] they were seen last
     waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
 

@@ -20,6 +20,7 @@ TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
 LEAST_PACE = 4.0  # [m/s] below which nobody wants to drive for long
+FAR_ASIDE = (5.0, 1.4)  # [m], [rad] from its lane at which a vehicle that turns may be
 AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
 
@@ -64,6 +65,8 @@ class Observed:
 def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
     """The lanes that a pose may belong to: the nearest one; inside a junction, its rivals too."""
     found = roads.network.locate(position, heading)
+    if not found:  # who turns sharply cuts the corner
+        found = roads.network.locate(position, heading, *FAR_ASIDE)
     if not found:
         return ()
     nearest = found[0]

@@ -129,6 +129,7 @@ def _restore(trace: PlanTrace, roads: Roads, gone: int | None) -> tuple[Frame, M
         {vehicle: state for vehicle, state in trace.scene.items() if vehicle != gone},
         {vehicle: track for vehicle, track in trace.history.items() if vehicle != gone},
         Root(here, rest),
+        {vehicle: since for vehicle, since in trace.unseen.items() if vehicle != gone},
     )
     return frame, moment
 

@@ -1,0 +1,164 @@
+"""What the car has seen, and what it remembers of vehicles that are hidden for a while.
+
+A vehicle that is lost from sight behind a tall one is taken to go on as it did. It is forgotten
+when it should be seen and is not, or after HIDDEN seconds.
+"""
+
+import math
+from collections import deque
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.forward import DT
+from planner.obstacles import Obstacle
+from planner.trace import Track
+from planner.tracks import Observed, coast
+from planner.trajectory import Roads
+from sim.scene import EGO, Point, Scene, VehicleState
+
+HISTORY = 10.0  # [s]
+HIDDEN = 5.0  # [s] for which a hidden vehicle is remembered
+TALL = ("truck", "bus", "trailer")  # kinds that hide what is behind them
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """A vehicle that was lost from sight."""
+
+    since: float  # [s] when it was seen last
+    last: VehicleState
+    going_on: Obstacle  # from then on
+
+    def at(self, time: float) -> VehicleState | None:
+        """Where it is taken to be; None where it would have left the network."""
+        step = (time - self.since) / DT
+        k = min(int(step), len(self.going_on.speed) - 2)
+        share = min(step - k, 1.0)
+        here, there = self.going_on.position[k], self.going_on.position[k + 1]
+        x, y = (1.0 - share) * here + share * there
+        if not math.isfinite(x):
+            return None
+        heading, speed = float(self.going_on.heading[k]), float(self.going_on.speed[k])
+        return replace(
+            self.last, position=(float(x), float(y)), heading=heading, speed=speed, acceleration=0.0
+        )
+
+
+class Memory:
+    """The states of all vehicles over the last HISTORY seconds."""
+
+    def __init__(self, roads: Roads) -> None:
+        self._roads = roads
+        self._seen: dict[int, deque[tuple[float, VehicleState]]] = {}
+        self._lost: dict[int, Lost] = {}
+
+    def observe(self, scene: Scene) -> None:
+        """Take down what is seen now."""
+        for vehicle in [x for x in self._seen if x not in scene.vehicles]:
+            self._recall(vehicle, scene)
+        for vehicle, state in scene.vehicles.items():
+            self._lost.pop(vehicle, None)
+            self._note(vehicle, scene.time, state)
+
+    @property
+    def now(self) -> dict[int, VehicleState]:
+        """Where everybody is, hidden ones too, by name; as the trace records it."""
+        return {vehicle: self._seen[vehicle][-1][1] for vehicle in sorted(self._seen)}
+
+    @property
+    def unseen(self) -> dict[int, float]:
+        """When [s] the hidden ones were seen last, by name."""
+        return {vehicle: self._lost[vehicle].since for vehicle in sorted(self._lost)}
+
+    def track(self, vehicle: int, time: float) -> Track:
+        """The history of a vehicle at 5 Hz, the last sample now."""
+        return _resampled(self._seen[vehicle], time)
+
+    def _note(self, vehicle: int, time: float, state: VehicleState) -> None:
+        seen = self._seen.setdefault(vehicle, deque())
+        seen.append((time, _rounded(state)))
+        while seen[0][0] < time - HISTORY - 1e-6:
+            seen.popleft()
+
+    def _recall(self, vehicle: int, scene: Scene) -> None:
+        """Go on with a vehicle that is not seen, or forget it."""
+        lost = self._lost.get(vehicle) or self._lose(vehicle)
+        state = lost.at(scene.time) if scene.time - lost.since <= HIDDEN else None
+        if state is None or not hidden(state, scene):
+            del self._seen[vehicle]
+            self._lost.pop(vehicle, None)
+            return
+        self._lost[vehicle] = lost
+        self._note(vehicle, scene.time, state)
+
+    def _lose(self, vehicle: int) -> Lost:
+        since, last = self._seen[vehicle][-1]
+        track = _resampled(self._seen[vehicle], since)
+        watched = Observed(
+            vehicle,
+            last.length,
+            last.width,
+            np.array(track.position),
+            np.array(track.heading),
+            np.array(track.speed),
+        )
+        steps = math.ceil(HIDDEN / DT) + 1
+        return Lost(since, last, coast(self._roads, watched, steps, past=False))
+
+
+def hidden(state: VehicleState, scene: Scene) -> bool:
+    """Whether a tall vehicle stands between the middles of the ego and of another vehicle."""
+    here, there = _middle(scene.ego), _middle(state)
+    tall = (other for name, other in scene.vehicles.items() if name != EGO and other.kind in TALL)
+    return any(_between(here, there, other) for other in tall)
+
+
+def _middle(state: VehicleState) -> Point:
+    x, y = state.position
+    half = 0.5 * state.length
+    return x - half * math.cos(state.heading), y - half * math.sin(state.heading)
+
+
+def _between(a: Point, b: Point, body: VehicleState) -> bool:
+    """Whether the line from a to b crosses a body: clipped to it in its own frame."""
+    (x, y), cos, sin = _middle(body), math.cos(body.heading), math.sin(body.heading)
+    begin, end = 0.0, 1.0
+    for along_x, along_y, size in ((cos, sin, body.length), (-sin, cos, body.width)):
+        start = (a[0] - x) * along_x + (a[1] - y) * along_y
+        move = (b[0] - a[0]) * along_x + (b[1] - a[1]) * along_y
+        if abs(move) < 1e-9:
+            if abs(start) > 0.5 * size:
+                return False
+            continue
+        first, second = (-0.5 * size - start) / move, (0.5 * size - start) / move
+        begin, end = max(begin, min(first, second)), min(end, max(first, second))
+    return begin < end
+
+
+def _rounded(state: VehicleState) -> VehicleState:
+    """The state as traces record it, so that a trace holds all that a decision used."""
+    return replace(
+        state,
+        position=(round(state.position[0], 2), round(state.position[1], 2)),
+        heading=round(state.heading, 4),
+        speed=round(state.speed, 2),
+        acceleration=round(state.acceleration, 2),
+    )
+
+
+def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
+    """A history at 5 Hz, counted back from now."""
+    states: list[VehicleState] = []
+    start, wanted = time, time
+    for moment, state in reversed(seen):
+        if moment <= wanted + 1e-6:
+            states.append(state)
+            start, wanted = moment, wanted - DT
+    states.reverse()
+    return Track(
+        round(start, 3),
+        tuple(state.position for state in states),
+        tuple(state.heading for state in states),
+        tuple(state.speed for state in states),
+    )
