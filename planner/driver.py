@@ -24,6 +24,10 @@ from sim.scene import EGO, Command, Scene
 
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
+PAUSE = 0.3  # [s] between decisions at least
+NEAR = 60.0  # [m] within which surprises count
+SURPRISE = 1.2  # [m/s] by which a speed must differ from all that was foreseen
+END_GAP = 1.0  # [m] before the end of the road at which to stop
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
 STANDING = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
@@ -88,7 +92,9 @@ class Driver:
         events: list[Event] = []
         self._memory.observe(scene)
         trace = None
-        due = scene.time - self._decided >= self._frame.settings.period - 1e-6
+        elapsed = scene.time - self._decided
+        due = elapsed >= self._frame.settings.period - 1e-6
+        due = due or (elapsed >= PAUSE - 1e-6 and self._surprised(scene))
         if (due or self._current is None) and not self.finished:
             trace = self._decide(scene, events)
         command = self._drive(scene, dt, events)
@@ -133,8 +139,30 @@ class Driver:
             events.append(_event("action-ended", moment.time, current))
         ahead = tuple(lane for lane, start in expanded.path.lanes if start <= expanded.end)
         edges = way(frame.roads, ahead, frame.goal)
-        self._current = _Execution(expanded, Lane(expanded.path), edges, motion, moment.number)
+        lane = Lane(expanded.path, self._end_of_the_road(expanded))
+        self._current = _Execution(expanded, lane, edges, motion, moment.number)
         events.append(_event("action-started", moment.time, self._current))
+
+    def _end_of_the_road(self, plan: ActionPlan) -> float:
+        """The arc [m] before which to stop, since the road ends there and the goal is elsewhere."""
+        last = plan.path.lanes[-1][0]
+        leads = self._frame.roads.network.links_from(last)
+        return math.inf if leads or plan.goal is not None else plan.path.length - END_GAP
+
+    def _surprised(self, scene: Scene) -> bool:
+        """Whether somebody near does what the last decision did not foresee."""
+        if self._last is None:
+            return False
+        step = round((scene.time - self._last.trace.sim_time) / DT)
+        for vehicle, beliefs in self._last.beliefs.items():
+            state = scene.vehicles.get(vehicle)
+            if state is None or math.dist(state.position, scene.ego.position) > NEAR:
+                continue
+            ways = (way.motion for belief in beliefs for way in belief.trajectories)
+            speeds = [float(m.speed[min(step, len(m.speed) - 1)]) for m in ways]
+            if all(abs(speed - state.speed) > SURPRISE for speed in speeds):
+                return True
+        return False
 
     def _situation(self, scene: Scene) -> Situation:
         current = self._current

@@ -69,8 +69,11 @@ class Drive:
 class Lane:
     """A path prepared for driving: the speed from which every bend ahead can be braked for."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, end: float = math.inf) -> None:
+        """Prepare a path; where it leads to nowhere, a vehicle stops before `end` [m]."""
         self.caps = driving.braking_caps(path.cap, path.arc)  # [m/s] at every metre
+        room = np.maximum(end - np.arange(len(self.caps)), 0.0)
+        self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
 
     def speed(self, arc: float) -> float:
         """The highest speed [m/s] at an arc [m]."""

@@ -138,6 +138,8 @@ def accelerate(
             blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
+                if 2.0 * FOLLOWING * gap < speed * speed:
+                    hardest = EMERGENCY
     chosen = towards(speed, acceleration, wanted, hardest, dt)
     return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
 
@@ -257,7 +259,7 @@ def _blocker(
         for m in range(len(firsts)):
             low, high = others.wide_low[m, t], others.wide_high[m, t]
             if concerned[m] and low < here + 1.0 and high > here - length - 1.0:
-                stopping = speed * speed / (2.0 * FOLLOWING)
+                stopping = speed * speed / (2.0 * EMERGENCY)
                 late = arc > line and low - arc < stopping - INTRUSION
                 return -1 if late else m
     return -1

@@ -361,6 +361,8 @@ def accelerate(
             speed = safe_speed(gap, 0.0, COMFORT)
             if blocker is not None and speed < wanted:
                 wanted, hindrance = speed, (blocker, "right-of-way")
+                if 2.0 * FOLLOWING * gap < motion.speed**2:
+                    hardest = EMERGENCY
     acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
     if hindrance is None or wanted > free - HINDERED:
         return acceleration, None
@@ -426,7 +428,7 @@ def _blocker(
         for other in first:
             begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
             if begin is not None:
-                stopping = motion.speed**2 / (2.0 * FOLLOWING)
+                stopping = motion.speed**2 / (2.0 * EMERGENCY)
                 late = motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION
                 return None if late else other
     return None
