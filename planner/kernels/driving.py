@@ -29,6 +29,7 @@ HINDERED = 0.5  # [m/s] below the free speed from which a vehicle counts as held
 STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
 ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
+READY = 4.0  # [m/s] at a waiting line, while somebody with priority stands
 JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
 FORESIGHT = 10  # steps ahead in which a vehicle that moves in is made room for
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
@@ -116,6 +117,10 @@ def accelerate(
     arc, speed, acceleration = motion
     stops = halting > 0.0
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
+    for line in range(len(lines)):
+        gap = lines[line, 0] - arc
+        if gap > 0.0 and _hesitates(crossing, firsts[line], step):
+            free = min(free, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
     hardest = halting if stops else FOLLOWING
     braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
@@ -138,8 +143,8 @@ def accelerate(
             blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
-                if 2.0 * FOLLOWING * gap < speed * speed:
-                    hardest = EMERGENCY
+                if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * EMERGENCY * gap:
+                    hardest = speed * speed / (2.0 * gap)
     chosen = towards(speed, acceleration, wanted, hardest, dt)
     return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
 
@@ -214,6 +219,13 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 
 
 @_jit
+def _hesitates(crossing: Stretches, firsts: Bools, step: int) -> bool:
+    """Whether somebody with priority stands: he may go at any time, so be ready to wait."""
+    t = min(step, crossing.low.shape[1] - 1)
+    return bool(np.any(firsts & (crossing.speed[:, t] < JAM)))
+
+
+@_jit
 def _manner(others: Stretches, m: int, step: int) -> int:
     """How a vehicle ahead holds up who comes behind."""
     t = min(step, others.low.shape[1] - 1)
@@ -259,7 +271,7 @@ def _blocker(
         for m in range(len(firsts)):
             low, high = others.wide_low[m, t], others.wide_high[m, t]
             if concerned[m] and low < here + 1.0 and high > here - length - 1.0:
-                stopping = speed * speed / (2.0 * EMERGENCY)
+                stopping = speed * speed / (2.0 * FOLLOWING)
                 late = arc > line and low - arc < stopping - INTRUSION
                 return -1 if late else m
     return -1

@@ -27,6 +27,7 @@ from planner.kernels.driving import (
     JERK_UP,
     MIN_GAP,
     REACTION,
+    READY,
     RELAXATION,
     STANDING_TIME,
 )
@@ -331,6 +332,11 @@ def accelerate(
     """
     first = others if crossing is None else crossing
     free = 0.0 if plan.stops else lane.speed(motion.arc + motion.speed * RELAXATION)
+    for line in plan.give_ways:
+        gap = line.stop - motion.arc
+        stand = (other.speed(step) < JAM for other in first if other.goes_first(line.yields_to))
+        if gap > 0.0 and any(stand):
+            free = min(free, math.sqrt(READY**2 + 2.0 * COMFORT * gap))
     wanted, hardest, hindrance = free, plan.halting or FOLLOWING, None
     for other in others:
         gap = other.gap(motion.arc, step, length)
@@ -361,8 +367,8 @@ def accelerate(
             speed = safe_speed(gap, 0.0, COMFORT)
             if blocker is not None and speed < wanted:
                 wanted, hindrance = speed, (blocker, "right-of-way")
-                if 2.0 * FOLLOWING * gap < motion.speed**2:
-                    hardest = EMERGENCY
+                if 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * EMERGENCY * gap:
+                    hardest = motion.speed**2 / (2.0 * gap)
     acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
     if hindrance is None or wanted > free - HINDERED:
         return acceleration, None
@@ -428,7 +434,7 @@ def _blocker(
         for other in first:
             begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
             if begin is not None:
-                stopping = motion.speed**2 / (2.0 * EMERGENCY)
+                stopping = motion.speed**2 / (2.0 * FOLLOWING)
                 late = motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION
                 return None if late else other
     return None
