@@ -18,6 +18,7 @@ STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
 ACCELERATION = 2.0  # [m/s2] most when speeding up
 FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
+FIRM = 4.4  # [m/s2] the hardest braking for a waiting line
 EMERGENCY = 7.0  # [m/s2] the hardest braking
 JERK_UP, JERK_DOWN = 3.0, 12.0  # [m/s3] change of acceleration upwards and downwards
 REACTION = 0.9  # [s] of Krauss' model
@@ -143,7 +144,7 @@ def accelerate(
             blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
-                if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * EMERGENCY * gap:
+                if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * FIRM * gap:
                     hardest = speed * speed / (2.0 * gap)
     chosen = towards(speed, acceleration, wanted, hardest, dt)
     return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)

@@ -17,6 +17,7 @@ from planner.kernels.driving import (
     COMFORT,
     CUT_IN_MEMORY,
     EMERGENCY,
+    FIRM,
     FOLLOWING,
     FORESIGHT,
     GAP_HORIZON,
@@ -367,7 +368,7 @@ def accelerate(
             speed = safe_speed(gap, 0.0, COMFORT)
             if blocker is not None and speed < wanted:
                 wanted, hindrance = speed, (blocker, "right-of-way")
-                if 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * EMERGENCY * gap:
+                if 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * FIRM * gap:
                     hardest = motion.speed**2 / (2.0 * gap)
     acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
     if hindrance is None or wanted > free - HINDERED:

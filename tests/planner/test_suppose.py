@@ -37,7 +37,7 @@ def cutting_in() -> dict[int, Seen]:
     waits = roads("s1").line(("from_s_0",))
     return {
         0: still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0)),
-        1: driven(line, 14.0, [8.0] * 8),
+        1: driven(line, 14.0, [8.0 - 0.2 * k for k in range(11)]),
         4: driven(waits, before_end("s1", "from_s_0", 2.0), [0.0] * 8),
     }
 
