@@ -150,8 +150,11 @@ class Driver:
         return math.inf if leads or plan.goal is not None else plan.path.length - END_GAP
 
     def _surprised(self, scene: Scene) -> bool:
-        """Whether somebody near does what the last decision did not foresee."""
-        if self._last is None:
+        """Whether somebody near does what the last decision did not foresee.
+
+        It matters where the ego has to give way: there it counts on what it foresaw.
+        """
+        if self._last is None or self._current is None or not self._current.plan.give_ways:
             return False
         step = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():
