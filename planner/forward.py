@@ -13,7 +13,8 @@ import numpy as np
 
 from planner.actions import ActionPlan
 from planner.kernels import driving
-from planner.kernels.driving import Ints
+from planner.kernels.along import braking_caps
+from planner.kernels.driving import Course, Ints
 from planner.obstacles import HOW, Occupancy, Traffic, occupancy
 from planner.trace import SAMPLE_PERIOD, HoldUp
 from planner.trajectory import Array, Path
@@ -71,7 +72,7 @@ class Lane:
 
     def __init__(self, path: Path, end: float = math.inf) -> None:
         """Prepare a path; where it leads to nowhere, a vehicle stops before `end` [m]."""
-        self.caps = driving.braking_caps(path.cap, path.arc)  # [m/s] at every metre
+        self.caps = braking_caps(path.cap, path.arc, driving.COMFORT)  # [m/s] at every metre
         room = np.maximum(end - np.arange(len(self.caps)), 0.0)
         self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
 
@@ -102,12 +103,9 @@ def drive(
     """
     others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
     motion, held, finished, goal_time = driving.drive(
-        np.minimum(Lane(plan.path).caps, pace),
-        plan.halting,
+        _course(plan, np.minimum(Lane(plan.path).caps, pace)),
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
-        _lines(plan),
-        _rooms(plan),
         others.firsts(line.yields_to for line in plan.give_ways),
         (float(start.arc), float(start.speed), float(start.acceleration)),
         first,
@@ -156,14 +154,11 @@ def accelerate(
         Acceleration [m/s2], and the hindrance where there is one.
     """
     acceleration, who, how = driving.accelerate(
-        lane.caps,
-        plan.halting,
-        _lines(plan),
-        _rooms(plan),
+        _course(plan, lane.caps),
         (float(motion.arc), float(motion.speed), float(motion.acceleration)),
         0,
         seen.stretches,
-        driving.behind(seen.stretches, motion.arc - 0.5 * length, 0),
+        seen.behind(motion.arc - 0.5 * length),
         crossing.stretches,
         crossing.firsts(line.yields_to for line in plan.give_ways),
         foreseen.stretches,
@@ -177,14 +172,13 @@ def accelerate(
     return acceleration, Hindrance(others.traffic.vehicles[who], HOW[how], speed)
 
 
-def _lines(plan: ActionPlan) -> Array:
-    """Where to give way [L, 2]: arcs [m] of the waiting line and of the end of the junction."""
-    return np.array([(line.stop, line.clear) for line in plan.give_ways]).reshape(-1, 2)
-
-
-def _rooms(plan: ActionPlan) -> Array:
-    """Where to keep clear [K, 2]: arcs [m] before and after the junctions."""
-    return np.array([(room.stop, room.out) for room in plan.keep_clears]).reshape(-1, 2)
+def _course(plan: ActionPlan, caps: Array) -> Course:
+    """A plan as the kernels know it, with the highest speed [m/s] at every metre."""
+    lines = [(line.stop, line.clear) for line in plan.give_ways]
+    rooms = [(room.stop, room.out) for room in plan.keep_clears]
+    return Course(
+        caps, plan.halting, np.array(lines).reshape(-1, 2), np.array(rooms).reshape(-1, 2)
+    )
 
 
 def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:

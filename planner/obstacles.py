@@ -68,6 +68,11 @@ class Occupancy:
     traffic: Traffic
     stretches: Stretches
 
+    def behind(self, centre: float) -> Bools:
+        """Who is on the path behind a centre at an arc [m], at step 0 [M]."""
+        found: Bools = 0.5 * (self.stretches.low[:, 0] + self.stretches.high[:, 0]) < centre
+        return found
+
     def firsts(self, lines: Iterable[frozenset[tuple[str, int]]]) -> Bools:
         """Who drives along one of the links of each line [L, M]."""
         found = [[not own.isdisjoint(line) for own in self.traffic.links] for line in lines]

@@ -8,8 +8,8 @@ import numpy as np
 
 from planner.actions import ActionPlan, Situation
 from planner.forward import DT, Drive, Hindrances, Motion, drive
+from planner.kernels.along import place
 from planner.kernels.collision import first_hit
-from planner.kernels.driving import place
 from planner.obstacles import HOW, Traffic
 from planner.reward import components
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome

@@ -1,7 +1,7 @@
 """Driving along a path: car-following, giving way, stopping, within limits of comfort."""
 
 import math
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numba import njit
@@ -41,18 +41,13 @@ LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 _jit = njit(cache=True, error_model="numpy")
 
 
-@_jit
-def braking_caps(cap: Floats, arc: Floats) -> Floats:
-    """The speed [m/s] at every metre from which all of a path's caps ahead can be braked for.
+class Course(NamedTuple):
+    """What is driven along a path."""
 
-    Args:
-        cap, arc: [N] of the path: highest speed [m/s] and arc [m].
-    """
-    caps = cap.copy()
-    for k in range(len(caps) - 2, -1, -1):
-        reachable = math.sqrt(caps[k + 1] ** 2 + 2.0 * COMFORT * (arc[k + 1] - arc[k]))
-        caps[k] = min(caps[k], reachable)
-    return np.interp(np.arange(0.0, arc[-1] + 1.0), arc, caps)
+    caps: Floats  # [m/s] at every metre
+    halting: float  # [m/s2] of braking to a standstill; 0 to drive on
+    lines: Floats  # [m] [L, 2] arcs of lines to give way at, and at which the junction is left
+    rooms: Floats  # [m] [K, 2] arcs at which to keep out of a junction, and at which it is left
 
 
 @_jit
@@ -81,10 +76,7 @@ def _cap(caps: Floats, arc: float) -> float:
 
 @_jit
 def accelerate(
-    caps: Floats,
-    halting: float,
-    lines: Floats,
-    rooms: Floats,
+    course: Course,
     motion: Motion,
     step: int,
     others: Stretches,
@@ -98,10 +90,7 @@ def accelerate(
     """What to do in the coming step, and who is in the way.
 
     Args:
-        caps: [m/s] at every metre of the path.
-        halting: [m/s2] of braking to a standstill; 0 to drive on.
-        lines: [L, 2] arcs [m] of lines to give way at, and at which the junction is left.
-        rooms: [K, 2] arcs [m] at which to keep out of a junction, and at which it is left.
+        course: what is driven.
         motion: of the vehicle: arc [m], speed [m/s], acceleration [m/s2].
         step: now.
         others: the vehicles to keep behind of.
@@ -115,31 +104,24 @@ def accelerate(
     Returns:
         Acceleration [m/s2], the index of the one in the way (-1: nobody), and how it is.
     """
+    caps, halting, lines, rooms = course
     arc, speed, acceleration = motion
     stops = halting > 0.0
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
-    for line in range(len(lines)):
-        gap = lines[line, 0] - arc
-        if gap > 0.0 and _hesitates(crossing, firsts[line], step):
-            free = min(free, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
+    free = min(free, _ready(arc, lines, crossing, firsts, step))
     hardest = halting if stops else FOLLOWING
-    braking = speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
     how = LEADER if who < 0 else _manner(others, who, step)
     safe, newcomer = _make_room(motion, step, foreseen, length, wanted)
     if newcomer >= 0:
         wanted, who, how = safe, newcomer, NEWCOMER
-    for k in range(len(rooms)):
-        gap = rooms[k, 0] - arc
-        safe = safe_speed(gap, 0.0, COMFORT)
-        if 0.0 <= gap <= braking and safe < wanted:
-            jam = _jam(others, ignored, step, rooms[k, 0], rooms[k, 1] + length)
-            if jam >= 0:
-                wanted, who, how = safe, jam, BLOCKED
+    safe, jam = _keep_clear(motion, step, others, ignored, rooms, length, wanted)
+    if jam >= 0:
+        wanted, who, how = safe, jam, BLOCKED
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
-        if gap <= braking and arc < lines[line, 1] and safe < wanted:
+        if gap <= _near(speed) and arc < lines[line, 1] and safe < wanted:
             stop = lines[line, 0]
             blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
             if blocker >= 0:
@@ -202,6 +184,35 @@ def _make_room(
 
 
 @_jit
+def _near(speed: float) -> float:
+    """How far [m] before a line it begins to matter."""
+    return speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
+
+
+@_jit
+def _keep_clear(
+    motion: Motion,
+    step: int,
+    others: Stretches,
+    ignored: Bools,
+    rooms: Floats,
+    length: float,
+    wanted: float,
+) -> tuple[float, int]:
+    """The wanted speed [m/s] before junctions with no room beyond, and who takes the room."""
+    arc, speed, _ = motion
+    who = -1
+    for k in range(len(rooms)):
+        gap = rooms[k, 0] - arc
+        safe = safe_speed(gap, 0.0, COMFORT)
+        if 0.0 <= gap <= _near(speed) and safe < wanted:
+            jam = _jam(others, ignored, step, rooms[k, 0], rooms[k, 1] + length)
+            if jam >= 0:
+                wanted, who = safe, jam
+    return wanted, who
+
+
+@_jit
 def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float) -> int:
     """Who takes the room beyond a junction, at a crawl: the nearest vehicle ahead, if it does.
 
@@ -220,10 +231,15 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 
 
 @_jit
-def _hesitates(crossing: Stretches, firsts: Bools, step: int) -> bool:
-    """Whether somebody with priority stands: he may go at any time, so be ready to wait."""
+def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
+    """The speed [m/s] at which to come to a line while somebody with priority stands there."""
     t = min(step, crossing.low.shape[1] - 1)
-    return bool(np.any(firsts & (crossing.speed[:, t] < JAM)))
+    found = math.inf
+    for line in range(len(lines)):
+        gap = lines[line, 0] - arc
+        if gap > 0.0 and np.any(firsts[line] & (crossing.speed[:, t] < JAM)):
+            found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
+    return found
 
 
 @_jit
@@ -280,12 +296,9 @@ def _blocker(
 
 @_jit
 def drive(
-    caps: Floats,
-    halting: float,
+    course: Course,
     end: float,
     goal: float,
-    lines: Floats,
-    rooms: Floats,
     firsts: Bools,
     start: Motion,
     first: int,
@@ -296,7 +309,7 @@ def drive(
     """Drive until the end of an action, the goal, or the horizon.
 
     Args:
-        caps, halting, lines, rooms, firsts, others, length: as for `accelerate`.
+        course, firsts, others, length: as for `accelerate`.
         end: [m] arc at which the action is over, unless it stops.
         goal: [m] arc of the goal, or infinite.
         start: arc [m], speed [m/s] and acceleration [m/s2] at step `first`.
@@ -310,26 +323,15 @@ def drive(
     hindrance = np.empty((len(motion) - 1, 2), np.int64)
     arc, speed, acceleration = start
     motion[0, 0], motion[0, 1], motion[0, 2] = arc, speed, acceleration
-    ignored = behind(others, arc - 0.5 * length, first)
+    t = min(first, others.low.shape[1] - 1)
+    ignored = 0.5 * (others.low[:, t] + others.high[:, t]) < arc - 0.5 * length
     waits = firsts & ~ignored
     standing = 0
     for step in range(first, horizon):
         k = step - first
         now = (arc, speed, acceleration)
         acceleration, who, how = accelerate(
-            caps,
-            halting,
-            lines,
-            rooms,
-            now,
-            step,
-            others,
-            ignored,
-            others,
-            waits,
-            others,
-            length,
-            STEP,
+            course, now, step, others, ignored, others, waits, others, length, STEP
         )
         before, was = arc, speed
         speed = max(speed + acceleration * STEP, 0.0)
@@ -341,37 +343,6 @@ def drive(
             time = (step + min(max(share, 0.0), 1.0)) * STEP
             return motion[: k + 2], hindrance[: k + 1], True, time
         standing = standing + 1 if speed < 0.1 else 0
-        if (standing * STEP >= STANDING_TIME) if halting > 0.0 else (arc >= end):
+        if (standing * STEP >= STANDING_TIME) if course.halting > 0.0 else (arc >= end):
             return motion[: k + 2], hindrance[: k + 1], True, math.nan
     return motion, hindrance, False, math.nan
-
-
-@_jit
-def behind(others: Stretches, centre: float, step: int) -> Bools:
-    """[M] Which vehicles are on the path behind a vehicle whose centre is at an arc [m]."""
-    t = min(step, others.low.shape[1] - 1)
-    return 0.5 * (others.low[:, t] + others.high[:, t]) < centre
-
-
-@_jit
-def place(
-    points: Floats, arc: Floats, heading: Floats, curvature: Floats, motion: Floats, length: float
-) -> tuple[Floats, Floats]:
-    """Where a vehicle is along a path.
-
-    Args:
-        points, arc, heading, curvature: of the path.
-        motion: [S, 3] arc [m], speed [m/s] and acceleration.
-        length: [m] of the vehicle; its rear follows its front: it points as the path does at
-            its middle.
-
-    Returns:
-        States [S, 4], and the curvature [1/m] [S] at the front.
-    """
-    arcs = motion[:, 0]
-    states = np.empty((len(motion), 4))
-    states[:, 0] = np.interp(arcs, arc, points[:, 0])
-    states[:, 1] = np.interp(arcs, arc, points[:, 1])
-    states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
-    states[:, 3] = motion[:, 1]
-    return states, np.interp(arcs, arc, curvature)

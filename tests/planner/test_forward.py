@@ -6,6 +6,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from planner.forward import DT, Drive, Lane, Motion, advance, drive
+from planner.kernels.along import place
 from planner.kernels.collision import first_hit
 from planner.kernels.driving import (
     ACCELERATION,
@@ -16,7 +17,6 @@ from planner.kernels.driving import (
     JERK_UP,
     MIN_GAP,
     STANDING_TIME,
-    place,
     safe_speed,
 )
 from planner.obstacles import HOW, Obstacle, Traffic

@@ -10,8 +10,9 @@ from planner import forward
 from planner.actions import ActionPlan, Situation, expand
 from planner.forward import DT, Motion
 from planner.kernels import driving
+from planner.kernels.along import place
 from planner.kernels.collision import first_hit
-from planner.kernels.driving import GAP_HORIZON, place
+from planner.kernels.driving import GAP_HORIZON
 from planner.obstacles import HOW, NOBODY, Obstacle, Traffic, occupancy
 from planner.trace import ACTIONS
 from planner.tracks import links_of

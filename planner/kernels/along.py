@@ -1,0 +1,50 @@
+"""Along a path: how fast one may be, and where one then is."""
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+@_jit
+def braking_caps(cap: Floats, arc: Floats, braking: float) -> Floats:
+    """The speed [m/s] at every metre from which all of a path's caps ahead can be braked for.
+
+    Args:
+        cap, arc: [N] of the path: highest speed [m/s] and arc [m].
+        braking: [m/s2]
+    """
+    caps = cap.copy()
+    for k in range(len(caps) - 2, -1, -1):
+        reachable = math.sqrt(caps[k + 1] ** 2 + 2.0 * braking * (arc[k + 1] - arc[k]))
+        caps[k] = min(caps[k], reachable)
+    return np.interp(np.arange(0.0, arc[-1] + 1.0), arc, caps)
+
+
+@_jit
+def place(
+    points: Floats, arc: Floats, heading: Floats, curvature: Floats, motion: Floats, length: float
+) -> tuple[Floats, Floats]:
+    """Where a vehicle is along a path.
+
+    Args:
+        points, arc, heading, curvature: of the path.
+        motion: [S, 3] arc [m], speed [m/s] and acceleration.
+        length: [m] of the vehicle; its rear follows its front: it points as the path does at
+            its middle.
+
+    Returns:
+        States [S, 4], and the curvature [1/m] [S] at the front.
+    """
+    arcs = motion[:, 0]
+    states = np.empty((len(motion), 4))
+    states[:, 0] = np.interp(arcs, arc, points[:, 0])
+    states[:, 1] = np.interp(arcs, arc, points[:, 1])
+    states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
+    states[:, 3] = motion[:, 1]
+    return states, np.interp(arcs, arc, curvature)
