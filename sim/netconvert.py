@@ -22,6 +22,7 @@ from xml.sax.saxutils import quoteattr
 
 from platformdirs import user_cache_path
 
+PATIENCE = 60.0  # [s]
 GEOMETRY = (
     "--no-turnarounds",
     "--offset.disable-normalization",
@@ -118,7 +119,12 @@ def _run(*arguments: str) -> None:
     if program is None:
         raise NetconvertMissing
     command = [program, *arguments, "--xml-validation", "never"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    try:
+        done = subprocess.run(
+            command, capture_output=True, text=True, check=False, timeout=PATIENCE
+        )
+    except subprocess.TimeoutExpired as error:
+        raise ConversionFailed(f"netconvert did not finish within {PATIENCE:g} s") from error
     if done.returncode != 0:
         reason = next((x for x in done.stderr.splitlines() if x.startswith("Error")), done.stderr)
         raise ConversionFailed(f"netconvert failed: {reason.strip()}")

@@ -19,7 +19,7 @@ from sim.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
 from sim.opendrive import conversion_warnings
-from sim.routes import RoutesError, Spawn
+from sim.routes import Departure, RoutesError, Spawn
 from sim.tables import Table, TableError, read_toml
 
 CONFIG = "scenario.toml"
@@ -136,7 +136,7 @@ def _read(folder: Path) -> Scenario:
         ego=top.text("ego"),
         step=top.number("step", least=0.001, most=1.0),
         duration=top.number("duration", least=0.001),
-        view_radius=top.number("view_radius", default=VIEW_RADIUS, least=1.0),
+        view_radius=top.number("view_radius", default=VIEW_RADIUS, least=20.0),
         seed=top.integer("seed", default=0, most=2**31 - 1),
         goal=_goal(top.table("goal", required=True)),
         spawn=_spawn(top.table("spawn")) if "spawn" in top.values else None,
@@ -208,20 +208,26 @@ def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
         problem = f"{scenario.routes.name} has no vehicle {scenario.ego!r}"
         raise top.wrong("ego", problem, one_of(ids))
     check_starts(scenario.routes, departures, network, scenario.ego, scenario.spawn)
-    start = next(x.edges[0] for x in departures if x.id == scenario.ego)
-    _check_goal(scenario.goal, top, network, edges, start)
+    ego = next(x for x in departures if x.id == scenario.ego)
+    start = ego.edges[0]
+    _check_goal(scenario.goal, top, network, edges, ego)
     source = scenario.folder / top.text("network")
     if source.suffix != OPENDRIVE:
         return ()
     return conversion_warnings(ET.parse(source).getroot(), network, start, scenario.priority)
 
 
-def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start: str) -> None:
+def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], ego: Departure) -> None:
+    start = ego.edges[0]
     if goal.edge not in edges:
         raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
     if goal.edge != start and start not in network.distance_to(goal.edge):
         problem = f"{goal.edge!r} cannot be reached from {start!r}, where the ego starts"
         raise top.wrong("goal.edge", problem, one_of(_reachable(network, edges, start)))
+    behind = goal.edge == start and ego.position is not None and ego.position > goal.position
+    if behind and not _leads_back(network, start):
+        problem = f"{goal.position:g} m lies behind the ego, which starts at {ego.position:g} m"
+        raise top.wrong("goal.position", problem, "set it ahead of the start, or another edge")
     lanes = network.edge_lanes(goal.edge)
     numbers = [str(lane.index) for lane in lanes]
     if goal.lane is not None and str(goal.lane) not in numbers:
@@ -230,6 +236,12 @@ def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], start
     if goal.position > length:
         problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"
         raise top.wrong("goal.position", problem, f"it must be at most {length:g}")
+
+
+def _leads_back(network: Network, edge: str) -> bool:
+    """Whether one can come to an edge again after leaving it."""
+    links = [link for lane in network.edge_lanes(edge) for link in network.links_from(lane.id)]
+    return any(network.lanes[x.to_lane].edge in network.distance_to(edge) for x in links)
 
 
 def _reachable(network: Network, edges: set[str], start: str) -> list[str]:

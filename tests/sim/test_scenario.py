@@ -252,3 +252,18 @@ def test_a_map_that_netconvert_refuses(opendrive: Path) -> None:
     (opendrive / "s2.xodr").write_text("<nothing")
     with pytest.raises(ScenarioInvalid, match="network: cannot convert"):
         load(opendrive)
+
+
+def test_a_goal_behind_the_ego_is_told(tmp_path: Path) -> None:
+    folder = copy_of("s1", tmp_path)
+    edit(folder / "scenario.toml", 'edge = "main_out"', 'edge = "main_in"')
+    edit(folder / "scenario.toml", "position = 100.0", "position = 20")
+    with pytest.raises(ScenarioInvalid, match=r"goal\.position: 20 m lies behind the ego"):
+        load(folder)
+
+
+def test_a_car_that_sees_next_to_nothing_is_not_driven(tmp_path: Path) -> None:
+    folder = copy_of("s1", tmp_path)
+    edit(folder / "scenario.toml", "view_radius = 150.0", "view_radius = 1")
+    with pytest.raises(ScenarioInvalid, match="view_radius"):
+        load(folder)

@@ -13,6 +13,7 @@ from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.parsing import ParseUsageError
 from xavi_dialogue.transports.bus import BusError
+from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
@@ -39,5 +40,5 @@ def failure(error: Exception) -> Known | None:
     """How to tell an error; None for a fault of our own, which deserves its traceback."""
     for kinds, status in _STATUSES:
         if isinstance(error, kinds):
-            return Known(" ".join(str(error).split()), status)
+            return Known(one_line(str(error)), status)
     return None

@@ -10,7 +10,8 @@ from pathlib import Path
 from planner.trace import PlanTrace, TraceError, decode
 from xavi_dialogue.transports.ride_file import RideFileError, load
 
-MAX_RIDE_BYTES = 256 * 1024 * 1024
+MAX_RIDE_BYTES = 64 * 1024 * 1024
+MAX_RIDE_LINES = 20_000
 GZIP = b"\x1f\x8b"
 EPSILON = 1e-6  # [s]
 
@@ -31,12 +32,18 @@ def content(name: str) -> bytes:
     """The bytes of a file; `-` is standard input.
 
     Raises:
-        TraceFileError: it cannot be opened.
+        TraceFileError: it cannot be opened, or is too large.
     """
+    if name == "-" and sys.stdin is None:
+        raise TraceFileError("cannot read -: standard input is closed")
     try:
-        return sys.stdin.buffer.read() if name == "-" else Path(name).read_bytes()
+        with sys.stdin.buffer if name == "-" else Path(name).open("rb") as source:
+            data = source.read(MAX_RIDE_BYTES + 1)
     except (OSError, ValueError) as error:
         raise TraceFileError(f"cannot read {name}: {error}") from error
+    if len(data) > MAX_RIDE_BYTES:
+        raise TraceFileError(f"{name} is larger than {MAX_RIDE_BYTES} bytes")
+    return data
 
 
 def read(data: bytes) -> Traces:
@@ -46,6 +53,8 @@ def read(data: bytes) -> Traces:
         TraceFileError: it is neither.
     """
     text = _unpacked(data)
+    if text.count(b"\n") > MAX_RIDE_LINES:
+        raise TraceFileError(f"has more than {MAX_RIDE_LINES} lines")
     if b'"scenario"' in text.partition(b"\n")[0][:4096] and text.count(b"\n") > 1:
         return _ride(text)
     try:
