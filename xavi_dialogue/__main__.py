@@ -125,6 +125,9 @@ def drive(
     duration: Annotated[float | None, typer.Option(min=0.1, help="At most so long [s].")] = None,
     speed: SpeedFactor = 0.0,
     connect: Annotated[str | None, typer.Option(help="Report to the hub at an endpoint.")] = None,
+    save: Annotated[
+        Path | None, typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz.")
+    ] = None,
     as_json: AsJson = False,
     control: Control = False,
 ) -> None:
@@ -134,7 +137,7 @@ def drive(
 
     with _errors():
         loaded = _load(scenario, told=control)
-        manner = Manner(speed or 0.0, duration, connect, control)
+        manner = Manner(speed or 0.0, duration, connect, control, save)
         summary = drive(loaded, _seed(seed, loaded), manner)
     if not control:
         _write(_json(summary) if as_json else story(summary.events))

@@ -227,3 +227,14 @@ def test_one_question_is_answered(text: str, status: int, reason: str | None) ->
     assert (reply["explanation"] is not None) == (text == "What are you doing?")
     assert reply["sim_time"] == 1.0
     assert xavi("ask", text, "--scenario", "s2", "--at", "1.0").stdout == reply["text"] + "\n"
+
+
+def test_a_ride_is_saved_to_be_shown(tmp_path: Path) -> None:
+    file = tmp_path / "mine.ride.jsonl.gz"
+    driven = xavi("drive", "--scenario", "s2", "--duration", "2", "--save", str(file))
+    assert driven.exit_code == 0
+    shown = xavi("trace", "show", str(file))
+    assert shown.exit_code == 0
+    assert "exit-right" in shown.stdout
+    refused = xavi("drive", "--scenario", "s2", "--save", str(tmp_path / "nowhere" / "x.gz"))
+    assert refused.exit_code == 2

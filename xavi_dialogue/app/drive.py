@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeAlias
 
 import msgspec
@@ -17,8 +18,9 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.car import Car, Pace, serve
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import Reporter
-from xavi_dialogue.app.ride import Ending, Moment, network_of, start
+from xavi_dialogue.app.ride import Ending, Moment, clock, network_of, start
 from xavi_dialogue.transports.bus import Keys
+from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, save
 from xavi_dialogue.transports.zenoh_bus import join
 
 Record: TypeAlias = Callable[[Moment], None]
@@ -64,6 +66,22 @@ class Tally:
                 summary.goal_reached, summary.arrival_time = True, event.sim_time
 
 
+@dataclass
+class Log:
+    """Takes a ride's decisions and events down, to be saved."""
+
+    ride: RecordedRide
+
+    def record(self, moment: Moment) -> None:
+        """Add one moment."""
+        self.ride.halt = clock(moment)
+        self.ride.events.extend(moment.events)
+        if moment.trace is not None:
+            self.ride.traces.append(moment.trace)
+        if moment.ending is not None:
+            self.ride.ended = self.ride.halt
+
+
 @dataclass(frozen=True)
 class Manner:
     """How to drive."""
@@ -72,6 +90,7 @@ class Manner:
     duration: float | None = None  # [s]; None: the scenario's
     connect: str | None = None  # endpoint of a hub; None: nobody is told
     controlled: bool = False  # by orders on standard input; waits for the first one
+    save: Path | None = None  # where to save the decisions
 
 
 def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
@@ -81,7 +100,10 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
         SimulationError: SUMO is not installed or fails.
         DriverError: the car cannot be driven on.
         HubUnreachable: there is no hub at the endpoint.
+        RideFileError: the decisions cannot be saved.
     """
+    if manner.save is not None and not manner.save.parent.is_dir():
+        raise RideFileError(f"cannot write {manner.save}: there is no such folder")
     began = time.monotonic()
     orders: control.Orders = queue.SimpleQueue()
     control.quit_on_signals(orders)
@@ -89,6 +111,7 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
         control.listen(sys.stdin, orders)
     network = network_of(scenario)
     tally = Tally(Summary(scenario.name, seed))
+    log = Log(RecordedRide(scenario.name, seed, 0.0))
     with (
         _company(scenario, manner.connect) as (reporter, records),
         start(scenario, seed, network, duration=manner.duration) as ride,
@@ -96,13 +119,15 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
         car = Car(
             ride=ride,
             step=scenario.step,
-            records=(tally.record, *records),
+            records=(tally.record, *((log.record,) if manner.save else ()), *records),
             reporter=reporter,
             orders=orders,
             pace=Pace(manner.speed, running=not manner.controlled),
             stays=manner.controlled,
         )
         car.run()
+    if manner.save is not None:
+        save(log.ride, manner.save)
     tally.summary.wall_s = round(time.monotonic() - began, 3)
     return tally.summary
 

@@ -13,12 +13,13 @@ from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.parsing import ParseUsageError
 from xavi_dialogue.transports.bus import BusError
+from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
-        (ScenarioError, ParseUsageError, TranscriptError, TraceFileError, TreeError),
+        (ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError, TreeError),
         ExitStatus.USAGE,
     ),
     (

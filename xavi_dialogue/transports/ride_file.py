@@ -3,6 +3,7 @@
 import gzip
 import hashlib
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import msgspec
 
@@ -12,7 +13,7 @@ from xavi_dialogue.explain.explanation import NeedRollout
 
 
 class RideFileError(ValueError):
-    """A recorded ride that cannot be read."""
+    """A recorded ride that cannot be read or written."""
 
 
 class _Line(msgspec.Struct, omit_defaults=True):
@@ -54,6 +55,18 @@ def dump(ride: RecordedRide) -> bytes:
     lines += [_Line(whatif=name, trace=trace) for name, trace in sorted(ride.whatifs.items())]
     text = b"".join(msgspec.json.encode(line) + b"\n" for line in lines)
     return gzip.compress(text, mtime=0)
+
+
+def save(ride: RecordedRide, path: Path) -> None:
+    """Write the ride to a file.
+
+    Raises:
+        RideFileError: the file cannot be written.
+    """
+    try:
+        path.write_bytes(dump(ride))
+    except OSError as error:
+        raise RideFileError(f"cannot write {path}: {error.strerror}") from error
 
 
 def load(data: bytes) -> RecordedRide:
