@@ -9,11 +9,10 @@ import math
 import numpy as np
 
 from planner.following import follow_on, stop
+from planner.kernels.driving import COMFORT, STANDING_TIME
 from planner.layout import (
     CLEAR,
-    COMFORT,
     FAR,
-    STANDING_TIME,
     Layout,
     finish,
     lookahead,

@@ -29,7 +29,7 @@ NEAR = 60.0  # [m] within which surprises count
 SURPRISE = 1.2  # [m/s] by which a speed must differ from all that was foreseen
 END_GAP = 1.0  # [m] before the end of the road at which to stop
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
-STANDING = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
+SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
 class DriverError(Exception):
@@ -244,7 +244,7 @@ class Driver:
         elapsed = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():
             here = scene.vehicles.get(vehicle)
-            slow = here is None or here.speed < STANDING
+            slow = here is None or here.speed < SLOW
             least = max(likely, CAUTION if slow else 0.0)
             for belief in beliefs:
                 for line in belief.trajectories:

@@ -2,10 +2,9 @@
 
 import math
 
-from planner.kernels.driving import EMERGENCY, FOLLOWING
+from planner.kernels.driving import COMFORT, EMERGENCY, FOLLOWING
 from planner.layout import (
     CLEAR,
-    COMFORT,
     FAR,
     STRAIGHTEN,
     Layout,

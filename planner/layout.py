@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from planner.kernels.driving import COMFORT
 from planner.manoeuvres import (
     ActionPlan,
     GiveWay,
@@ -22,8 +23,6 @@ AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders
 FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 BEFORE_LINE = 0.5  # [m] at which a vehicle waits
-STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
-COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
 
 
 @dataclass(frozen=True, slots=True)
