@@ -57,6 +57,17 @@ def commands(show: Show) -> typer.Typer:
         """How early, and how surely, it is known where others will go."""
         show(lambda note: recognise(scenario, seeds, jobs, note), as_json)
 
+    @group.command("causes")
+    def _causes(
+        worlds: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
+        seed: Annotated[int, typer.Option(min=0, help="Of the first; the next one follows.")] = 0,
+        jobs: Jobs = None,
+        keep: Annotated[Path | None, typer.Option(help="Leave their folders there.")] = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """Whether the causes named are those planted, in worlds drawn at random."""
+        show(lambda note: causes(worlds, seed, jobs, keep, note), as_json)
+
     @group.command("dialogue")
     def _dialogue(as_json: AsJson = False) -> None:
         """How long answers take."""
@@ -95,6 +106,15 @@ def recognise(
     from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
 
     return measure(_there(scenarios or list(SCENARIOS)), seeds, _processes(jobs), note)
+
+
+def causes(
+    worlds: int, seed: int, jobs: int | None, keep: Path | None, note: Callable[[str], None]
+) -> "Report":
+    """Measure causes in worlds where one was planted."""
+    from xavi_dialogue.app.bench.causes import measure
+
+    return measure(worlds, seed, _processes(jobs), keep, note)
 
 
 def dialogue() -> "Report":

@@ -1,0 +1,160 @@
+"""Which deed of a ride is asked about, and the answer: one rule for every ride.
+
+A lane change comes first, where the ego makes none when it drives the same way alone. Else it is
+the place where the ego is slowest against its drive alone: giving way, where it did so about
+then; stopping, where it stood; slowing down, where its speed had fallen. Where nothing of all
+this happened, the foil `continue` is asked about.
+"""
+
+from bisect import bisect_left
+from collections import Counter
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from planner.events import Event
+from planner.trace import PlanTrace
+from planner.whatif import WhatIfError
+from sim.network import Network
+from sim.scenario import Scenario
+from xavi_dialogue.app.local import Replan
+from xavi_dialogue.app.ride import Ending, clock, start
+from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.explain.engine import explain
+from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
+from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.record import Record
+
+Deed: TypeAlias = Literal[
+    "change-left", "change-right", "give-way", "stop", "slow-down", "continue"
+]
+
+SLOWER = 2.0  # [m/s] than alone, from which a deed is marked
+STANDING = 0.3  # [m/s]
+FALLEN = 1.5  # [m/s] from which a speed has fallen
+ABOUT = (6.0, 2.0)  # [s] before and after the slowest moment in which giving way belongs to it
+LATER = 2.0  # [s] after the slowest moment at which it is asked about
+ROUNDS = 8  # of planning again for one question, at most
+
+
+@dataclass(frozen=True, slots=True)
+class Ridden:
+    """A ride by our planner, to its end."""
+
+    ending: Ending
+    traces: tuple[PlanTrace, ...]
+    events: tuple[Event, ...]
+    time: tuple[float, ...]  # [s] [N]
+    gone: tuple[float, ...]  # [m] driven since the start [N]
+    speed: tuple[float, ...]  # [m/s] of the ego [N]
+
+    @property
+    def manoeuvres(self) -> tuple[str | None, ...]:
+        """The lane changes and turns carried out, in order."""
+        return tuple(event.action for event in carried_out(self.events))
+
+    def record(self, now: float) -> Record:
+        """What is known at a moment [s]."""
+        traces = tuple(trace for trace in self.traces if trace.sim_time <= now)
+        events = tuple(event for event in self.events if event.sim_time <= now)
+        return Record(now, traces, events, ended=now >= self.time[-1])
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A deed, and when it is asked about."""
+
+    deed: Deed
+    now: float  # [s]
+
+    @property
+    def query(self) -> Query:
+        """The question as a query."""
+        if self.deed == "continue":
+            return Query(type="why_not", counterfactual=("continue",))
+        deed: QueryAction = self.deed
+        return Query(type="why", factual=(deed,))
+
+
+def ride(scenario: Scenario, network: Network) -> Ridden:
+    """Drive a scenario to its end by our planner.
+
+    Raises:
+        SimulationError: SUMO is not installed or fails.
+        DriverError: the car cannot be driven on.
+    """
+    traces: list[PlanTrace] = []
+    events: list[Event] = []
+    samples: list[tuple[float, float]] = []
+    ending: Ending = "duration"
+    with start(scenario, scenario.seed, network) as moments:
+        for moment in moments:
+            traces += [moment.trace] if moment.trace is not None else []
+            events += moment.events
+            samples.append((clock(moment), moment.scene.ego.speed))
+            ending = moment.ending or ending
+    time, speed = zip(*samples, strict=True)
+    gone = np.concatenate(([0.0], np.cumsum(np.asarray(speed[1:]) * np.diff(time))))
+    return Ridden(ending, tuple(traces), tuple(events), time, tuple(gone.tolist()), speed)
+
+
+def question(ridden: Ridden, alone: Ridden) -> Question:
+    """The deed that is most marked, by the rule above.
+
+    Args:
+        ridden: the ride.
+        alone: that on the same roads without anybody else.
+    """
+    usual = Counter(alone.manoeuvres)
+    for event in carried_out(ridden.events):
+        if event.action in ("change-left", "change-right") and not usual[event.action]:
+            return Question(
+                "change-left" if event.action == "change-left" else "change-right", event.sim_time
+            )
+    slowest, loss = _slowest(ridden, alone)
+    moment = ridden.time[slowest]
+    now = min(moment + LATER, ridden.time[-1])
+    if loss < SLOWER:
+        return Question("continue", ridden.time[-1])
+    waits = (e.sim_time for e in ridden.events if e.kind == "gave-way")
+    if any(moment - ABOUT[0] <= time <= moment + ABOUT[1] for time in waits):
+        return Question("give-way", now)
+    if ridden.speed[slowest] < STANDING:
+        return Question("stop", now)
+    if max(ridden.speed[: slowest + 1]) - ridden.speed[slowest] >= FALLEN:
+        return Question("slow-down", now)
+    return Question("continue", ridden.time[-1])
+
+
+def ask(
+    asked: Question, ridden: Ridden, again: Replan
+) -> tuple[Explanation | NoExplanation, tuple[PlanTrace, ...]]:
+    """The answer, and the plans that were made again for it."""
+    record = ridden.record(asked.now)
+    extra: tuple[PlanTrace, ...] = ()
+    for _ in range(ROUNDS):
+        found = explain(
+            asked.query, Record(record.now, record.traces, record.events, record.ended, extra)
+        )
+        if not isinstance(found, NeedRollout):
+            return found, extra
+        wanted = found.trace_id
+        trace = next(trace for trace in record.traces if trace.trace_id == wanted)
+        try:
+            extra = (*extra, again(trace, found))
+        except WhatIfError:
+            break
+    return NoExplanation(reason="planner-failed"), extra
+
+
+def _slowest(ridden: Ridden, alone: Ridden) -> tuple[int, float]:
+    """The sample at which a ride is slowest against one alone at the same place, and by how much.
+
+    Of places that are equally slow the first counts.
+    """
+    free = np.interp(ridden.gone, alone.gone, alone.speed)
+    end = bisect_left(ridden.gone, alone.gone[-1])
+    loss = (free - np.asarray(ridden.speed))[: max(end, 1)]
+    most = int(np.argmax(np.round(loss, 1)))
+    return most, float(loss[most])
