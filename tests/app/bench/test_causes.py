@@ -108,6 +108,16 @@ def test_precision_counts_names_and_recall_answers() -> None:
     assert found.asked == {"slow-down": 4}
 
 
+def test_recall_is_told_for_those_worlds_too_in_which_our_own_ride_hangs_on_it() -> None:
+    cases = [case(0, (1,), nearest=1), case(6, (), matters=False, nearest=2), case(12, ())]
+    row = report(cases).rows[0]
+    assert (row.recall.hits, row.recall.n) == (1, 3)
+    found = row.recall_where_it_matters
+    assert (found.hits, found.n) == (1, 2)
+    assert (row.nearest.hits, row.nearest.n) == (1, 3)
+    assert "of no matter to our own ride" in report(cases).wrong[0].what
+
+
 def test_refusals_and_failures_are_counted_apart() -> None:
     cases = [case(0, (1,)), case(6, (), refused="trace-gap"), case(12, (), error="it broke")]
     row = report(cases).rows[0]

@@ -5,6 +5,7 @@ it, ask about the most marked deed (see `asking`), and compare the vehicles name
 planted one. Named vehicles, and as many unnamed ones, are then taken away (see `necessity`).
 """
 
+import math
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence
@@ -12,7 +13,9 @@ from pathlib import Path
 
 import msgspec
 
+from planner.trace import PlanTrace
 from sim.network import Network
+from sim.scene import EGO
 from xavi_dialogue.app.bench.asking import Deed, Ridden, ask, question, ride
 from xavi_dialogue.app.bench.figures import in_columns
 from xavi_dialogue.app.bench.necessity import (
@@ -51,6 +54,7 @@ class Case(msgspec.Struct, frozen=True):
     refused: str | None = None  # the reason, where there was no answer
     matters: bool = True  # to our own ride, too
     seen: bool = True  # the planted vehicle is in the decision that is explained
+    nearest: int | None = None  # of the vehicles in that decision
     removals: tuple[Removal, ...] = ()
 
     @property
@@ -91,6 +95,8 @@ class Row(msgspec.Struct, frozen=True):
     refused: int
     precision: Share  # of the vehicles named: those planted
     recall: Share  # of the answers: those that name the planted vehicle
+    recall_where_it_matters: Share  # of the answers where it matters to our own ride, too
+    nearest: Share  # of the answers: those where the nearest in view is the planted one
     unsure: Share  # of the answers
     matters: Share  # worlds in which the planted vehicle matters to our own ride, too
 
@@ -117,8 +123,9 @@ class CausesReport(msgspec.Struct, frozen=True):
 
     def table(self) -> str:
         """The report for people."""
-        shares = ("precision", "recall", "unsure", "matters")
-        rows = [["", "worlds", "failed", "refused", *shares]]
+        shares = ("precision", "recall", "recall_where_it_matters", "nearest", "unsure", "matters")
+        names = [name.replace("_", " ") for name in shares]
+        rows = [["", "worlds", "failed", "refused", *names]]
         rows += [
             [row.kind, str(row.worlds), str(row.failed), str(row.refused)]
             + [_told(getattr(row, name)) for name in shares]
@@ -226,6 +233,7 @@ def _examined(planted: Planted, network: Network) -> Case:
         named=named,
         unsure=any(map(_unsure, found.causes)),
         seen=world.planted in trace.scene,
+        nearest=_nearest(trace),
         removals=tuple(
             Removal(
                 vehicle,
@@ -243,6 +251,7 @@ def _row(kind: str, cases: Sequence[Case]) -> Row:
     done = [case for case in cases if case.error is None]
     answered = [case for case in cases if case.answered]
     hits = sum(case.planted in case.named for case in answered)
+    moved = [case for case in answered if case.matters]
     return Row(
         kind=kind,
         worlds=len(cases),
@@ -250,6 +259,10 @@ def _row(kind: str, cases: Sequence[Case]) -> Row:
         refused=len(done) - len(answered),
         precision=Share("precision", hits, sum(len(case.named) for case in answered)),
         recall=Share("recall", hits, len(answered)),
+        recall_where_it_matters=Share(
+            "recall where it matters", sum(c.planted in c.named for c in moved), len(moved)
+        ),
+        nearest=Share("nearest", sum(c.nearest == c.planted for c in answered), len(answered)),
         unsure=Share("unsure", sum(case.unsure for case in answered), len(answered)),
         matters=Share("matters", sum(case.matters for case in done), len(done)),
     )
@@ -260,6 +273,13 @@ def _needed(cases: Sequence[Case], named: bool, what: str) -> Share:
     tried = [getattr(one, what) for case in cases for one in case.removals if one.named == named]
     known = [value for value in tried if value is not None]
     return Share(f"{'named' if named else 'not named'}: the {what}", sum(known), len(known))
+
+
+def _nearest(trace: PlanTrace) -> int | None:
+    """The vehicle nearest to the ego in a decision."""
+    here = trace.scene[EGO].position
+    others = [vehicle for vehicle in trace.scene if vehicle != EGO]
+    return min(others, key=lambda v: math.dist(trace.scene[v].position, here), default=None)
 
 
 def _unsure(cause: Cause) -> bool:
