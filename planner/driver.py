@@ -74,6 +74,7 @@ class Driver:
         self._memory = Memory(self._frame.roads)
         self._current: _Execution | None = None
         self._last: Decision | None = None
+        self._moment: Moment | None = None  # of the last decision
         self._decided = -math.inf
         self._number = 0
         self._waiting_for: int | None = None
@@ -100,6 +101,27 @@ class Driver:
         command = self._drive(scene, dt, events)
         return DriveStep(command, trace, tuple(events))
 
+    def carry_out(self, action: Action, scene: Scene, dt: float) -> DriveStep:
+        """Drive another action than the one just decided on, to its end.
+
+        Args:
+            action: that applied at the decision.
+            scene: of the step that has just decided; the command returned stands in for its own.
+            dt: [s] length of the step.
+
+        Raises:
+            DriverError: nothing was decided in that step, or the action does not apply.
+        """
+        if self._moment is None or self._moment.time != round(scene.time, 3):
+            raise DriverError(f"nothing was decided at {scene.time:.1f} s")
+        begun = self._begin(action, self._moment)
+        if isinstance(begun, Refusal):
+            raise DriverError(f"{action} does not apply at {scene.time:.1f} s: {begun.reason}")
+        self._current = replace(begun, committed=True)
+        events = [_event("action-started", self._moment.time, self._current)]
+        command = self._drive(scene, dt, events)
+        return DriveStep(command, None, tuple(events))
+
     def _decide(self, scene: Scene, events: list[Event]) -> PlanTrace:
         current = self._current
         committed = current is not None and current.committed
@@ -114,7 +136,7 @@ class Driver:
             self._memory.unseen,
         )
         decision = decide(self._frame, moment)
-        self._last, self._decided = decision, scene.time
+        self._last, self._moment, self._decided = decision, moment, scene.time
         self._number += 1
         if not committed:
             self._adopt(decision, moment, events)
@@ -127,21 +149,25 @@ class Driver:
         if current is not None and current.plan.action == action:
             self._current = replace(current, decision=moment.number)
             return
-        frame = self._frame
-        expanded = expand(
-            frame.roads, moment.root.here, action, frame.goal, frame.settings.view_radius
-        )
-        if isinstance(expanded, Refusal):
-            raise DriverError(f"no macro action applies at {moment.time:.1f} s: {expanded.reason}")
-        here = moment.root.here
-        motion = Motion(0.0, here.speed, here.acceleration)
         if current is not None:
             events.append(_event("action-ended", moment.time, current))
-        ahead = tuple(lane for lane, start in expanded.path.lanes if start <= expanded.end)
+        begun = self._begin(action, moment)
+        if isinstance(begun, Refusal):
+            raise DriverError(f"no macro action applies at {moment.time:.1f} s: {begun.reason}")
+        self._current = begun
+        events.append(_event("action-started", moment.time, begun))
+
+    def _begin(self, action: Action, moment: Moment) -> _Execution | Refusal:
+        """An action at its beginning."""
+        frame, here = self._frame, moment.root.here
+        plan = expand(frame.roads, here, action, frame.goal, frame.settings.view_radius)
+        if isinstance(plan, Refusal):
+            return plan
+        ahead = tuple(lane for lane, start in plan.path.lanes if start <= plan.end)
         edges = way(frame.roads, ahead, frame.goal)
-        lane = Lane(expanded.path, self._end_of_the_road(expanded))
-        self._current = _Execution(expanded, lane, edges, motion, moment.number)
-        events.append(_event("action-started", moment.time, self._current))
+        lane = Lane(plan.path, self._end_of_the_road(plan))
+        motion = Motion(0.0, here.speed, here.acceleration)
+        return _Execution(plan, lane, edges, motion, moment.number)
 
     def _end_of_the_road(self, plan: ActionPlan) -> float:
         """The arc [m] before which to stop, since the road ends there and the goal is elsewhere."""

@@ -90,7 +90,7 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
         end = _rest(here.speed, braking)
         if end <= min(lines, default=end) and not network.lanes[path.lane_at(end)[0]].internal:
             halt = Stop(0.0, braking)
-            return finish(roads, "stop", path, (halt,), path.length, math.inf, None)
+            return finish(roads, "stop", path, (halt,), path.length, math.inf, goal)
     return Refusal("it would come to a stop inside the junction")
 
 

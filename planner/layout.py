@@ -23,6 +23,7 @@ AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders
 FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 BEFORE_LINE = 0.5  # [m] at which a vehicle waits
+SHORT = 10.0  # [m] before the goal at which no action ends: the next would begin beyond it
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +105,7 @@ def finish(
     commit: float,
     goal: EgoGoal | None,
 ) -> ActionPlan:
-    """The plan of an action, which ends at the goal where it comes past it."""
+    """The plan of an action, which ends at the goal where it comes past it, or near it."""
     reached = None if goal is None else _goal_arc(roads, path, goal, end)
     return ActionPlan(
         action, path, manoeuvres, end if reached is None else reached, commit, reached
@@ -115,7 +116,7 @@ def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | No
     for name, start in path.lanes:
         lane = roads.network.lanes[name]
         wanted = lane.edge == goal.edge and goal.lane in (None, lane.index)
-        if wanted and 0.0 <= start + goal.position <= end:
+        if wanted and 0.0 <= start + goal.position <= min(end + SHORT, path.length):
             return start + goal.position
     return None
 

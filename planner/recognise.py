@@ -19,7 +19,15 @@ from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.rollout import Leg, Task
 from planner.routes import onward
 from planner.trace import Action, EgoGoal, Settings
-from planner.tracks import Observed, aligned, coast, drive_on, links_of, sample_path
+from planner.tracks import (
+    Observed,
+    aligned,
+    coast,
+    drive_on,
+    links_of,
+    queued,
+    sample_path,
+)
 from planner.trajectory import Roads
 
 NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped
@@ -68,6 +76,9 @@ def recognise(
 ) -> dict[int, tuple[Belief, ...]]:
     """What every vehicle but the ego may be up to.
 
+    Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
+    it will most likely move off, so that a queue dissolves from its head on.
+
     Args:
         roads: the road network.
         tracks: all vehicles in view, the ego among them; each ends now.
@@ -84,11 +95,25 @@ def recognise(
         )
         for track in tracks
     }
-    return {
-        observed.vehicle: _beliefs(roads, observed, coasting, settings, time)
-        for observed in tracks
-        if observed.vehicle != ego
-    }
+    found: dict[int, tuple[Belief, ...]] = {}
+    for observed in queued(tracks):
+        if observed.vehicle != ego:
+            found[observed.vehicle] = _beliefs(roads, observed, coasting, settings, time)
+            if observed.standing:
+                mine = coasting[observed.vehicle]
+                moving_off = _likeliest(found[observed.vehicle])
+                coasting[observed.vehicle] = replace(mine, now=moving_off)
+    return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle != ego}
+
+
+def _likeliest(beliefs: Sequence[Belief]) -> Obstacle:
+    """The likeliest motion of a vehicle."""
+    pairs = (
+        (belief.probability * way.probability, way.motion)
+        for belief in beliefs
+        for way in belief.trajectories
+    )
+    return max(pairs, key=lambda pair: pair[0])[1]
 
 
 def _beliefs(

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from planner.actions import ActionPlan, Situation, expand
+from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
@@ -29,10 +29,12 @@ from planner.trace import (
 )
 from planner.tree import Edge, Node, Tree
 from planner.waypoints import cost_left
+from sim.network import Location
 
 Samples: TypeAlias = tuple[Sample, ...]
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
 
+LATE = 1e3  # [s] by which a stop is put behind all that leads on
 ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
 
 
@@ -152,11 +154,11 @@ class Search:
         def choose(node: Node, options: Sequence[Action]) -> Action:
             if len(node) < len(begin):
                 return begin[len(node)]
-            return tree.select(node, options, self.rng)
+            return tree.select(node, options)
 
         one = self._roll(samples, choose, forced=forced)
         if one is not None:
-            tree.back_up(one.actions, one.reward)
+            tree.back_up(one.actions[: self.settings.depth], one.reward)
 
     def _roll(self, samples: Samples, choose: Choose, *, forced: bool) -> Simulated | None:
         """One rollout; None, and nothing recorded, where the action chosen does not apply."""
@@ -164,14 +166,13 @@ class Search:
         outcome: Outcome | None = None
         while outcome is None:
             node = tuple(leg.action for leg in legs)
-            if len(legs) >= self.settings.depth:
-                outcome = "termination"
-                break
             options = self._options(samples, node, legs)
             if not options:
                 outcome = "dead"
                 break
-            action = choose(node, list(options))
+            searched = len(legs) < self.settings.depth
+            inviting = sorted(options, key=lambda action: self._invites(options[action]))
+            action = choose(node, inviting) if searched else inviting[0]
             if action not in options:
                 return None
             legs.append(self._leg(samples, (*node, action), options[action], legs))
@@ -195,6 +196,20 @@ class Search:
             found = Simulated(forced, samples, tuple(legs), outcome, shown, gained, stretches)
             self._known[key] = found
         return replace(found, forced=forced)
+
+    def _invites(self, plan: ActionPlan) -> float:
+        """How soon [s] a plan would lead to the goal if nobody were in the way.
+
+        The search tries actions in this order, and beyond its depth drives on by it.
+        """
+        if plan.stops:
+            return STANDING_TIME + LATE
+        lane, begin = plan.path.lane_at(plan.end)
+        pace = self.task.roads.network.lanes[lane].speed_limit
+        if plan.goal is not None:
+            return plan.goal / pace
+        end = Location(lane, plan.end - begin, 0.0)
+        return plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
 
     def _left(self, legs: Sequence[Leg]) -> float:
         """What is left to the goal [s] after these legs, where nobody is in the way."""

@@ -20,6 +20,8 @@ TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
 LEAST_PACE = 4.0  # [m/s] below which nobody wants to drive for long
+CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
+QUEUE = 60.0  # [m] over which one stands behind another
 FAR_ASIDE = (5.0, 1.4)  # [m], [rad] from its lane at which a vehicle that turns may be
 AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
@@ -42,6 +44,11 @@ class Observed:
         return len(self.speed) - 1
 
     @property
+    def standing(self) -> bool:
+        """Whether it stands or crawls, as nobody does of his own accord for long."""
+        return float(self.speed[-1]) < CRAWLING
+
+    @property
     def pace(self) -> float:
         """The speed [m/s] faster than which it does not seem to want to drive; often infinite.
 
@@ -60,6 +67,21 @@ class Observed:
             Situation(time, (x, y), heading, speed, 0.0, location)
             for location in lanes_at(roads, (x, y), heading)
         )
+
+
+def queued(tracks: Sequence[Observed]) -> list[Observed]:
+    """Those who stand first, in a queue from its head on; then the others in their order."""
+    standing = [track for track in tracks if track.standing]
+    standing.sort(key=lambda track: sum(_ahead(track, other) for other in standing))
+    return standing + [track for track in tracks if not track.standing]
+
+
+def _ahead(track: Observed, other: Observed) -> bool:
+    """Whether another is before a vehicle in its track."""
+    dx, dy = other.position[-1] - track.position[-1]
+    cos, sin = math.cos(track.heading[-1]), math.sin(track.heading[-1])
+    along, aside = dx * cos + dy * sin, dy * cos - dx * sin
+    return bool(0.0 < along <= QUEUE and abs(aside) <= 0.5 * (track.width + other.width))
 
 
 def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:

@@ -6,7 +6,6 @@ action of a rollout learns its reward, an earlier one the value of the best that
 """
 
 import math
-import random
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -33,12 +32,12 @@ class Tree:
     low: float = math.inf  # reward seen
     high: float = -math.inf
 
-    def select(self, node: Node, actions: Sequence[Action], rng: random.Random) -> Action:
-        """Choose the action with the highest UCB1 bound; untried ones first, at random."""
+    def select(self, node: Node, actions: Sequence[Action]) -> Action:
+        """Choose the action with the highest UCB1 bound; untried ones first, in their order."""
         known = self.edges.setdefault(node, {})
         fresh = [action for action in actions if action not in known]
         if fresh:
-            return fresh[rng.randrange(len(fresh))]
+            return fresh[0]
         total = sum(known[action].visits for action in actions)
         span = max(self.high - self.low, 1e-9)
 

@@ -284,3 +284,32 @@ def test_a_goal_out_of_reach_does_not_stop_the_car_from_deciding() -> None:
     done = ride("s1", {}, away=60.0, lasting=3.0, target=EgoGoal("from_s", 50.0, None))
     assert not done.finished
     assert {rollout.outcome for trace in done.traces for rollout in trace.rollouts} == {"dead"}
+
+
+def test_another_action_than_the_one_decided_on_can_be_carried_out() -> None:
+    driver = Driver(roads("s1").network, goal("s1"), QUICK, seed=0)
+    ego = ego_at("s1", 95.0)
+    scene = Scene(0.0, {EGO: ego})
+    step = driver.step(scene, STEP)
+    assert step.trace is not None
+    assert step.trace.plan[0].action == "continue"
+    command = driver.carry_out("change-left", scene, STEP).command
+    done = []
+    for k in range(1, 80):
+        time = round(k * STEP, 3)
+        ego = VehicleState(command.position, command.heading, command.speed, 0.0, LENGTH, WIDTH)
+        step = driver.step(Scene(time, {EGO: ego}), STEP)
+        done += [(event.kind, event.action) for event in step.events]
+        command = step.command
+    assert done[:2] == [("action-ended", "change-left"), ("action-started", "continue")]
+    assert command.position[1] - ego_at("s1", 95.0).position[1] == pytest.approx(3.5, abs=0.1)
+
+
+def test_only_what_was_just_decided_can_be_replaced_and_only_by_what_applies() -> None:
+    driver = Driver(roads("s1").network, goal("s1"), QUICK, seed=0)
+    scene = Scene(0.0, {EGO: ego_at("s1", 95.0)})
+    with pytest.raises(DriverError, match="nothing was decided"):
+        driver.carry_out("stop", scene, STEP)
+    driver.step(scene, STEP)
+    with pytest.raises(DriverError, match="change-right does not apply"):
+        driver.carry_out("change-right", scene, STEP)

@@ -206,3 +206,18 @@ def test_the_ego_is_not_predicted() -> None:
 def test_equal_tracks_give_equal_beliefs() -> None:
     one, other = (beliefs("s1", {1: changed(8)})[1] for _ in range(2))
     assert [belief.probability for belief in one] == [belief.probability for belief in other]
+
+
+def test_a_queue_dissolves_from_its_head_on() -> None:
+    line = roads("s2").line(row("s2", "west_in_0", "straight"))
+    end = before_end("s2", "west_in_0", 0.5)
+    queue = {k: driven(line, end - 8.0 * (k - 1), [0.0] * 10) for k in (1, 2, 3)}
+    # The head means to turn left in front of one that comes towards it, and waits.
+    queue[1] = waiting(2.0)
+    oncoming = still("s2", ("east_in_0",), before_end("s2", "east_in_0", 40.0), 12.0)
+    found = beliefs("s2", {**queue, 4: oncoming})
+    leaving = {}
+    for vehicle in queue:
+        (turning,) = (b for b in found[vehicle] if b.goal.kind == "exit-left")
+        leaving[vehicle] = int(np.argmax(turning.trajectories[0].motion.position[:, 0] > -3.0))
+    assert 0 < leaving[1] < leaving[2] < leaving[3]

@@ -103,13 +103,21 @@ def test_nobody_stops_twice_in_a_row() -> None:
     assert one.refusals[("stop",), "stop"] == "it is standing already"
 
 
-def test_depth_ends_a_rollout() -> None:
+def test_beyond_its_depth_a_rollout_drives_on_to_the_goal() -> None:
     one = ran(Settings(rollouts=20, min_rollouts=0, depth=1))
-    assert {len(rollout.legs) for rollout in one.rollouts} == {1}
-    ended = {rollout.actions[0]: rollout.outcome for rollout in one.rollouts}
-    assert ended["stop"] == ended["change-left"] == "termination"
-    assert ended["continue"] == "done"
-    assert ended["exit-right"] == "dead"
+    assert max(len(node) for node in one.tree.edges) == 0  # nothing deeper is learnt
+    driven = {rollout.actions[0]: rollout for rollout in one.rollouts}
+    assert driven["continue"].actions == ("continue",)
+    assert driven["stop"].actions == ("stop", "continue")
+    assert driven["stop"].outcome == driven["change-left"].outcome == "done"
+    assert driven["exit-right"].outcome == "dead"
+
+
+def test_what_leads_to_the_goal_soonest_is_tried_first() -> None:
+    tried = [rollout.actions[0] for rollout in ran(Settings(rollouts=20, depth=1)).rollouts]
+    assert tried[0] == "continue"
+    assert tried.index("stop") < 6
+    assert all(tried.index("continue") < tried.index(other) for other in set(tried) - {"continue"})
 
 
 def test_only_the_action_under_way_applies_at_the_root() -> None:
