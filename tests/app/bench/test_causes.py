@@ -1,14 +1,22 @@
 """Causes: which deed is asked about, how answers are judged, and a world from end to end."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from planner.events import Event
-from xavi_dialogue.app.bench.asking import Question, Ridden, question
+from xavi_dialogue.app.bench.asking import Question, Ridden, question, ride
 from xavi_dialogue.app.bench.causes import Case, examine, report
-from xavi_dialogue.app.bench.necessity import Removal, delay, ride_changes
-from xavi_dialogue.app.bench.worlds.generate import kind_of
+from xavi_dialogue.app.bench.necessity import (
+    Removal,
+    compared,
+    delay,
+    plan_changes,
+    ride_changes,
+)
+from xavi_dialogue.app.bench.worlds.generate import generate, kind_of
+from xavi_dialogue.app.ride import network_of
 
 STEP = 0.1  # [s]
 
@@ -160,6 +168,20 @@ def test_a_world_is_driven_asked_about_and_driven_without_the_named() -> None:
     assert found.refused is None
     assert {removal.vehicle for removal in found.removals if removal.named} == set(found.named)
     assert examine((0, None)) == found
+
+
+@pytest.mark.slow
+def test_a_decision_hangs_on_the_planted_vehicle_and_on_nobody_out_of_view(tmp_path: Path) -> None:
+    planted = generate(0, tmp_path / "world")
+    network, name = network_of(planted.scenario), planted.world.planted
+    traces = ride(planted.scenario, network).traces
+    trace = min((t for t in traces if name in t.scene), key=lambda t: t.scene[0].speed)
+    assert plan_changes(trace, network, name) is True
+    assert plan_changes(trace, network, 99) is None
+    others = set(trace.scene) - {0, name}
+    assert set(compared(trace, (name,), 0)) <= others
+    assert len(compared(trace, (name,), 0)) == min(1, len(others))
+    assert compared(trace, (), 0) == ()
 
 
 @pytest.mark.slow
