@@ -64,6 +64,13 @@ def test_giving_way_long_before_is_another_matter() -> None:
     assert question(ride, ridden(*[10.0] * 20)).deed == "slow-down"
 
 
+def test_being_slower_than_alone_later_on_hides_no_giving_way() -> None:
+    wait = (Event("gave-way", 2.0, "exit-right", 1, vehicle=3),)
+    slow_exit = ridden(8, 8, 3, 2, 4, 8, 9, 9, 9, events=wait)
+    alone = ridden(8, 8, 5, 5, 8, 14, 14, 14, 14)
+    assert question(slow_exit, alone).deed == "give-way"
+
+
 def test_what_the_road_alone_slows_is_no_deed() -> None:
     bend = ridden(10, 10, 5, 5, 10, 10)
     assert question(bend, bend).deed == "continue"

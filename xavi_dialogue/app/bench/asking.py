@@ -1,9 +1,9 @@
 """Which deed of a ride is asked about, and the answer: one rule for every ride.
 
-A lane change comes first, where the ego makes none when it drives the same way alone. Else it is
-the place where the ego is slowest against its drive alone: giving way, where it did so about
-then; stopping, where it stood; slowing down, where its speed had fallen. Where nothing of all
-this happened, the foil `continue` is asked about.
+A lane change comes first, where the ego makes none when it drives the same way alone. Else, of
+the places where its speed had fallen, it is that where it is slowest against its drive alone:
+giving way, where it did so about then; stopping, where it stood; else slowing down. Where
+nothing of all this happened, the foil `continue` is asked about.
 """
 
 from bisect import bisect_left
@@ -32,7 +32,8 @@ Deed: TypeAlias = Literal[
 
 SLOWER = 2.0  # [m/s] than alone, from which a deed is marked
 STANDING = 0.3  # [m/s]
-FALLEN = 1.5  # [m/s] from which a speed has fallen
+FALLEN = 1.5  # [m/s] from which a speed has fallen ...
+WITHIN = 10.0  # [s] ... and the time in which it has
 ABOUT = (6.0, 2.0)  # [s] before and after the slowest moment in which giving way belongs to it
 LATER = 2.0  # [s] after the slowest moment at which it is asked about
 ROUNDS = 8  # of planning again for one question, at most
@@ -112,19 +113,15 @@ def question(ridden: Ridden, alone: Ridden) -> Question:
             return Question(
                 "change-left" if event.action == "change-left" else "change-right", event.sim_time
             )
-    slowest, loss = _slowest(ridden, alone)
+    slowest = _slowest(ridden, alone)
+    if slowest is None:
+        return Question("continue", ridden.time[-1])
     moment = ridden.time[slowest]
     now = min(moment + LATER, ridden.time[-1])
-    if loss < SLOWER:
-        return Question("continue", ridden.time[-1])
     waits = (e.sim_time for e in ridden.events if e.kind == "gave-way")
     if any(moment - ABOUT[0] <= time <= moment + ABOUT[1] for time in waits):
         return Question("give-way", now)
-    if ridden.speed[slowest] < STANDING:
-        return Question("stop", now)
-    if max(ridden.speed[: slowest + 1]) - ridden.speed[slowest] >= FALLEN:
-        return Question("slow-down", now)
-    return Question("continue", ridden.time[-1])
+    return Question("stop" if ridden.speed[slowest] < STANDING else "slow-down", now)
 
 
 def ask(
@@ -148,13 +145,22 @@ def ask(
     return NoExplanation(reason="planner-failed"), extra
 
 
-def _slowest(ridden: Ridden, alone: Ridden) -> tuple[int, float]:
-    """The sample at which a ride is slowest against one alone at the same place, and by how much.
+def _slowest(ridden: Ridden, alone: Ridden) -> int | None:
+    """The sample at which a ride is slowest against one alone at the same place.
 
-    Of places that are equally slow the first counts.
+    Only those count at which the speed had fallen before; of equally slow ones the first does.
     """
     free = np.interp(ridden.gone, alone.gone, alone.speed)
-    end = bisect_left(ridden.gone, alone.gone[-1])
-    loss = (free - np.asarray(ridden.speed))[: max(end, 1)]
-    most = int(np.argmax(np.round(loss, 1)))
-    return most, float(loss[most])
+    loss = np.round(free - np.asarray(ridden.speed), 1)
+    fallen = [
+        k
+        for k in range(bisect_left(ridden.gone, alone.gone[-1]))
+        if loss[k] >= SLOWER and _lately(ridden, k) - ridden.speed[k] >= FALLEN
+    ]
+    return max(fallen, key=lambda k: (loss[k], -k), default=None)
+
+
+def _lately(ridden: Ridden, sample: int) -> float:
+    """The highest speed [m/s] in the last seconds before a sample."""
+    first = bisect_left(ridden.time, ridden.time[sample] - WITHIN)
+    return max(ridden.speed[first : sample + 1])
