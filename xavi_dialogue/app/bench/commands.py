@@ -1,7 +1,7 @@
 """The commands of `xavi bench`; what they measure is imported when they run."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
@@ -68,6 +68,19 @@ def commands(show: Show) -> typer.Typer:
         """Whether the causes named are those planted, in worlds drawn at random."""
         show(lambda note: causes(worlds, seed, jobs, keep, note), as_json)
 
+    @group.command("fidelity")
+    def _fidelity(
+        scenario: Scenarios = None,
+        seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 2,
+        seed: Annotated[int | None, typer.Option(min=0, help="Only this one.")] = None,
+        every: Annotated[int, typer.Option(min=1, help="1: each decision; 2: every other.")] = 1,
+        jobs: Jobs = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """What is said of foils, beside what SUMO makes of them from the same state."""
+        chosen = range(seeds) if seed is None else (seed,)
+        show(lambda note: fidelity(scenario, chosen, every, jobs, note), as_json)
+
     @group.command("dialogue")
     def _dialogue(as_json: AsJson = False) -> None:
         """How long answers take."""
@@ -115,6 +128,22 @@ def causes(
     from xavi_dialogue.app.bench.causes import measure
 
     return measure(worlds, seed, _processes(jobs), keep, note)
+
+
+def fidelity(
+    scenarios: list[str] | None,
+    seeds: Sequence[int],
+    every: int,
+    jobs: int | None,
+    note: Callable[[str], None],
+) -> "Report":
+    """Measure what is said of foils in scenarios, or in all of ours."""
+    from msgspec.structs import replace
+
+    from xavi_dialogue.app.bench.fidelity import measure
+
+    chosen, left_out = (_there(scenarios), ()) if scenarios else _all(note)
+    return replace(measure(chosen, seeds, every, _processes(jobs), note), left_out=left_out)
 
 
 def dialogue() -> "Report":

@@ -5,100 +5,124 @@ state with the ego doing the foil (see `resimulate`), and what an answer would s
 with what happened: the outcome, and by how much the ego arrives later than it did.
 """
 
+from collections.abc import Callable, Sequence
+
 import msgspec
 
-from planner.driver import Driver
-from planner.trace import Action, EgoGoal
-from sim.scenario import Scenario, load
-from sim.sumo import Simulation
-from xavi_dialogue.app.bench.foresight import Foreseen, foresee
-from xavi_dialogue.app.bench.resimulate import Aim, Happened, drive_foil
-from xavi_dialogue.app.bench.runs import warm
-from xavi_dialogue.app.ride import network_of, settings_of
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.app.bench.agreement import (
+    ALL,
+    CLEAR,
+    Agreement,
+    Bin,
+    OutcomeRow,
+    agreement,
+    by_outcome,
+    calibration,
+    right,
+    same_sign,
+    tables,
+)
+from xavi_dialogue.app.bench.cases import Case, Compared, compare
+from xavi_dialogue.app.bench.runs import in_processes
 
 
-class Case(msgspec.Struct, frozen=True):
-    """One foil of one decision."""
+class Wrong(msgspec.Struct, frozen=True):
+    """A foil of which the wrong thing is said."""
 
-    scenario: str
-    seed: int
-    time: float  # [s] of the decision
-    fact: Action
-    foil: Action
-    foreseen: Foreseen
-    happened: Happened
-    later: float | None = None  # [s] by which the foil arrived later than the fact, if both did
+    what: str
+    reproduce: str
 
 
-class Compared(msgspec.Struct, frozen=True):
-    """The foils of one ride."""
+class FidelityReport(msgspec.Struct, frozen=True):
+    """What the benchmark found."""
 
-    scenario: str
-    seed: int
-    cases: tuple[Case, ...] = ()
-    error: str | None = None
+    bench: str
+    scenarios: tuple[Agreement, ...]
+    all: Agreement
+    outcomes: tuple[OutcomeRow, ...]
+    calibration: tuple[Bin, ...]
+    wrong: tuple[Wrong, ...]
+    failed: tuple[str, ...]
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
 
-
-class _Pending(msgspec.Struct):
-    """A decision, until it is known what came of what was decided."""
-
-    aim: Aim
-    cases: list[Case]
-    fact: Happened | None = None
-
-
-def compare(task: tuple[str, int]) -> Compared:
-    """Compare all foils of one ride; what goes wrong is told in the result."""
-    name, seed = task
-    try:
-        warm()
-        scenario = load(name)
-        with Simulation(scenario, seed) as world:
-            pending = _ride(name, world, scenario, seed)
-        return Compared(name, seed, tuple(case for one in pending for case in _settled(one)))
-    except Exception as error:
-        return Compared(name, seed, error=f"{type(error).__name__}: {error}")
+    def table(self) -> str:
+        """The report for people."""
+        parts = [tables((*self.scenarios, self.all), self.outcomes, self.calibration)]
+        parts.append("\n".join(["wrong:", *(one.what for one in self.wrong)]))
+        if self.failed:
+            parts.append("\n".join(("failed:", *self.failed)))
+        if self.left_out:
+            parts.append(f"left out for want of netconvert: {', '.join(self.left_out)}")
+        return "\n\n".join(parts)
 
 
-def _ride(name: str, world: Simulation, scenario: Scenario, seed: int) -> list[_Pending]:
-    network = network_of(scenario)
-    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
-    driver = Driver(network, goal, settings_of(scenario), seed)
-    scene, pending = world.scene(), []
-    while not driver.finished and scene.time < scenario.duration - EPSILON:
-        driven = driver.step(scene, scenario.step)
-        trace = driven.trace
-        if trace is not None and trace.under_way is None:
-            aim = Aim.of(network, trace)
-            cases = [
-                Case(
-                    name,
-                    seed,
-                    trace.sim_time,
-                    trace.plan[0].action,
-                    foil,
-                    foreseen,
-                    drive_foil(world, driver, aim, foil, scene, scenario.step),
-                )
-                for foil, foreseen in foresee(trace, network).items()
-            ]
-            pending.append(_Pending(aim, cases))
-        scene = world.step(driven.command)
-        touched = world.collisions()
-        for one in pending:
-            one.fact = one.fact or one.aim.come_to(scene, touched)
-        if touched:
-            break
-    return pending
+def measure(
+    scenarios: Sequence[str],
+    seeds: Sequence[int],
+    every: int,
+    jobs: int,
+    note: Callable[[str], None],
+) -> FidelityReport:
+    """Compare the foils of scenarios (names or folders).
+
+    Args:
+        scenarios: at least one.
+        seeds: of each.
+        every: 1 for each decision of a ride that has alternatives, 2 for every other one, ...
+        jobs: processes side by side.
+        note: is told the progress.
+    """
+    tasks = [(name, seed, every) for seed in seeds for name in scenarios]
+    found = []
+    for one in in_processes(compare, tasks, jobs, _died):
+        found.append(one)
+        note(f"{len(found)} of {len(tasks)}: {one.scenario}, seed {one.seed}")
+    return report(found)
 
 
-def _settled(one: _Pending) -> list[Case]:
-    """The cases of a decision, with how much later the foils arrived."""
-    fact = one.fact.time if one.fact is not None else None
-    return [
-        msgspec.structs.replace(case, later=round(case.happened.time - fact, 3))
-        if fact is not None and case.happened.time is not None
-        else case
-        for case in one.cases
-    ]
+def _died(task: tuple[str, int, int]) -> Compared:
+    return Compared(task[0], task[1], error="its process died")
+
+
+def report(found: Sequence[Compared]) -> FidelityReport:
+    """The rides that were compared, in numbers."""
+    names = list(dict.fromkeys(one.scenario for one in found))
+    cases = [case for one in found for case in one.cases]
+    return FidelityReport(
+        bench="fidelity",
+        scenarios=tuple(agreement(n, [c for c in cases if c.scenario == n]) for n in names),
+        all=agreement(ALL, cases),
+        outcomes=by_outcome(cases),
+        calibration=calibration(cases),
+        wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
+        failed=tuple(
+            f"{one.error}\n    xavi bench fidelity --scenario {one.scenario} --seed {one.seed}"
+            for one in found
+            if one.error is not None
+        ),
+    )
+
+
+def _is_wrong(case: Case) -> bool:
+    if case.foreseen.declined is not None:
+        return False
+    known = case.later is not None and case.foreseen.time is not None
+    clear = known and case.later is not None and abs(case.later) > CLEAR
+    return not right(case) or (clear and not same_sign(case))
+
+
+def _what(case: Case) -> str:
+    foreseen, happened = case.foreseen, case.happened
+    said = ", ".join(f"{name} {p:.2f}" for name, p in foreseen.outcomes.items() if p > 0.005)
+    time = "" if foreseen.time is None else f", {foreseen.time:+.1f} s"
+    later = "" if case.later is None else f", {case.later:+.1f} s"
+    struck = "" if happened.collided_with is None else f" with {happened.collided_with}"
+    where = f"{case.scenario}, seed {case.seed}, {case.time:g} s"
+    return (
+        f"{where}: {case.foil} instead of {case.fact}:"
+        f" said {said}{time}; came to {happened.outcome}{struck}{later}"
+    )
+
+
+def _command(case: Case) -> str:
+    return f"xavi bench fidelity --scenario {case.scenario} --seed {case.seed}"

@@ -1,0 +1,115 @@
+"""Agreement of what is foreseen of foils with what happens, on cases made up for it."""
+
+import math
+
+import msgspec
+import pytest
+
+from xavi_dialogue.app.bench.agreement import agreement, by_outcome, calibration
+from xavi_dialogue.app.bench.cases import Case, Compared, compare
+from xavi_dialogue.app.bench.fidelity import measure, report
+from xavi_dialogue.app.bench.foresight import Foreseen
+from xavi_dialogue.app.bench.resimulate import Happened
+
+
+def case(said: dict, happened: str, time: float | None = None, later: float | None = None) -> Case:
+    low, high = (None, None) if time is None else (time - 1.0, time + 1.0)
+    arrived = 10.0 if happened == "done" else None
+    return Case(
+        "s1",
+        0,
+        3.0,
+        "change-left",
+        "continue",
+        Foreseen(said, time, low, high),
+        Happened(happened, arrived),  # type: ignore[arg-type]
+        later,
+    )
+
+
+CASES = [
+    case({"done": 1.0}, "done", 4.0, 3.5),  # right, within the range
+    case({"done": 0.8, "dead": 0.2}, "done", 2.0, -1.5),  # right outcome, wrong sign
+    case({"done": 0.6, "collision": 0.4}, "collision", 1.0),
+    case({"dead": 1.0}, "dead"),
+    msgspec.structs.replace(
+        case({}, "done"), foreseen=Foreseen({}, declined="too-little-evidence")
+    ),
+]
+
+
+def test_agreement_counts_what_was_told() -> None:
+    found = agreement("s1", CASES)
+    assert (found.foils, found.declined) == (5, 1)
+    assert found.agree == 0.75
+    assert found.commonest == 0.5  # two of four arrived
+    assert (found.timed, found.clear) == (2, 2)
+    assert found.sign == 0.5
+    assert found.within == 0.5
+    assert found.error_p50 == pytest.approx(2.0)  # of 0.5 and 3.5
+
+
+def test_brier_scores_are_sums_of_squares_over_outcomes() -> None:
+    found = agreement("s1", CASES)
+    ours = (0.0 + (0.04 + 0.04) + (0.36 + 0.36) + 0.0) / 4.0
+    assert found.brier == pytest.approx(ours, abs=1e-3)
+    shares = {"done": 0.5, "collision": 0.25, "dead": 0.25}
+    scores = [
+        sum((p - (name == happened)) ** 2 for name, p in shares.items())
+        for happened in ("done", "done", "collision", "dead")
+    ]
+    assert found.brier_commonest == pytest.approx(math.fsum(scores) / 4.0, abs=1e-3)
+
+
+def test_each_outcome_is_told_apart() -> None:
+    rows = {row.outcome: row for row in by_outcome(CASES)}
+    done, struck = rows["done"], rows["collision"]
+    assert (done.foreseen, done.happened, done.both) == (3, 2, 2)
+    assert done.said == pytest.approx(0.9)
+    assert (struck.foreseen, struck.happened, struck.both) == (0, 1, 0)
+    assert struck.said == pytest.approx(0.4)
+    assert rows["termination"].said is None
+
+
+def test_calibration_sorts_probabilities_into_bins() -> None:
+    bins = calibration(CASES)
+    assert sum(one.n for one in bins) == 16  # four cases, four outcomes each
+    assert (bins[-1].n, bins[-1].happened) == (3, 1.0)  # 1.0, 0.8 and 1.0
+    assert bins[0].happened == 0.0
+
+
+def test_what_is_wrong_is_listed_with_how_to_see_it_again() -> None:
+    found = report([Compared("s1", 0, tuple(CASES)), Compared("s2", 3, error="SumoFailed: no")])
+    assert len(found.wrong) == 2
+    assert "said done 0.60, collision 0.40, +1.0 s; came to collision" in found.wrong[1].what
+    assert found.wrong[0].reproduce == "xavi bench fidelity --scenario s1 --seed 0"
+    assert found.failed[0].startswith("SumoFailed: no")
+    assert found.all.agree == 0.75
+    assert "s1, seed 0, 3 s: continue instead of change-left" in found.table()
+    assert msgspec.json.decode(msgspec.json.encode(found))["bench"] == "fidelity"
+
+
+def test_a_scenario_that_cannot_be_driven_is_told_in_the_report() -> None:
+    found = compare(("no-such-scenario", 0, 1))
+    assert found.cases == ()
+    assert found.error is not None
+    assert found.error.startswith("ScenarioNotFound")
+    whole = report([found])
+    assert whole.all.agree is None
+    assert "no-such-scenario" in whole.table()
+
+
+def test_foils_of_a_story_are_foreseen() -> None:
+    notes: list[str] = []
+    found = measure(["s1"], [0], 5, 1, notes.append)
+    assert notes == ["1 of 1: s1, seed 0"]
+    assert found.failed == ()
+    assert found.all.foils > 5
+    outcomes = {row.outcome: row.happened for row in found.outcomes}
+    assert outcomes["dead"] > 0  # whoever turns right does not get there
+    assert outcomes["done"] > 0
+    assert found.all.agree is not None
+    assert found.all.commonest is not None
+    assert found.all.agree > found.all.commonest
+    assert found.all.sign is not None
+    assert found.all.sign > 0.9

@@ -1,0 +1,180 @@
+"""Agreement of what was foreseen of foils with what happened, in numbers."""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from planner.trace import OUTCOMES, Outcome
+from xavi_dialogue.app.bench.cases import Case
+from xavi_dialogue.app.bench.figures import in_columns, mean, quantile
+
+CLEAR = 1.0  # [s] of difference from which its sign counts
+ALL = "all"
+
+
+class Agreement(msgspec.Struct, frozen=True):
+    """How the foils of one scenario, or of all, turned out."""
+
+    scenario: str
+    foils: int
+    declined: int  # for want of evidence; these count in nothing below
+    agree: float | None  # share of foils that came to the outcome that is named
+    commonest: float | None  # the same for always naming the commonest outcome
+    brier: float | None  # of the outcome probabilities: 0 is perfect, 2 the worst
+    brier_commonest: float | None  # of always giving the shares of all outcomes
+    timed: int  # foils that were foreseen to arrive and did, as did the fact
+    error_p50: float | None  # [s] absolute error of the difference of the arrival times
+    error_p90: float | None
+    within: float | None  # share of them within the range that is given
+    clear: int  # of these, with a difference of more than a second
+    sign: float | None  # share of them with the right sign
+
+
+class OutcomeRow(msgspec.Struct, frozen=True):
+    """One outcome."""
+
+    outcome: Outcome
+    foreseen: int
+    happened: int
+    both: int
+    said: float | None  # mean probability that was given to it where it happened
+
+
+class Bin(msgspec.Struct, frozen=True):
+    """Outcomes that were given about the same probability."""
+
+    low: float
+    high: float
+    n: int
+    said: float | None  # mean probability
+    happened: float | None  # share that happened
+
+
+def agreement(scenario: str, cases: Sequence[Case]) -> Agreement:
+    """The cases of a scenario in numbers."""
+    told = [case for case in cases if case.foreseen.declined is None]
+    shares = _shares(told)
+    timed = [c for c in told if c.later is not None and c.foreseen.time is not None]
+    errors = [abs(_foreseen_time(c) - _later(c)) for c in timed]
+    clear = [c for c in timed if abs(_later(c)) > CLEAR]
+    return Agreement(
+        scenario=scenario,
+        foils=len(cases),
+        declined=len(cases) - len(told),
+        agree=_share(told, right),
+        commonest=max(shares.values()) if told else None,
+        brier=_rounded(mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in told])),
+        brier_commonest=_rounded(mean([_brier(shares, c.happened.outcome) for c in told])),
+        timed=len(timed),
+        error_p50=_rounded(quantile(errors, 50)) if errors else None,
+        error_p90=_rounded(quantile(errors, 90)) if errors else None,
+        within=_share(timed, _within),
+        clear=len(clear),
+        sign=_share(clear, same_sign),
+    )
+
+
+def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
+    """Each outcome apart."""
+    told = [case for case in cases if case.foreseen.declined is None]
+    return tuple(
+        OutcomeRow(
+            outcome,
+            sum(c.foreseen.likeliest == outcome for c in told),
+            sum(c.happened.outcome == outcome for c in told),
+            sum(c.foreseen.likeliest == outcome == c.happened.outcome for c in told),
+            _rounded(
+                mean(
+                    [
+                        c.foreseen.outcomes.get(outcome, 0.0)
+                        for c in told
+                        if c.happened.outcome == outcome
+                    ]
+                )
+            ),
+        )
+        for outcome in OUTCOMES
+    )
+
+
+def calibration(cases: Sequence[Case], bins: int = 5) -> tuple[Bin, ...]:
+    """How often outcomes happened that were given about the same probability."""
+    pairs = [
+        (case.foreseen.outcomes.get(outcome, 0.0), float(case.happened.outcome == outcome))
+        for case in cases
+        if case.foreseen.declined is None
+        for outcome in OUTCOMES
+    ]
+    found = []
+    for k in range(bins):
+        low, high = k / bins, (k + 1) / bins
+        inside = [p for p in pairs if low <= p[0] < high or (k == bins - 1 and p[0] >= high)]
+        said, happened = mean([p for p, _ in inside]), mean([h for _, h in inside])
+        found.append(Bin(low, high, len(inside), _rounded(said), _rounded(happened)))
+    return tuple(found)
+
+
+def right(case: Case) -> bool:
+    """Whether the outcome that is named happened."""
+    return case.foreseen.likeliest == case.happened.outcome
+
+
+def same_sign(case: Case) -> bool:
+    """Whether the foil was rightly said to arrive sooner, or later."""
+    return (_foreseen_time(case) > 0.0) == (_later(case) > 0.0)
+
+
+def tables(rows: Sequence[Agreement], outcomes: Sequence[OutcomeRow], bins: Sequence[Bin]) -> str:
+    """The numbers for people."""
+    names = [name for name in Agreement.__struct_fields__ if name != "scenario"]
+    first = [["", *(row.scenario for row in rows)]]
+    first += [[n.replace("_", " "), *(_cell(getattr(row, n)) for row in rows)] for n in names]
+    second = [["outcome", "foreseen", "happened", "both", "said where it happened"]]
+    second += [
+        [o.outcome, str(o.foreseen), str(o.happened), str(o.both), _cell(o.said)] for o in outcomes
+    ]
+    third = [["probability", "n", "said", "happened"]]
+    third += [
+        [f"{b.low:.1f} to {b.high:.1f}", str(b.n), _cell(b.said), _cell(b.happened)] for b in bins
+    ]
+    return "\n\n".join(in_columns(table) for table in (first, second, third))
+
+
+def _within(case: Case) -> bool:
+    low, high = case.foreseen.low, case.foreseen.high
+    return low is not None and high is not None and low <= _later(case) <= high
+
+
+def _foreseen_time(case: Case) -> float:
+    assert case.foreseen.time is not None
+    return case.foreseen.time
+
+
+def _later(case: Case) -> float:
+    assert case.later is not None
+    return case.later
+
+
+def _shares(cases: Sequence[Case]) -> dict[Outcome, float]:
+    counts = Counter(case.happened.outcome for case in cases)
+    return {outcome: counts[outcome] / max(len(cases), 1) for outcome in OUTCOMES}
+
+
+def _brier(said: dict[Outcome, float], happened: Outcome) -> float:
+    """Brier's score of one forecast (1950): the sum of squares over all outcomes."""
+    return sum((said.get(outcome, 0.0) - (outcome == happened)) ** 2 for outcome in OUTCOMES)
+
+
+def _share(cases: Sequence[Case], holds: Callable[[Case], bool]) -> float | None:
+    return _rounded(mean([float(holds(case)) for case in cases]))
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 3)
+
+
+def _cell(value: float | None) -> str:
+    if value is None:
+        return "-"
+    return str(value) if isinstance(value, int) else f"{value:.3f}"
