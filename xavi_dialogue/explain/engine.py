@@ -3,7 +3,22 @@
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
-from xavi_dialogue.explain import ego, present, suppositions, vehicles
+from msgspec.structs import replace
+
+from sim.scene import EGO as OURSELVES
+from xavi_dialogue.explain import (
+    avoidance,
+    certainty,
+    ego,
+    grounds,
+    method,
+    present,
+    sensitivity,
+    suppositions,
+    timing,
+    vehicles,
+)
+from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.direction import directed
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryType
@@ -20,8 +35,11 @@ EGO: Mapping[QueryType, Explainer] = {
     "compare": ego.why_not,
     "what": present.what,
     "where_goal": present.where,
-    "when": present.when,
-    "confidence": present.confidence,
+    "when": timing.when,
+    "confidence": certainty.confidence,
+    "how": method.how,
+    "how_avoid": avoidance.how_avoid,
+    "sensitivity": sensitivity.sensitivity,
 }
 #: What is asked about another vehicle.
 OTHERS: Mapping[QueryType, Explainer] = {
@@ -31,6 +49,8 @@ OTHERS: Mapping[QueryType, Explainer] = {
     "what": vehicles.what,
     "where_goal": vehicles.where,
     "confidence": vehicles.confidence,
+    "when": vehicles.when,
+    "how": grounds.how,
 }
 
 
@@ -41,7 +61,8 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
     again with the plan made anew among `record.extra`.
     """
     try:
-        return _explainer(query)(query, Ride(record))
+        ride = Ride(record)
+        return _checked(query, ride, _explainer(query)(query, ride))
     except Unanswered as unanswered:
         return unanswered.result
 
@@ -52,6 +73,30 @@ def settled(query: Query, record: Record) -> Query:
         return directed(query, Ride(record))
     except Unanswered:
         return query
+
+
+def _checked(query: Query, ride: Ride, found: Explanation) -> Explanation:
+    """The explanation with a word on the vehicle that the question takes for the cause.
+
+    Where it is one of the causes it goes first, so that it is the one that is spoken of.
+
+    Raises:
+        Unanswered: that vehicle is unknown.
+    """
+    suspect = vehicles.number_of(query.hypothesised_cause or "")
+    if suspect is None or suspect == OURSELVES or _of_another(found):
+        return found
+    vehicles.check_known(ride, suspect)
+    named = [cause.vehicle for cause in found.causes]
+    if suspect not in named:
+        return replace(found, suspect=Suspect(suspect, "none"))
+    first = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+    part = Suspect(suspect, "main" if named[0] == suspect else "some")
+    return replace(found, causes=tuple(first), suspect=part)
+
+
+def _of_another(found: Explanation) -> bool:
+    return found.activity is not None and found.activity.vehicle != OURSELVES
 
 
 def _explainer(query: Query) -> Explainer:

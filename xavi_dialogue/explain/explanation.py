@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from planner.trace import Action, Component, HoldUp, Outcome
+from xavi_dialogue.explain.details import Avoidance, Certainty, Grounds, Pivot, Step, Suspect
 from xavi_dialogue.explain.query import Query, QueryAction
 
 Reason = Literal[
@@ -72,6 +73,7 @@ class Cause(msgspec.Struct, frozen=True):
     mechanism: Mechanism | None
     influence: float | None  # [bit] mutual information with the choice of actions
     decision_changes: bool | None  # planning again without it; None: not tried
+    necessary: bool | None = None  # whether that changes the decision, or what speaks for it
 
 
 class Evidence(msgspec.Struct, frozen=True):
@@ -120,8 +122,15 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
       track shows (probability None); `destination` the goal under which that is rational;
       `rival` what goes with another goal that is nearly as probable.
     - Where: `destination`, and arrival 0 once the ego is there.
-    - When: `moment`, or `arrival` for the way to the goal.
-    - How sure: `activity` of another vehicle with its probability, or the outcome of the plan.
+    - When: `moment`, with `span` where it is only expected, or `arrival` for the way to the goal;
+      `least` where no more is known than that it takes longer. With `activity` standing, `moment`
+      is when we go on.
+    - How sure: `activity` of another vehicle with its probability, or `certainty`.
+    - How about another vehicle: `grounds`. How about the ego: `options` with the best of them
+      as a contrast, or the `steps` that are still to come.
+    - How to avoid, what matters: `avoidance` or `pivot`, with the alternative as a contrast.
+
+    A question that names a suspect has `suspect`; one about a vehicle that is out of view, `seen`.
     """
 
     factual: tuple[Action, ...]
@@ -135,7 +144,17 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     arrival: float | None = None  # [s] expected time to the goal, if the plan gets there
     destination: Destination | None = None  # answers to "where", goals behind "why"
     rival: tuple[QueryAction, ...] = ()  # what that vehicle is expected to do almost as probably
-    moment: float | None = None  # [s] when what was asked about happened
+    moment: float | None = None  # [s] when what was asked about happened, or is expected to
+    span: tuple[float, float] | None = None  # [s] between which it probably is, at 90 %
+    least: float | None = None  # [s] what it takes at least
+    seen: float | None = None  # [s] when a vehicle that is out of view was seen last
+    options: tuple[Action, ...] = ()  # first actions that were compared, the chosen one first
+    steps: tuple[Step, ...] = ()
+    grounds: Grounds | None = None
+    certainty: Certainty | None = None
+    avoidance: Avoidance | None = None
+    pivot: Pivot | None = None
+    suspect: Suspect | None = None
 
 
 class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):

@@ -167,7 +167,12 @@ def join(tracks: Sequence[Track]) -> Motion:
 
 
 def foresees(way: TrajectoryPrediction, action: QueryAction) -> bool:
-    """Whether a predicted trajectory contains an action, or a change of speed it describes."""
+    """Whether a predicted trajectory contains an action, or a change of speed it describes.
+
+    Of a trajectory whose line the trace has no room for, the actions alone are known.
+    """
+    if not way.speed:
+        return any(step in _means(action) for step in way.actions)
     if action == "slow-down":
         return min(way.speed) <= way.speed[0] - CHANGED
     if action == "speed-up":

@@ -1,4 +1,4 @@
-"""Questions about the ego's own plan and way: what, where, when, how sure."""
+"""Questions about the ego's own plan and way: what it does and where it goes."""
 
 from msgspec.structs import replace
 
@@ -10,11 +10,10 @@ from xavi_dialogue.explain.explanation import (
     Destination,
     Evidence,
     Explanation,
-    OutcomeEstimate,
 )
 from xavi_dialogue.explain.premise import premise
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.ride import Ride, decline, planned
+from xavi_dialogue.explain.ride import Ride, planned
 from xavi_dialogue.explain.slowing import explain_driving
 
 
@@ -51,40 +50,8 @@ def where(query: Query, ride: Ride) -> Explanation:
     """Where the ego is going."""
     del query
     goal = ride.latest.goal
-    found = _of_plan(ride, destination=Destination(EGO, goal.edge))
+    found = of_plan(ride, destination=Destination(EGO, goal.edge))
     return replace(found, arrival=0.0) if ride.arrived else found
-
-
-def when(query: Query, ride: Ride) -> Explanation:
-    """When something happened; about what is to come, when the ego arrives."""
-    if query.factual:
-        found = what(query, ride)
-        if found.moment is None:
-            raise decline("out-of-scope", what="when")
-        return found
-    if ride.arrived and query.tense != "past":
-        return where(query, ride)
-    if query.tense == "past" or ride.ended:
-        return what(query, ride)
-    return _of_plan(ride)
-
-
-def confidence(query: Query, ride: Ride) -> Explanation:
-    """How sure the ego is that its plan works out."""
-    trace = premise(ride, query).trace if query.factual else ride.latest
-    model = ride.model(trace)
-    plan = factual(model, trace)
-    done = OutcomeEstimate("done", min(plan.outcomes["done"], 1.0))
-    return Explanation(
-        factual=plan.plan,
-        counterfactual=(),
-        outcome=done,
-        effects=(),
-        causes=(),
-        evidence=evidence(model, ride, plan),
-        sim_time=trace.sim_time,
-        arrival=arrival(trace, plan),
-    )
 
 
 def _activity(ride: Ride, actions: tuple[QueryAction, ...], moment: float | None) -> Explanation:
@@ -104,13 +71,15 @@ def _activity(ride: Ride, actions: tuple[QueryAction, ...], moment: float | None
     )
 
 
-def _of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
-    """The latest plan, and how long it probably still takes."""
+def of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
+    """The latest plan, and how long it probably still takes; at least, where it aims nearer."""
     trace = ride.latest
     model = ride.model(trace)
     plan = factual(model, trace)
+    passed = ride.now - trace.sim_time
     expected = arrival(trace, plan)
-    left = None if expected is None else max(trace.sim_time + expected - ride.now, 0.0)
+    left = None if expected is None else max(expected - passed, 0.0)
+    partly = [time for _, _, time in plan.present("time")] if trace.waypoint is not None else []
     return Explanation(
         factual=plan.plan,
         counterfactual=(),
@@ -120,5 +89,6 @@ def _of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
         evidence=evidence(model, ride, plan),
         sim_time=ride.now,
         arrival=left,
+        least=max(min(partly) - passed, 0.0) if partly else None,
         destination=destination,
     )

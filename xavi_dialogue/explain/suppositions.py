@@ -1,11 +1,12 @@
 """What if another vehicle did otherwise, or were not there."""
 
+from planner.trace import PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome, to_effects
 from xavi_dialogue.explain.explanation import Cause, Evidence, Explanation, NeedRollout
-from xavi_dialogue.explain.query import Query, Tense
+from xavi_dialogue.explain.query import Query, QueryAction, Tense
 from xavi_dialogue.explain.ride import (
     ROUNDING,
     Deed,
@@ -24,9 +25,16 @@ def what_if(query: Query, ride: Ride) -> Explanation:
     """What the ego would do if a vehicle did, or had not done, something; or were not there."""
     vehicle = actor_of(query, ride)
     asked = query.counterfactual or ()
-    moment = _moment(ride, query.tense)
+    moment = moment_of(ride, query.tense)
     if not asked or query.intervention == "remove":
         return _without(ride, vehicle, moment)
+    return _otherwise(query, ride, vehicle, asked, moment)
+
+
+def _otherwise(
+    query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...], moment: float
+) -> Explanation:
+    """What the ego would do if a vehicle did, or had not done, something."""
     past = query.tense == "past"
     if past:
         check_contrary(ride, vehicle, asked, done=query.negated)
@@ -47,7 +55,7 @@ def what_if(query: Query, ride: Ride) -> Explanation:
     raise refused
 
 
-def _moment(ride: Ride, tense: Tense) -> float:
+def moment_of(ride: Ride, tense: Tense) -> float:
     """The time [s] of the decision that a supposition is about."""
     deed = ride.manoeuvre
     if tense == "past" and deed is not None:
@@ -111,8 +119,12 @@ def _best(given: CausalModel, plan: Actions) -> Intervention:
     return max(options, key=lambda i: (i.value, i.plan[:1] == plan[:1]))
 
 
-def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
-    """The plan made again without a vehicle, against the plan as it was."""
+def replanned(ride: Ride, vehicle: int, moment: float) -> tuple[PlanTrace, PlanTrace]:
+    """The last decision up to a time [s] that reckons with a vehicle; the same without it.
+
+    Raises:
+        Unanswered: there is none, or it must be planned again first.
+    """
     known = [
         trace
         for trace in ride.traces
@@ -122,12 +134,22 @@ def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
     ]
     if not known:
         raise decline("outside-record", vehicle=vehicle, time=moment)
-    trace = known[-1]
-    again = ride.variants(trace, removed=vehicle)
+    again = ride.variants(known[-1], removed=vehicle)
     if not again:
-        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=vehicle))
-    model, other = ride.model(trace), ride.model(again[-1])
-    here, there = factual(model, trace), factual(other, again[-1])
+        raise Unanswered(NeedRollout(trace_id=known[-1].trace_id, removed=vehicle))
+    return known[-1], again[-1]
+
+
+def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
+    """The plan made again without a vehicle, against the plan as it was."""
+    trace, again = replanned(ride, vehicle, moment)
+    return compared(ride, vehicle, trace, again)
+
+
+def compared(ride: Ride, vehicle: int, trace: PlanTrace, again: PlanTrace) -> Explanation:
+    """The plan of a decision made again without a vehicle, against the plan as it was."""
+    model, other = ride.model(trace), ride.model(again)
+    here, there = factual(model, trace), factual(other, again)
     choices = model.choices(vehicle)
     actions, chance = expected_actions(model, vehicle, max(choices, key=lambda c: choices[c]))
     cause = Cause(vehicle, actions, chance, None, None, there.plan != here.plan)

@@ -17,7 +17,12 @@ RECENT = 2.0  # [s] since when something is still going on
 
 def vehicle_of(query: Query) -> int | None:
     """The number of the vehicle asked about; None for the ego and for descriptions."""
-    kind, _, number = query.actor.partition(":")
+    return number_of(query.actor)
+
+
+def number_of(actor: str) -> int | None:
+    """The number in "vehicle:N"; None for the ego and for descriptions."""
+    kind, _, number = actor.partition(":")
     return int(number) if kind == "vehicle" and number.isdecimal() else None
 
 
@@ -38,7 +43,7 @@ def what(query: Query, ride: Ride) -> Explanation:
     if query.factual:
         return _why(query, ride, vehicle, query.factual)
     motion = ride.motion(vehicle)
-    trace = _last_with(ride, vehicle)
+    trace = last_with(ride, vehicle)
     seen = motion.sightings()
     if query.tense != "past" or not seen:
         return _expectation(ride, trace, vehicle, ())
@@ -54,6 +59,7 @@ def what(query: Query, ride: Ride) -> Explanation:
         activity=activity,
         sim_time=trace.sim_time,
         moment=seen[-1].start,
+        seen=last_seen(ride, vehicle),
     )
 
 
@@ -68,19 +74,48 @@ def why_not(query: Query, ride: Ride) -> Explanation:
     asked = query.counterfactual or ()
     if asked and query.tense == "past":
         check_contrary(ride, vehicle, asked, done=False)
-    return _expectation(ride, _last_with(ride, vehicle), vehicle, ())
+    return _expectation(ride, last_with(ride, vehicle), vehicle, ())
 
 
 def where(query: Query, ride: Ride) -> Explanation:
     """Where a vehicle is probably going."""
     vehicle = actor_of(query, ride)
-    return _expectation(ride, _last_with(ride, vehicle), vehicle, ())
+    return _expectation(ride, last_with(ride, vehicle), vehicle, ())
+
+
+def when(query: Query, ride: Ride) -> Explanation:
+    """When a vehicle did something; what it is yet to do has no time that we know.
+
+    Raises:
+        Unanswered: it did not do so.
+    """
+    vehicle = actor_of(query, ride)
+    asked = query.factual or ()
+    motion = ride.motion(vehicle)
+    found = [motion.last(action) for action in asked] or list(motion.sightings()[-1:])
+    trace = last_with(ride, vehicle)
+    if not found or not all(found):
+        model = ride.model(trace)
+        chance = sum(model.choices(vehicle)[c] for c in matching(model, vehicle, asked))
+        raise _not_seen(ride, trace, vehicle, asked, chance if asked else 0.0)
+    last = max((s for s in found if s), key=lambda s: s.end)
+    return Explanation(
+        factual=(),
+        counterfactual=(),
+        outcome=None,
+        effects=(),
+        causes=(),
+        evidence=_recorded(trace),
+        activity=Activity(vehicle, asked or (last.action,), None, None, None),
+        sim_time=trace.sim_time,
+        moment=last.start,
+    )
 
 
 def confidence(query: Query, ride: Ride) -> Explanation:
     """How probable it is that a vehicle does something."""
     vehicle = actor_of(query, ride)
-    trace = _last_with(ride, vehicle)
+    trace = last_with(ride, vehicle)
     asked = query.factual or query.counterfactual or ()
     if not asked:
         return _expectation(ride, trace, vehicle, ())
@@ -117,7 +152,7 @@ def check_contrary(ride: Ride, vehicle: int, asked: tuple[QueryAction, ...], *, 
         Unanswered: they were not done, or were.
     """
     seen = [ride.motion(vehicle).last(action) for action in asked]
-    trace = _last_with(ride, vehicle)
+    trace = last_with(ride, vehicle)
     if done and not any(seen):
         raise _not_seen(ride, trace, vehicle, asked, 0.0)
     if not done and all(seen):
@@ -148,9 +183,9 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
     if asked and query.tense != "future" and all(found):
         last = max((s for s in found if s), key=lambda s: s.end)
         known = [t for t in ride.traces if t.sim_time >= last.end and prediction(t, vehicle)]
-        trace = known[0] if known else _last_with(ride, vehicle)
+        trace = known[0] if known else last_with(ride, vehicle)
         return _expectation(ride, trace, vehicle, asked, last.start)
-    trace = _last_with(ride, vehicle)
+    trace = last_with(ride, vehicle)
     model = ride.model(trace)
     chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
     if asked and (query.tense == "past" or chance < EXPECTED):
@@ -174,12 +209,24 @@ def _not_seen(
     )
 
 
-def _last_with(ride: Ride, vehicle: int) -> PlanTrace:
-    """The last decision that expects something of a vehicle."""
+def last_with(ride: Ride, vehicle: int) -> PlanTrace:
+    """The last decision that expects something of a vehicle.
+
+    Raises:
+        Unanswered: none does.
+    """
     for trace in reversed(ride.traces):
         if prediction(trace, vehicle) is not None:
             return trace
     raise decline("outside-record", vehicle=vehicle, time=ride.now)
+
+
+def last_seen(ride: Ride, vehicle: int) -> float | None:
+    """When [s] a vehicle that is out of view was seen last; None where it is in view."""
+    if vehicle in ride.latest.scene:
+        return ride.latest.unseen.get(vehicle)
+    last = next((t for t in reversed(ride.traces) if vehicle in t.scene), None)
+    return None if last is None else last.unseen.get(vehicle, last.sim_time)
 
 
 def _expectation(
@@ -195,10 +242,10 @@ def _expectation(
     assert known is not None
     ranked = sorted(range(len(known.goals)), key=lambda g: -known.goals[g].probability)
     aim = known.goals[ranked[0]]
-    actions, probability = _likeliest(model, vehicle, ranked[0])
+    actions, probability = likeliest(model, vehicle, ranked[0])
     rival: tuple[QueryAction, ...] = ()
     if len(ranked) > 1 and known.goals[ranked[1]].probability >= NEARLY * aim.probability:
-        rival, _ = _likeliest(model, vehicle, ranked[1])
+        rival, _ = likeliest(model, vehicle, ranked[1])
     motion = ride.motion(vehicle).until(trace.sim_time)
     return Explanation(
         factual=tuple(a for a in actions if a in asked),
@@ -212,10 +259,11 @@ def _expectation(
         destination=Destination(vehicle, aim.edge, aim.kind, aim.place, aim.probability),
         moment=moment,
         rival=rival if rival != actions else (),
+        seen=last_seen(ride, vehicle) if moment is None else None,
     )
 
 
-def _likeliest(model: CausalModel, vehicle: int, goal: int) -> tuple[tuple[Action, ...], float]:
+def likeliest(model: CausalModel, vehicle: int, goal: int) -> tuple[tuple[Action, ...], float]:
     """What a vehicle most probably does under one goal, and how probable that is."""
     ways = {c: p for c, p in model.choices(vehicle).items() if c[0] == goal}
     return expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))

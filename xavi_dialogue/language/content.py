@@ -8,8 +8,9 @@ from dataclasses import replace
 from typing import Literal
 
 from xavi_dialogue.explain.explanation import Explanation
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points
+from xavi_dialogue.language.insight import insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
 from xavi_dialogue.language.points import (
     LANE_CHANGES,
@@ -24,6 +25,8 @@ from xavi_dialogue.language.points import (
     vehicle_of,
 )
 
+SPREAD = 2.0  # [s] a range of times worth giving
+
 
 def select(query: Query, found: Explanation, budget: Budget, now: float) -> Content:
     """What to say at time `now` [s] in answer to `query`, within `budget`."""
@@ -31,6 +34,11 @@ def select(query: Query, found: Explanation, budget: Budget, now: float) -> Cont
     watched = found.activity or found.destination
     if query.type == "when":
         return _time(query, found, actor, now)
+    deeper = insight(query, found, budget, now)
+    if deeper is not None:
+        return deeper
+    if actor is None and query.type == "how" and query.factual and not found.counterfactual:
+        return constraint(query, query.factual, found, budget)
     if query.type in ("what", "where_goal", "confidence", "how"):
         return _activity(query, found)
     if actor is not None and query.type in ("why", "why_not") and watched is not None:
@@ -96,7 +104,13 @@ def _expected(found: Explanation) -> tuple[tuple[str, ...], float | None]:
 def _time(query: Query, found: Explanation, actor: int | None, now: float) -> Time:
     moment = found.moment
     deed = doing(actor or EGO, query.factual or query.counterfactual or (), query.tense)
-    past = moment is not None and moment <= now
+    standing = found.activity is not None and found.activity.trend == "standing"
+    waiting = (standing and found.moment is None) or (standing and found.span is not None)
+    foreseen = moment is not None and found.span is not None
+    past = moment is not None and moment <= now and not foreseen
+    low, high = found.span or (0.0, 0.0)
+    spread = foreseen and high - low >= SPREAD
+    waits_for = found.causes[0].vehicle if waiting and found.causes else None
     return Time(
         subject=None if actor is None else Vehicle(actor),
         deed=None if deed is None else replace(deed, tense="past" if past else "future"),
@@ -106,6 +120,12 @@ def _time(query: Query, found: Explanation, actor: int | None, now: float) -> Ti
         ahead=Quantity(moment - now, "s") if moment is not None and moment - now >= 1 else None,
         arrival=None if found.arrival is None else Quantity(found.arrival, "s"),
         arrived=found.arrival == 0.0,
+        foreseen=foreseen,
+        waiting=waiting,
+        waits_for=None if waits_for is None else Vehicle(waits_for),
+        soonest=Quantity(max(low - now, 0.0), "s") if spread else None,
+        latest=Quantity(max(high - now, 0.0), "s") if spread else None,
+        least=whole(found.least) if found.least is not None and found.least >= 1.0 else None,
     )
 
 
@@ -122,6 +142,8 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         probability = found.outcome.probability
     speed = activity.speed if activity else None
     trend = activity.trend if activity else None
+    gone = found.seen is not None and not mine
+    tense: Tense = "past" if gone else query.tense
     rules: dict[str, Literal["WHERE", "CONFIDENCE"]] = {
         "where_goal": "WHERE",
         "confidence": "CONFIDENCE",
@@ -130,12 +152,12 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         rule=rules.get(query.type, "WHAT"),
         mine=mine,
         vehicle=Vehicle(actor),
-        tense=query.tense,
-        past=query.tense == "past",
-        now=doing(actor, known[:1] if mine else known, query.tense),
+        tense=tense,
+        past=tense == "past",
+        now=doing(actor, known[:1] if mine else known, tense),
         next=doing(actor, known[1:], "future"),
-        forecast=doing(actor, expected, query.tense),
-        rival=doing(actor, plain(found.rival), query.tense),
+        forecast=doing(actor, expected, tense),
+        rival=doing(actor, plain(found.rival), tense),
         halted=trend == "standing",
         probability=probability,
         chance=None if probability is None else Quantity(probability, "probability"),
@@ -145,4 +167,5 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         arrival=None if found.arrival is None else Quantity(found.arrival, "s"),
         arrived=found.arrival == 0.0,
         outcome=found.outcome.name if found.outcome else None,
+        gone=Quantity(found.seen, "clock") if gone and found.seen is not None else None,
     )

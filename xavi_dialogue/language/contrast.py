@@ -13,6 +13,7 @@ from xavi_dialogue.language.points import (
     Contrast,
     EffectPoint,
     EvidencePoint,
+    SuspectPoint,
     doing,
     plain,
 )
@@ -33,7 +34,7 @@ def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
     foil = plain(found.counterfactual)
     outcome = found.outcome
     effects = effect_points(found.effects, budget.effects) if outcome.name == "done" else ()
-    points = tuple(_cause(c, query.tense, budget) for c in found.causes[: budget.causes])
+    points = tuple(cause_point(c, query.tense, budget) for c in found.causes[: budget.causes])
     # Only what holds us up explains a foil that is worse; an impossible way explains itself.
     worse = outcome.name in ("collision", "termination") or (bool(effects) and effects[0].more)
     because = points[0] if points and worse else None
@@ -54,6 +55,7 @@ def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
         also=points[1:] if because else points,
         more=budget.more,
         evidence=_evidence(found.evidence),
+        suspect=suspect_point(found),
     )
 
 
@@ -109,7 +111,14 @@ def _effect(effect: Effect, opposed: bool) -> EffectPoint:
     )
 
 
-def _cause(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
+def suspect_point(found: Explanation) -> SuspectPoint | None:
+    """The vehicle that the question takes for the cause."""
+    suspect = found.suspect
+    return None if suspect is None else SuspectPoint(Vehicle(suspect.vehicle), suspect.part)
+
+
+def cause_point(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
+    """One vehicle, and how it made things turn out so."""
     mechanism = cause.mechanism
     start = mechanism.speed_from if mechanism else None
     lowest = mechanism.speed_to if mechanism else None
@@ -136,6 +145,7 @@ def _cause(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
         speed_from=None if start is None else Quantity(start, "km/h"),
         speed_to=None if lowest is None or lowest < STANDSTILL else Quantity(lowest, "km/h"),
         necessary=necessary.get(cause.decision_changes),
+        doubted=cause.necessary is False,
     )
 
 
@@ -143,7 +153,7 @@ def constraint(
     query: Query, deed: tuple[str, ...], found: Explanation, budget: Budget
 ) -> Constraint:
     """Who was in our way when we slowed down, stopped or gave way."""
-    points = tuple(_cause(c, query.tense, budget) for c in found.causes[: budget.causes])
+    points = tuple(cause_point(c, query.tense, budget) for c in found.causes[: budget.causes])
     return Constraint(
         deed=Doing(EGO, plain(deed), query.tense),
         past=query.tense == "past",
@@ -151,4 +161,5 @@ def constraint(
         turning=any(action in ("exit-left", "exit-right") for action in found.factual[:1]),
         because=points[0] if points else None,
         also=points[1:],
+        suspect=suspect_point(found),
     )

@@ -59,6 +59,7 @@ class CausePoint:
     speed_from: Quantity | None
     speed_to: Quantity | None
     necessary: Literal["yes", "no"] | None  # planning again without it changes the decision
+    doubted: bool  # planning again without it changes nothing that matters
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +68,14 @@ class EvidencePoint:
 
     drives: Quantity  # simulated
     situations: Quantity  # distinct among them
+
+
+@dataclass(frozen=True, slots=True)
+class SuspectPoint:
+    """A vehicle that the question takes for the cause, and whether it is."""
+
+    vehicle: Vehicle
+    part: Literal["main", "some", "none"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +95,7 @@ class Contrast:
     also: tuple[CausePoint, ...]  # causes that do not explain how the foil turns out
     more: bool
     evidence: EvidencePoint | None
+    suspect: SuspectPoint | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +108,7 @@ class Constraint:
     turning: bool  # our plan was to turn
     because: CausePoint | None
     also: tuple[CausePoint, ...]
+    suspect: SuspectPoint | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +123,12 @@ class Time:
     ahead: Quantity | None  # how long until then, from 1 s
     arrival: Quantity | None  # how long until we are there
     arrived: bool
+    foreseen: bool = False  # expected, and not yet done
+    waiting: bool = False  # we stand, and this is when we move on
+    waits_for: Vehicle | None = None
+    soonest: Quantity | None = None  # how long until then at least and at most, ...
+    latest: Quantity | None = None  # ... where that is worth giving
+    least: Quantity | None = None  # it takes longer than this
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +145,7 @@ class Supposition:
     effects: tuple[EffectPoint, ...]
     chance: Quantity | None  # of what is supposed
     more: bool
+    denied: bool = False  # all we know is that we would not have done so
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,9 +185,134 @@ class ActivityPoint:
     arrival: Quantity | None
     arrived: bool
     outcome: str | None
+    gone: Quantity | None = None  # when it was seen last, where it is out of view
 
 
-Content: TypeAlias = Contrast | Constraint | Supposition | Motive | ActivityPoint | Time
+@dataclass(frozen=True, slots=True)
+class GroundsPoint:
+    """Answers to how we knew what another vehicle would do."""
+
+    vehicle: Vehicle
+    past: bool
+    doing: Doing
+    chance: Quantity
+    doubted: bool  # it was not more probable than not
+    fell: bool  # it was, and is no longer
+    at: Quantity  # when the chance was that
+    latest: Quantity  # the chance by the latest decision
+    start: Quantity | None  # decisions between which the belief grew most, if at different times
+    end: Quantity | None  # None: it never grew
+    before: Quantity
+    after: Quantity
+    deed: Doing | None  # what it was doing between them, other than to change its speed
+    speed_from: Quantity | None  # where its speed changed
+    speed_to: Quantity | None
+    rival: Doing | None
+    times: Quantity | None  # by how many times its path fits that better than the rival
+    unfit: bool  # its path does not fit the rival at all
+    gone: Quantity | None
+
+
+@dataclass(frozen=True, slots=True)
+class StepPoint:
+    """One action still to come."""
+
+    doing: Doing
+    ahead: Quantity | None  # how long until then, from 1 s
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """Answers to how we will go about it."""
+
+    steps: tuple[StepPoint, ...]
+    arrival: Quantity | None
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """Answers to how we decided: what was compared, and the best of the rest."""
+
+    past: bool
+    fact: Doing
+    options: Doing  # all of them, to be listed
+    single: bool  # there was but one
+    drives: Quantity
+    situations: Quantity
+    contrast: Contrast | None
+
+
+@dataclass(frozen=True, slots=True)
+class Sureness:
+    """Answers to how sure we are of our plan, or that a choice was better."""
+
+    choice: bool
+    past: bool
+    fact: Doing
+    foil: Doing | None
+    share: float
+    chance: Quantity
+    low: float
+    least: Quantity  # the chance is at least this
+    loose: bool  # that is markedly less than the chance
+    all: bool
+    none: bool
+    good: Quantity
+    situations: Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Evasion:
+    """Answers to how something could have been avoided."""
+
+    mishap: str
+    possible: bool
+    at: Quantity  # when there was the choice
+    moment: Quantity  # when it happened
+    foil: Doing | None
+    risk: Quantity
+    other: Quantity
+    helps: bool  # the alternative would seldom have had it
+    unforeseen: bool  # it was improbable under what was chosen
+    outcome: str
+    options: Quantity
+    effects: tuple[EffectPoint, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Factor:
+    """Answers to what mattered most."""
+
+    because: CausePoint | None
+    delay: Quantity | None  # that was expected of it
+    crash: Quantity | None  # the chance of a collision with it
+    contrast: Contrast | None
+
+
+@dataclass(frozen=True, slots=True)
+class Unmoved:
+    """Nothing that was looked at would have changed a decision."""
+
+    foil: Doing
+    past: bool
+    contrast: Contrast
+
+
+Content: TypeAlias = (
+    Contrast
+    | Constraint
+    | Supposition
+    | Motive
+    | ActivityPoint
+    | Time
+    | GroundsPoint
+    | Plan
+    | Method
+    | Sureness
+    | Evasion
+    | Factor
+    | Unmoved
+)
 
 
 def vehicle_of(actor: str) -> int | None:

@@ -241,13 +241,23 @@ def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return _actor_of(tree) if named else {}
 
 
+def _avoidance(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    return {"event": "crash"} if "CRASH" in terminals(tree) else {}
+
+
 def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     condition = first(tree, "cond")
     if condition is None:
         return {}
-    positions = [t.start_pos for t in tokens_in(condition) if t.start_pos is not None]
+    inside, all_in = (
+        [t.start_pos for t in tokens_in(part) if t.start_pos is not None]
+        for part in (condition, tree)
+    )
+    if not inside:
+        return {"condition": None}
     words = [t.text for t in whole]
-    return {"condition": " ".join(words[-len(positions) :]) if positions else None}
+    first_word, last_word = min(inside) - min(all_in), max(inside) - min(all_in)
+    return {"condition": " ".join(words[first_word : last_word + 1])}
 
 
 def _detail(kind: str) -> Callable[[Tree, tuple[Token, ...]], dict[str, Any]]:
@@ -278,7 +288,7 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "why": _why,
     "what_if": _what_if,
     "what": _what,
-    "how_avoid": lambda _tree, _whole: {},
+    "how_avoid": _avoidance,
     "where_goal": _named,
     "confidence": _named,
     "when": _when,

@@ -25,9 +25,16 @@ from xavi_dialogue.language.points import (
     Constraint,
     Content,
     Contrast,
+    Evasion,
+    Factor,
+    GroundsPoint,
+    Method,
     Motive,
+    Plan,
     Supposition,
+    Sureness,
     Time,
+    Unmoved,
 )
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.refusals import refuse
@@ -35,6 +42,20 @@ from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.suggestions import follow_ups
 from xavi_dialogue.language.wording import rewrite
 
+#: The rule of `grammars/answer_passenger.rules` for each kind of content that has but one.
+RULES: dict[type, str] = {
+    Constraint: "CONSTRAINT",
+    Time: "WHEN",
+    Supposition: "SUPPOSE",
+    Motive: "MOTIVE",
+    GroundsPoint: "GROUNDS",
+    Plan: "PLAN",
+    Method: "METHOD",
+    Sureness: "SURENESS",
+    Evasion: "EVASION",
+    Factor: "FACTOR",
+    Unmoved: "UNMOVED",
+}
 MAX_WORDS = 45
 MAX_SENTENCES = 3
 MAX_WORDS_MORE = 110
@@ -109,17 +130,9 @@ def _passenger(query: Query, found: Explanation, context: SpeechContext, budget:
 
 
 def _rule(content: Content) -> str:
-    match content:
-        case Contrast() | ActivityPoint():
-            return content.rule
-        case Constraint():
-            return "CONSTRAINT"
-        case Time():
-            return "WHEN"
-        case Supposition():
-            return "SUPPOSE"
-        case Motive():
-            return "MOTIVE"
+    if isinstance(content, Contrast | ActivityPoint):
+        return content.rule
+    return RULES[type(content)]
 
 
 def _paper(found: Explanation, context: SpeechContext) -> Stages:

@@ -1,0 +1,81 @@
+"""Details: what single types of question add to an Explanation. Values only, no text."""
+
+from typing import Literal, TypeAlias
+
+import msgspec
+
+from planner.trace import Action
+from xavi_dialogue.explain.query import QueryAction
+
+#: Something unpleasant that might have been avoided.
+Mishap: TypeAlias = Literal["collision", "hard-brake", "stop", "slow-down", "give-way"]
+
+
+class Step(msgspec.Struct, frozen=True):
+    """One action of a plan that is still to come."""
+
+    action: Action
+    moment: float  # [s] simulation time at which it is expected to begin
+
+
+class Grounds(msgspec.Struct, frozen=True):
+    """How we came to believe something of another vehicle: how the belief grew, and why."""
+
+    vehicle: int
+    actions: tuple[QueryAction, ...]  # what is believed of it
+    done: bool  # it has been seen to do so
+    probability: float  # when it did, or else now; where that is less than even, at its highest
+    latest: float  # by the latest decision that counts: up to when it did so, or the last
+    since: float | None  # [s] from when on it was more probable than not; None if never
+    start: float  # [s] the decisions between which it grew most ...
+    end: float  # [s]
+    before: float  # ... and how probable it was at either
+    after: float
+    deed: QueryAction | None  # what the vehicle was doing between them that it had not before
+    speed_from: float | None  # [m/s] its speed at either
+    speed_to: float | None
+    rival: tuple[QueryAction, ...]  # what goes with the likeliest goal that it excludes
+    fit: float | None  # how many times better its path fits the goal believed than that other
+
+
+class Certainty(msgspec.Struct, frozen=True):
+    """How sure we are of a plan, or that a choice was better than the best alternative."""
+
+    about: Literal["plan", "choice"]
+    share: float  # probability that the plan reaches its aim, or that the choice does better
+    low: float  # that probability is at least this, at 95 %
+    good: int  # situations in which it does
+    situations: int  # that were tried; for a choice, with both options
+
+
+class Avoidance(msgspec.Struct, frozen=True):
+    """Whether something could have been avoided, by which of the options known."""
+
+    mishap: Mishap
+    possible: bool  # the counterfactual is the way to have avoided it
+    risk: float  # probability of it under what was chosen, as seen at that decision
+    other: float  # and under the counterfactual; where impossible, the lowest there is
+    decisions: int  # that were looked at
+    options: int  # that were looked at
+
+
+class Pivot(msgspec.Struct, frozen=True):
+    """What a decision hangs on.
+
+    - conduct: it would be otherwise if `vehicle` did `actions`, which has `probability`.
+    - removal: it would be otherwise if `vehicle` were not there.
+    - factor: what mattered most: `vehicle`, or the difference that the alternative makes.
+    - none: nothing that was looked at changes it.
+    """
+
+    kind: Literal["conduct", "removal", "factor", "none"]
+    vehicle: int | None = None
+    actions: tuple[Action, ...] = ()
+    probability: float | None = None
+
+
+class Suspect(msgspec.Struct, frozen=True):
+    """A vehicle that the question takes for the cause, and whether it is."""
+
+    vehicle: int
+    part: Literal["main", "some", "none"]
