@@ -57,6 +57,13 @@ def commands(show: Show) -> typer.Typer:
         """How early, and how surely, it is known where others will go."""
         show(lambda note: recognise(scenario, seeds, jobs, note), as_json)
 
+    _of_answers(group, show)
+    return group
+
+
+def _of_answers(group: typer.Typer, show: Show) -> None:
+    """Add the commands that judge what is said."""
+
     @group.command("causes")
     def _causes(
         worlds: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
@@ -85,8 +92,6 @@ def commands(show: Show) -> typer.Typer:
     def _dialogue(as_json: AsJson = False) -> None:
         """How long answers take."""
         show(lambda _: dialogue(), as_json)
-
-    return group
 
 
 def plan(hours: float, plot: Path | None) -> "Report":
