@@ -9,6 +9,8 @@ import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from msgspec.structs import replace
+
 from planner.events import Event
 from planner.trace import (
     SCHEMA,
@@ -437,3 +439,53 @@ def _cut_in(time: float) -> Track:
         positions.append((20.0 + 2.0 * k, 3.5 - 3.5 * (3.0 - 2.0 * share) * share**2))
         headings.append(-0.17 * 4.0 * share * (1.0 - share))
     return Track(0.0, tuple(positions), tuple(headings), (10.0,) * count)
+
+
+# Records with everything that may be missing from one ---------------------------------------
+
+
+def ragged_trace(seed: int) -> PlanTrace:
+    """A small random record: samples not drawn or drawn again, ends of all kinds, absences.
+
+    What comes of (actions, sample) is the same however often it is drawn, as in the planner.
+    """
+    rng = random.Random(f"ragged/{seed}")
+    world = random_world(rng)
+    plain = trace_of(world, draws=rng.randint(1, 9), seed=seed)
+    rows = []
+    for row in plain.rollouts:
+        if rng.random() < 0.1:
+            continue
+        key = f"{seed}/{[a.action for a in row.actions]}/{row.samples}"
+        rows += [
+            replace(_frayed(row, random.Random(key), sorted(world.aims)), forced=rng.random() < 0.3)
+        ] * rng.choice((1, 1, 2))
+    return replace(plain, rollouts=tuple(replace(r, index=k) for k, r in enumerate(rows)))
+
+
+def _frayed(row: Rollout, dice: random.Random, vehicles: list[int]) -> Rollout:
+    """A rollout with some components missing and some vehicles in the way."""
+    components = {
+        name: None if dice.random() < 0.2 else value for name, value in row.components.items()
+    }
+    held = []
+    for _ in range(dice.choice((0, 0, 1, 2, 3))):
+        since = round(dice.uniform(4.0, 9.0), 1)
+        how = dice.choice(("leader", "right-of-way", "cut-in", "blocked"))
+        until, speed = since + round(dice.uniform(0.2, 4.0), 1), round(dice.uniform(2.0, 9.0), 1)
+        held.append(HeldUp(dice.choice(vehicles), since, until, how, speed, speed / 2.0))
+    return replace(row, components=components, held_up=tuple(held))
+
+
+def recorded(
+    world: World, rows: Sequence[tuple[Actions, Joint, int, bool]], *, seed: int = 0
+) -> PlanTrace:
+    """A trace of exactly these rollouts: (plan, sample, how often, whether forced)."""
+    expanded = [(p, j, forced) for p, j, count, forced in rows for _ in range(count)]
+    return replace(
+        trace_of(world, draws=0, seed=seed),
+        rollouts=tuple(
+            rollout(world, k, plan, joint, start=4.0, forced=forced)
+            for k, (plan, joint, forced) in enumerate(expanded)
+        ),
+    )

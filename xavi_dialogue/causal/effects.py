@@ -9,16 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.reward import WEIGHTS
 from planner.trace import COMPONENTS, UNITS, Component
 from xavi_dialogue.causal.model import Intervention, Joint
 
-#: A difference of one scale is worth about as much in any component: effects are ordered by
-#: their size relative to it.
+DRIVE = 10.0  # [s] a drive as long as rollouts typically are
+#: What the planner holds worth a second of time on such a drive, in the unit of each component:
+#: its reward counts w seconds per unit and second. Effects are ordered by their size relative to
+#: it, which is the order of their share in the reward.
 SCALES: dict[Component, float] = {
-    "time": 1.0,  # [s]
-    "jerk": 0.5,  # [m/s3]
-    "angular-acceleration": 0.1,  # [rad/s2]
-    "curvature": 0.01,  # [1/m]
+    name: 1.0 / WEIGHTS[name] if name == "time" else 1.0 / (WEIGHTS[name] * DRIVE)
+    for name in COMPONENTS
 }
 LOW, HIGH = 0.05, 0.95  # the range covers the middle 90 % of the weight
 PAIRED = 0.5  # share of either side's weight that must be matched for differences by sample

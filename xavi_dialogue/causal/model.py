@@ -14,7 +14,8 @@ Errors:
     └── InconsistentTrace   a rollout refers to what its trace does not predict
 """
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
@@ -30,6 +31,7 @@ Actions: TypeAlias = tuple[Action, ...]
 
 #: A continuation must be known for this share of the best-known one's prior mass.
 SUPPORT = 0.5
+CONFIDENCE = 0.05  # share of records that may exceed the bound on an error
 
 
 class CausalError(Exception):
@@ -47,22 +49,15 @@ class Result:
     joint: Joint
     rollout: Rollout  # the first one recorded
     draws: int  # how often it was recorded
+    searched: int  # of these, those that the search drew by itself: not forced
 
 
 @dataclass(frozen=True)
-class Intervention:
-    """p(R, O | do(plan)): the results under a plan with their weights.
+class Mixture:
+    """p(R, O): results with their weights."""
 
-    A sample weighs its prior. The prior mass of samples that were not drawn is shared out among
-    those that were, in proportion to how easily samples like them go undrawn (Horvitz and
-    Thompson 1952): with the prior alone, an average over few draws from many samples would lean
-    towards the likely ones. At every depth of the plan the mass that goes on is shared out so.
-    """
-
-    plan: Actions
-    results: tuple[Result, ...]  # one for each distinct sample, in order of first record
+    results: tuple[Result, ...]  # each (actions, sample) once, in order of first record
     weights: tuple[float, ...]  # of the results; they sum to 1
-    coverage: float  # prior mass of the samples behind it
 
     @property
     def draws(self) -> int:
@@ -71,7 +66,7 @@ class Intervention:
 
     @cached_property
     def outcomes(self) -> dict[Outcome, float]:
-        """p(O | do(plan)): exclusive, sums to 1."""
+        """p(O): exclusive, sums to 1."""
         found = dict.fromkeys(OUTCOMES, 0.0)
         for result, weight in zip(self.results, self.weights, strict=True):
             found[result.rollout.outcome] += weight
@@ -96,8 +91,12 @@ class Intervention:
             if (value := result.rollout.components.get(component)) is not None
         ]
 
+    def presence(self, component: Component) -> float:
+        """p(R_c is present)."""
+        return sum(weight for _, weight, _ in self.present(component))
+
     def expectation(self, component: Component) -> float | None:
-        """E[R_c | do(plan)] over the results in which c is present; None where it never is."""
+        """E[R_c] over the results in which c is present; None where it never is."""
         present = self.present(component)
         mass = sum(weight for _, weight, _ in present)
         return sum(weight * value for _, weight, value in present) / mass if mass > 0.0 else None
@@ -110,6 +109,35 @@ class Intervention:
             if result.rollout.outcome == "collision" and vehicle is not None:
                 found[vehicle] = found.get(vehicle, 0.0) + weight
         return dict(sorted(found.items()))
+
+
+@dataclass(frozen=True)
+class Intervention(Mixture):
+    """p(R, O | do(plan)): the results under a plan, one for each distinct sample.
+
+    A sample weighs its prior. The prior mass of samples that were not drawn is shared out among
+    those that were, in proportion to how easily samples like them go undrawn (Horvitz and
+    Thompson 1952): with the prior alone, an average over few draws from many samples would lean
+    towards the likely ones. At every depth of the plan the mass that goes on is shared out so.
+    """
+
+    plan: Actions
+    coverage: float  # prior mass of the samples behind it
+
+    @property
+    def effective(self) -> float:
+        """The number of equally weighty samples that would vary as much: 1 / sum of w squared."""
+        return 1.0 / sum(weight * weight for weight in self.weights)
+
+    @property
+    def error(self) -> float:
+        """Bound on the error of any probability in it that 95 % of records keep to.
+
+        What is covered is known exactly, so the rest is all that can be wrong. The other bound
+        is that of Hoeffding and Serfling (1974) for samples drawn without repeats.
+        """
+        rest = max(1.0 - self.coverage, 0.0)
+        return min(rest, math.sqrt(rest * math.log(2.0 / CONFIDENCE) / (2.0 * self.effective)))
 
 
 class CausalModel:
@@ -132,6 +160,7 @@ class CausalModel:
         self._priors: dict[Joint, float] = {}
         self._reached: dict[Actions, dict[Joint, int]] = {(): {}}  # node -> sample -> draws
         self._ended: dict[Actions, dict[Joint, Result]] = {}
+        self._followed: dict[Actions, Intervention | None] = {}
         for rollout in trace.rollouts:
             self._add(rollout)
 
@@ -153,6 +182,12 @@ class CausalModel:
         found = {seq[len(node)]: None for seq in self._reached if seq and seq[:-1] == node}
         return tuple(found)
 
+    def recorded(self) -> Iterator[tuple[Actions, Result]]:
+        """Every distinct (actions, sample) with what came of it."""
+        for plan, ended in self._ended.items():
+            for result in ended.values():
+                yield plan, result
+
     def intervene(self, do: Mapping[int, Action] | Actions) -> Intervention | None:
         """p(R, O | do(w)), with the depths that w leaves open filled by the best continuation.
 
@@ -169,7 +204,7 @@ class CausalModel:
         found = [
             intervention
             for plan in self._ended
-            if _agrees(plan, wanted) and (intervention := self._follow(plan)) is not None
+            if _agrees(plan, wanted) and (intervention := self._known(plan)) is not None
         ]
         most = max((intervention.coverage for intervention in found), default=0.0)
         known = [i for i in found if i.coverage >= SUPPORT * most]
@@ -187,8 +222,9 @@ class CausalModel:
             reached[joint] = reached.get(joint, 0) + 1
         ended = self._ended.setdefault(plan, {})
         known = ended.get(joint)
-        draws = 1 if known is None else known.draws + 1
-        ended[joint] = Result(joint, rollout if known is None else known.rollout, draws)
+        draws, searched = (0, 0) if known is None else (known.draws, known.searched)
+        first = rollout if known is None else known.rollout
+        ended[joint] = Result(joint, first, draws + 1, searched + (not rollout.forced))
 
     def _probability(self, joint: Joint, index: int) -> float:
         product = 1.0
@@ -202,15 +238,22 @@ class CausalModel:
                 ) from None
         return product
 
+    def _known(self, plan: Actions) -> Intervention | None:
+        if plan not in self._followed:
+            self._followed[plan] = self._follow(plan)
+        return self._followed[plan]
+
     def _follow(self, plan: Actions) -> Intervention | None:
         """The results under a complete plan; None where the record stops in the middle of it."""
         if self._reached[plan].keys() - self._ended[plan].keys():
             return None
-        mass, results, weights = 1.0, [], []
+        mass = 1.0
+        results: list[Result] = []
+        weights: list[float] = []
         for depth in range(len(plan) + 1):
-            node = plan[:depth]
-            ended = self._ended.get(node, {})
-            shares = self._shares(node, mass)
+            ended, reached = self._ended.get(plan[:depth], {}), self._reached[plan[:depth]]
+            priors = {joint: self._priors[joint] for joint in reached}
+            shares = shared_out(priors, sum(reached.values()), mass)
             for joint, result in ended.items():
                 results.append(result)
                 weights.append(shares[joint])
@@ -219,21 +262,25 @@ class CausalModel:
         if total <= 0.0:
             return None
         coverage = sum(self._priors[result.joint] for result in results)
-        return Intervention(plan, tuple(results), tuple(w / total for w in weights), coverage)
+        return Intervention(tuple(results), tuple(w / total for w in weights), plan, coverage)
 
-    def _shares(self, node: Actions, mass: float) -> dict[Joint, float]:
-        """The weights of the samples drawn at a node, of which the population has some mass."""
-        reached = self._reached[node]
-        draws = sum(reached.values())
-        priors = {joint: self._priors[joint] for joint in reached}
-        missing = max(mass - sum(priors.values()), 0.0)
-        if missing <= 1e-9:
-            return priors
-        odds = {joint: _undrawn(prior / mass, draws) for joint, prior in priors.items()}
-        total = sum(odds.values())
-        if total <= 0.0:
-            return priors
-        return {joint: prior + missing * odds[joint] / total for joint, prior in priors.items()}
+
+def shared_out(priors: dict[Joint, float], draws: int, mass: float = 1.0) -> dict[Joint, float]:
+    """The weights of drawn samples, which stand for a population of some prior mass.
+
+    Args:
+        priors: of the samples drawn.
+        draws: how many there were, repeats included.
+        mass: of the population.
+    """
+    missing = max(mass - sum(priors.values()), 0.0)
+    if missing <= 1e-9:
+        return priors
+    odds = {joint: _undrawn(prior / mass, draws) for joint, prior in priors.items()}
+    total = sum(odds.values())
+    if total <= 0.0:
+        return priors
+    return {joint: prior + missing * odds[joint] / total for joint, prior in priors.items()}
 
 
 def _undrawn(prior: float, draws: int) -> float:
