@@ -76,24 +76,26 @@ def influence(
 
 
 class _Draws:
-    """The rollouts of one option as data: a row per draw."""
+    """The rollouts of one option as data: a row for each of its K distinct samples.
+
+    Draws of one sample have equal rows, so that fitting the distinct ones by their weight is
+    fitting all N draws; only the permutations are of draws.
+    """
 
     def __init__(self, model: CausalModel, option: Intervention, number: int) -> None:
-        joints: list[Joint] = []
-        rewards, weights = [], []
-        for result, weight in zip(option.results, option.weights, strict=True):
-            joints += [result.joint] * result.draws
-            rewards += [result.rollout.reward] * result.draws
-            weights += [weight / result.draws] * result.draws
-        self.rewards: Array = np.array(rewards)  # [N]
-        self.root: Array = np.sqrt(np.array(weights))  # [N] root of the weights
+        joints = [result.joint for result in option.results]
+        draws = np.array([result.draws for result in option.results])
+        self.rewards: Array = np.array([result.rollout.reward for result in option.results])
+        self.root: Array = np.sqrt(np.array(option.weights))  # [K] root of the weights
         self.columns = {
             vehicle: _one_hot(joints, vehicle, tuple(model.choices(vehicle)))
             for vehicle in model.vehicles
         }
         rng = np.random.default_rng((model.trace.seed, model.trace.decision, number))
-        keys = rng.random((len(joints), PERMUTATIONS))
-        self.shuffled: NDArray[np.int64] = np.argsort(keys, axis=0)  # [N, PERMUTATIONS]
+        shuffled = np.argsort(rng.random((int(np.sum(draws)), PERMUTATIONS)), axis=0)
+        self._draws: Array = draws[:, None]  # [K, 1]
+        self._firsts: NDArray[np.int64] = np.cumsum(draws) - draws  # [K] first draw of each
+        self._sources = np.repeat(np.arange(len(draws)), draws)[shuffled]  # [N, PERMUTATIONS]
 
     def values(self, vehicle: int, prior: Array) -> Array:
         """Q(o, c) as observed and as permuted, [1 + PERMUTATIONS, number of choices]."""
@@ -105,10 +107,13 @@ class _Draws:
         fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root * targets)
         rest = targets - design @ fitted
         rest[np.abs(rest) < 1e-9] = 0.0
+        mean = float(np.sum(self.root**2 * self.rewards))
+        if not np.any(rest[:, -1]):
+            return np.full((1 + PERMUTATIONS, len(prior)), mean)
         slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
         residual = rest[:, -1]
-        shifts = slopes @ np.column_stack((residual, residual[self.shuffled]))
-        mean = float(np.sum(self.root**2 * self.rewards))
+        permuted = np.add.reduceat(residual[self._sources], self._firsts, axis=0) / self._draws
+        shifts = slopes @ np.column_stack((residual, permuted))
         return np.asarray(mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
 
 
