@@ -46,6 +46,9 @@ class Talk:
 
     def reply(self, text: str, **more: object) -> Reply:
         output = self.ask(text, **more)  # type: ignore[arg-type]
+        while isinstance(output, RolloutsWanted):
+            failed = RolloutsFailed(output.request, output.session, "planner-unavailable")
+            output = self.put(failed)
         assert isinstance(output, Answered)
         return output.reply
 
@@ -201,3 +204,16 @@ def test_a_choice_can_be_picked_by_its_number() -> None:
     assert len(asked_back.choices) == 2
     assert talk.reply("the second one").query == second
     assert talk.reply("2").kind == "clarification"  # the choices were there for one turn
+
+
+def test_an_answer_that_only_could_not_be_made_sure_of_is_given_all_the_same() -> None:
+    talk = Talk(real_mind())
+    wanted = talk.ask("Why did you change left?")
+    assert isinstance(wanted, RolloutsWanted)
+    assert wanted.need.removed == 1
+    answered = talk.put(RolloutsFailed("q", "ada", "planner-unavailable"))
+    assert isinstance(answered, Answered)
+    assert answered.reply.kind == "answer"
+    assert "vehicle 1" in answered.reply.text
+    assert answered.reply.explanation is not None
+    assert answered.reply.explanation.causes[0].necessary is None

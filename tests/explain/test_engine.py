@@ -3,6 +3,7 @@ import pytest
 
 from planner.events import Event
 from planner.trace import EgoGoal, WhatIf
+from tests.explain.asking import told
 from tests.traces import Ride, s1_ride, s1_world, s2_ride, s2_world, straight_track, trace_of
 from xavi_dialogue.explain.engine import explain, settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
@@ -17,7 +18,7 @@ def record(ride: Ride, now: float | None = None, extra=()) -> Record:
 
 
 def ask(ride: Ride, now: float | None = None, extra=(), **query):
-    return explain(Query(**query), record(ride, now, extra))
+    return told(Query(**query), record(ride, now, extra))
 
 
 def refusal(ride: Ride, **query) -> NoExplanation:
@@ -136,7 +137,7 @@ def test_traces_of_the_future_are_not_used():
     found = ask(S1, 2.5, type="why", factual=("change-left",))
     assert found.reason == "did-not-happen"
     later = Record(4.0, S1.traces, S1.events)
-    assert explain(Query(type="why", factual=("change-left",)), later).sim_time == 4.0
+    assert told(Query(type="why", factual=("change-left",)), later).sim_time == 4.0
 
 
 def test_future_questions_are_about_the_latest_plan():
@@ -175,7 +176,7 @@ def test_thin_evidence_asks_for_rollouts_then_uses_them():
     found = explain(query, record(ride))
     assert found == NeedRollout(trace_id=ride.traces[0].trace_id, actions=("continue",))
     again = thin_ride(40).traces[0]
-    answer = explain(query, record(ride, extra=[again]))
+    answer = told(query, record(ride, extra=[again]))
     assert isinstance(answer, Explanation)
     assert answer.evidence.method == "rollouts"
     assert answer.evidence.traces == (again.trace_id,)
@@ -201,7 +202,7 @@ def test_plans_made_with_another_vehicles_doings_supposed_are_no_evidence():
     supposed = msgspec.structs.replace(again, what_if=WhatIf(vehicle=1, goal="continue"))
     assert isinstance(explain(query, record(ride, extra=[supposed])), NeedRollout)
     forced = msgspec.structs.replace(again, what_if=WhatIf(("continue",)))
-    assert isinstance(explain(query, record(ride, extra=[supposed, forced])), Explanation)
+    assert isinstance(told(query, record(ride, extra=[supposed, forced])), Explanation)
 
 
 def test_a_sequence_that_the_search_did_not_try_is_asked_for():
@@ -283,7 +284,7 @@ def test_what_if_a_vehicle_were_not_there_is_planned_again():
         lambda plan, chosen: world.simulate(plan, {1: ("continue", 0)}),
     )
     again = trace_of(alone, draws=24)
-    answer = explain(query, record(S1, extra=[again]))
+    answer = told(query, record(S1, extra=[again]))
     assert answer.factual[0] == "change-left"
     assert answer.counterfactual == ("continue",)
     assert answer.causes[0].vehicle == 1
@@ -379,7 +380,8 @@ def test_a_side_that_was_not_named_is_that_on_which_it_happened(actor, said, mea
 
 
 def test_what_is_beyond_it_is_declined():
-    assert refusal(S1, type="how", tense="present").facts == {"what": "how"}
+    compared = refusal(S1, type="compare", actor="vehicle:1", tense="present")
+    assert compared.facts == {"what": "compare"}
     assert refusal(S1, type="out_of_scope", reason="off-topic").reason == "out-of-scope"
     assert refusal(S1, type="out_of_scope", reason="not-an-action").reason == "not-an-action"
     assert refusal(S1, type="what", actor="vehicle:front").reason == "ambiguous"

@@ -17,6 +17,8 @@ class VehicleHoldUp:
     speed_from: float  # [m/s] its mean speed when the longest stretch of that kind begins
     speed_to: float  # [m/s] its mean lowest speed within it
     choice: Choice  # the goal and trajectory under which it does so most
+    began: float  # [s] when the first stretch begins, at the earliest
+    at_once: float  # share of the weight of those results in which it begins then
 
     @property
     def expected(self) -> float:
@@ -79,6 +81,8 @@ def _summary(vehicle: int, met: list[_Meeting]) -> VehicleHoldUp:
         if (alike := [stretch for stretch in one.stretches if stretch.how == how])
     ]
     mass = sum(weight for _, weight in longest)
+    firsts = [(min(s.since for s in one.stretches), one.weight) for one in met]
+    began = min(since for since, _ in firsts)
     return VehicleHoldUp(
         vehicle=vehicle,
         how=how,
@@ -87,6 +91,8 @@ def _summary(vehicle: int, met: list[_Meeting]) -> VehicleHoldUp:
         speed_from=sum(weight * s.speed_from for s, weight in longest) / mass,
         speed_to=sum(weight * s.speed_to for s, weight in longest) / mass,
         choice=_likeliest_choice(vehicle, met) or (0, 0),
+        began=began,
+        at_once=sum(weight for since, weight in firsts if since <= began) / share,
     )
 
 

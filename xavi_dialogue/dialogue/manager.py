@@ -9,7 +9,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TypeAlias
 
-from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
@@ -25,7 +24,7 @@ from xavi_dialogue.dialogue.events import (
     TurnedAway,
 )
 from xavi_dialogue.dialogue.mind import Mind, Said, answer, refuse, turn_away, understand
-from xavi_dialogue.dialogue.state import Dialogue, Pending, Session, Turn, Understood
+from xavi_dialogue.dialogue.state import Dialogue, Pending, Session, Turn
 from xavi_dialogue.dialogue.states import (
     PHASES,
     RIDE_PHASES,
@@ -37,7 +36,7 @@ from xavi_dialogue.dialogue.states import (
 )
 from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
 
-MAX_ROUNDS = 3  # of planning again for one question
+MAX_ROUNDS = 5  # of planning again for one question
 
 Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
 
@@ -58,7 +57,7 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         case RolloutsArrived():
             return _go_on(mind, dialogue, event)
         case RolloutsFailed():
-            return _give_up(dialogue, event)
+            return _give_up(mind, dialogue, event)
         case Cancelled(request, name):
             session, _ = _waiting(dialogue, request, name, Move.CANCELLED)
             return _with(dialogue, name, session), ()
@@ -94,29 +93,26 @@ def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
     understood = understand(mind, session, asked, record)
     if isinstance(understood, Said):
         return _speak(dialogue, session, asked, understood)
-    return _think(mind, dialogue, session, asked, understood)
+    return _think(mind, dialogue, session, Pending(asked, understood))
 
 
-def _think(
-    mind: Mind,
-    dialogue: Dialogue,
-    session: Session,
-    asked: Asked,
-    understood: Understood,
-    extra: tuple[PlanTrace, ...] = (),
-) -> Step:
+def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Step:
     """Explain; what was planned again for an earlier question need not be planned anew."""
-    record = dialogue.record(asked.at, extra)
+    asked, understood, extra = question.asked, question.understood, question.extra
+    record = dialogue.record(asked.at, extra, question.refused)
     found = answer(mind, session, asked, record, understood)
     if isinstance(found, NeedRollout):
         known = dialogue.planned.get(found)
         if len(extra) >= MAX_ROUNDS or known in extra:
             why = NoExplanation(reason="too-little-evidence")
             found = refuse(session, asked, record, understood, why)
+        elif found in question.refused:  # there is no answer without it
+            found = refuse(session, asked, record, understood, NoExplanation(reason=question.why))
         elif known is not None:
-            return _think(mind, dialogue, session, asked, understood, (*extra, known))
+            question = replace(question, extra=(*extra, known))
+            return _think(mind, dialogue, session, question)
         else:
-            return _want(dialogue, session, Pending(asked, understood, found, extra))
+            return _want(dialogue, session, replace(question, need=found))
     return _speak(dialogue, session, asked, found)
 
 
@@ -124,6 +120,7 @@ def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
     phase = after(PHASES, session.phase, Move.LACKED)
     session = replace(session, phase=phase, pending=pending)
     asked = pending.asked
+    assert pending.need is not None
     wanted = RolloutsWanted(asked.request, asked.session, pending.need)
     return _with(dialogue, asked.session, session), (wanted,)
 
@@ -144,17 +141,18 @@ def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[S
 
 def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNED)
+    assert pending.need is not None
     dialogue = replace(dialogue, planned={**dialogue.planned, pending.need: event.trace})
-    extra = (*pending.extra, event.trace)
-    return _think(mind, dialogue, session, pending.asked, pending.understood, extra)
+    pending = replace(pending, extra=(*pending.extra, event.trace))
+    return _think(mind, dialogue, session, pending)
 
 
-def _give_up(dialogue: Dialogue, event: RolloutsFailed) -> Step:
+def _give_up(mind: Mind, dialogue: Dialogue, event: RolloutsFailed) -> Step:
+    """Answer without the rollouts where they were only to make sure; else say why not."""
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNING_FAILED)
-    record = dialogue.record(pending.asked.at, pending.extra)
-    why = NoExplanation(reason=event.reason)
-    said = refuse(session, pending.asked, record, pending.understood, why)
-    return _speak(dialogue, session, pending.asked, said)
+    assert pending.need is not None
+    refused = (*pending.refused, pending.need)
+    return _think(mind, dialogue, session, replace(pending, refused=refused, why=event.reason))
 
 
 def _turn_away(dialogue: Dialogue, event: TurnedAway) -> Step:

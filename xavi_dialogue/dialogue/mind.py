@@ -153,6 +153,7 @@ def speech(
         named=session.named,
         now=record.now,
         done=done,
+        asked=tuple(turn.query for turn in session.turns if turn.query is not None),
     )
 
 

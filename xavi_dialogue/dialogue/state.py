@@ -8,7 +8,7 @@ from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.states import Phase, RidePhase
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
 
@@ -34,12 +34,14 @@ class Understood:
 
 @dataclass(frozen=True, slots=True)
 class Pending:
-    """A question that waits for rollouts."""
+    """A question that is thought about, or waits for rollouts."""
 
     asked: Asked
     understood: Understood
-    need: NeedRollout
+    need: NeedRollout | None = None  # what it waits for
     extra: tuple[PlanTrace, ...] = ()  # what arrived for it so far
+    refused: tuple[NeedRollout, ...] = ()  # what could not be had for it
+    why: Reason = "planner-failed"  # the last of these could not be had
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +71,19 @@ class Dialogue:
         """A passenger's conversation, a fresh one at first."""
         return self.sessions.get(name, Session())
 
-    def record(self, at: float, extra: tuple[PlanTrace, ...] = ()) -> Record:
-        """All that was known at a moment [s]; after the ride, at its end."""
+    def record(
+        self,
+        at: float,
+        extra: tuple[PlanTrace, ...] = (),
+        refused: tuple[NeedRollout, ...] = (),
+    ) -> Record:
+        """All that was known at a moment [s]; after the ride, at its end.
+
+        Args:
+            at: the moment [s].
+            extra: plans made again.
+            refused: requests for such plans that came to nothing.
+        """
         ended = self.ended_at is not None and at >= self.ended_at - EPSILON
         now = self.ended_at if ended and self.ended_at is not None else at
         return Record(
@@ -79,4 +92,5 @@ class Dialogue:
             events=tuple(e for e in self.events if e.sim_time <= now + EPSILON),
             ended=ended,
             extra=extra,
+            refused=refused,
         )

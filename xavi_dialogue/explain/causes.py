@@ -18,6 +18,8 @@ from xavi_dialogue.explain.ride import prediction
 
 MORE_OFTEN = 0.05  # probability by which the foil must collide or terminate more often
 LONGER = 0.5  # [s] expected, by which the foil must be held up longer
+AT_ONCE = 0.5  # [s] after a decision by which a hold-up begins that is going on already ...
+SURELY = 0.9  # ... in this share of the rollouts that have it
 SLOWER = 0.5  # [s] by which the foil must arrive later to be called slower
 
 
@@ -123,7 +125,10 @@ def _deciding(model: CausalModel, measured: Iterable[Influence]) -> list[Cause]:
 
 def _by_hold_up(model: CausalModel, held: VehicleHoldUp, measured: Influence | None) -> Cause:
     actions, probability = expected_actions(model, held.vehicle, held.choice)
-    mechanism = Mechanism(held.how, held.speed_from, held.speed_to, held.duration, held.share)
+    present = held.began <= model.trace.sim_time + AT_ONCE and held.at_once >= SURELY
+    mechanism = Mechanism(
+        held.how, held.speed_from, held.speed_to, held.duration, held.share, present
+    )
     return Cause(held.vehicle, actions, probability, mechanism, _bits(measured), None)
 
 

@@ -9,6 +9,7 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.explain.actions import same
 from xavi_dialogue.explain.causes import contrastive_causes, holding_up
 from xavi_dialogue.explain.explanation import Effect, Evidence, Explanation, OutcomeEstimate
+from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.ride import Ride, decline, enough, planned, thin
 
 NO_EFFECT = 0.05  # of a component's scale: below this nothing tells fact and foil apart
@@ -101,6 +102,7 @@ def explain_contrast(
     if not causes and _alike(here, there, found):
         time = next((e.delta for e in found if e.component == "time"), None)
         raise decline("effect-too-small", asked=foil, delta=time)
+    causes = proven(ride, model, causes, here, there)
     return Explanation(
         factual=here.plan,
         counterfactual=foil,
@@ -159,7 +161,7 @@ def _against_best(ride: Ride, trace: PlanTrace, node: Actions) -> Explanation:
         counterfactual=(),
         outcome=outcome(here),
         effects=(),
-        causes=holding_up(model, here),
+        causes=proven(ride, model, holding_up(model, here), here),
         evidence=evidence(model, ride, here),
         sim_time=trace.sim_time,
         arrival=arrival(trace, here),

@@ -62,6 +62,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     speed_to: float | None  # [m/s] its lowest speed within it
     delay: float | None  # [s] mean duration of the hold-up
     share: float  # weight of the rollouts of the counterfactual in which it occurred
+    present: bool = False  # it was going on when the decision was taken
 
 
 class Cause(msgspec.Struct, frozen=True):

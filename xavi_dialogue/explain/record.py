@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from planner.events import Event
 from planner.trace import PlanTrace
+from xavi_dialogue.explain.explanation import NeedRollout
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,3 +16,4 @@ class Record:
     events: tuple[Event, ...] = ()
     ended: bool = False
     extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
+    refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing

@@ -78,7 +78,7 @@ class Ride:
         self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
         self.ended = record.ended
         self.arrived = any(event.kind == "arrived" for event in self.events)
-        self._extra = record.extra
+        self._extra, self._refused = record.extra, record.refused
         self._models: dict[int, CausalModel] = {}
 
     @property
@@ -160,6 +160,23 @@ class Ride:
             and set(extra.scene) == vehicles
             and (extra.what_if is None or extra.what_if.vehicle is None)
         )
+
+    def without(self, trace: PlanTrace, vehicle: int) -> PlanTrace | None:
+        """The plan made again from a decision without a vehicle; None where that cannot be had.
+
+        Raises:
+            Unanswered: rollouts are needed.
+        """
+        again = self.variants(trace, removed=vehicle)
+        need = NeedRollout(trace_id=trace.trace_id, removed=vehicle)
+        if not again and need not in self._refused:
+            raise Unanswered(need)
+        return again[-1] if again else None
+
+    def original(self, trace: PlanTrace) -> PlanTrace:
+        """The decision of the ride from which a plan was made again, or the decision itself."""
+        moment = (trace.sim_time, trace.decision)
+        return next((t for t in self.traces if (t.sim_time, t.decision) == moment), trace)
 
     def evidence(self, trace: PlanTrace, actions: Actions) -> tuple[CausalModel, Intervention]:
         """Enough rollouts of leading actions, from the search or from planning again.

@@ -2,6 +2,7 @@
 
 from msgspec.structs import replace
 
+from planner.events import Event
 from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Intervention
@@ -10,6 +11,7 @@ from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
 from xavi_dialogue.explain.deeds import did_not_happen
 from xavi_dialogue.explain.explanation import Activity, Cause, Explanation, Mechanism
 from xavi_dialogue.explain.motion import Motion, Sighting
+from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.query import QueryAction, Tense
 from xavi_dialogue.explain.ride import Ride, decline
 
@@ -24,15 +26,17 @@ def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) ->
         Unanswered: it did not, or the record lacks the decision.
     """
     motion = ride.motion(EGO)
-    seen, waited_for = _find(ride, motion, asked, tense)
-    trace = _decision(ride, seen)
+    seen, wait = _find(ride, motion, asked, tense)
+    trace = _decision(ride, seen, wait)
     model = ride.model(trace)
     plan = factual(model, trace)
     # What freed the way is not recorded: only braking and waiting have causes among the others.
     braked = seen.action != "speed-up"
     window = (seen.start - LEEWAY, seen.end + LEEWAY)
     causes = holding_up(model, plan, window) if braked else ()
-    return _explanation(ride, model, plan, _first(model, causes, waited_for), motion, seen)
+    given_way_to = None if wait is None else wait.vehicle
+    causes = proven(ride, model, _first(model, causes, given_way_to), plan)
+    return _explanation(ride, model, plan, causes, motion, seen)
 
 
 def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> PlanTrace:
@@ -41,7 +45,7 @@ def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> Pla
     Raises:
         Unanswered: it did not, or the record lacks the decision.
     """
-    return _decision(ride, _find(ride, ride.motion(EGO), asked, tense)[0])
+    return _decision(ride, *_find(ride, ride.motion(EGO), asked, tense))
 
 
 def _explanation(
@@ -69,16 +73,16 @@ def _explanation(
 
 def _find(
     ride: Ride, motion: Motion, asked: tuple[QueryAction, ...], tense: Tense
-) -> tuple[Sighting, int | None]:
-    """When it happened, and the vehicle given way to where it was that."""
+) -> tuple[Sighting, Event | None]:
+    """When it happened, and the giving way where it was that."""
     waits = [event for event in ride.events if event.kind == "gave-way"]
-    found: list[tuple[Sighting, int | None]] = []
+    found: list[tuple[Sighting, Event | None]] = []
     for action in asked:
         if action == "give-way":
-            found += [(Sighting(action, e.sim_time, e.sim_time), e.vehicle) for e in waits[-1:]]
+            found += [(Sighting(action, e.sim_time, e.sim_time), e) for e in waits[-1:]]
         elif (sighting := motion.last(action)) is not None:
             near = [e for e in waits if sighting.start - 3.0 <= e.sim_time <= sighting.end]
-            found.append((sighting, near[-1].vehicle if near else None))
+            found.append((sighting, near[-1] if near else None))
     if tense != "past":
         found = [pair for pair in found if pair[0].end >= ride.now - RECENT]
     if not found:
@@ -86,9 +90,9 @@ def _find(
     return max(found, key=lambda pair: pair[0].end)
 
 
-def _decision(ride: Ride, seen: Sighting) -> PlanTrace:
-    """The last decision before the middle of what was seen."""
-    trace = ride.at((seen.start + seen.end) / 2.0)
+def _decision(ride: Ride, seen: Sighting, wait: Event | None) -> PlanTrace:
+    """The last decision before the middle of what was seen, or before way was given."""
+    trace = ride.at((seen.start + seen.end) / 2.0 if wait is None else wait.sim_time)
     if trace is None:
         raise decline("outside-record", vehicle=EGO, time=seen.start)
     return trace

@@ -145,6 +145,7 @@ def cause_point(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
         speed_from=None if start is None else Quantity(start, "km/h"),
         speed_to=None if lowest is None or lowest < STANDSTILL else Quantity(lowest, "km/h"),
         necessary=necessary.get(cause.decision_changes),
+        present=mechanism is not None and mechanism.present,
         doubted=cause.necessary is False,
     )
 

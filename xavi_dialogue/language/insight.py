@@ -43,7 +43,7 @@ def insight(
 ) -> GroundsPoint | Plan | Method | Sureness | Evasion | Factor | Unmoved | Supposition | None:
     """What an explanation says beyond what all have; None where it has no more than they."""
     if found.grounds is not None:
-        return _grounds(query, found, found.grounds, now)
+        return _grounds(query, found, found.grounds, budget, now)
     if found.certainty is not None:
         return _sureness(query, found, found.certainty)
     if found.avoidance is not None and found.moment is not None:
@@ -69,21 +69,27 @@ def _speed(speed: float | None) -> Quantity | None:
     return None if speed is None else Quantity(speed, "km/h")
 
 
-def _grounds(query: Query, found: Explanation, grounds: Grounds, now: float) -> GroundsPoint:
+def _grounds(
+    query: Query, found: Explanation, grounds: Grounds, budget: Budget, now: float
+) -> GroundsPoint:
     vehicle = grounds.vehicle
     old = found.seen is not None or now - found.sim_time > RECENT
     past = query.tense == "past" or grounds.done or old
     start, end = _clock(grounds.start), _clock(grounds.end)
     grew = grounds.after - grounds.before >= 0.05
+    fits = budget.particulars and found.seen is None
     moved = plain(() if grounds.deed in (None, *DRIVING) else (grounds.deed,))
     one, other = grounds.speed_from, grounds.speed_to
-    changed_speed = one is not None and other is not None and abs(one - other) >= SLOWING
+    changed_speed = (
+        budget.describe and one is not None and other is not None and abs(one - other) >= SLOWING
+    )
     fit = grounds.fit
     return GroundsPoint(
         vehicle=Vehicle(vehicle),
         past=past,
         doing=doing(vehicle, grounds.actions, "future") or Doing(vehicle, ("continue",), "future"),
         chance=_chance(grounds.probability),
+        brief=not budget.purpose,
         doubted=grounds.since is None,
         fell=grounds.since is not None and grounds.latest < EVEN,
         at=Quantity(found.sim_time, "clock"),
@@ -92,18 +98,19 @@ def _grounds(query: Query, found: Explanation, grounds: Grounds, now: float) -> 
         end=end if grew else None,
         before=_chance(grounds.before),
         after=_chance(grounds.after),
-        deed=doing(vehicle, moved, "past"),
+        deed=doing(vehicle, moved, "past") if budget.describe else None,
         speed_from=_speed(one) if changed_speed else None,
         speed_to=_speed(other) if changed_speed else None,
         rival=doing(vehicle, grounds.rival, query.tense),
-        times=None if fit is None or fit < TWICE else Quantity(fit, "count"),
-        unfit=fit is None and bool(grounds.rival),
+        times=None if not fits or fit is None or fit < TWICE else Quantity(fit, "count"),
+        unfit=fits and fit is None and bool(grounds.rival),
         gone=None if found.seen is None else _clock(found.seen),
     )
 
 
 def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Sureness:
-    foil, fact = plain(found.counterfactual), plain(query.factual or found.factual[:1])
+    foil = plain(found.counterfactual)[:1]
+    fact = plain(query.factual or found.factual[:1])[:1]
     in_lane = any(action in LANE_CHANGES for action in (*fact, *foil))
     return Sureness(
         choice=certainty.about == "choice" and bool(foil),
@@ -125,12 +132,12 @@ def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Surenes
 def _evasion(
     query: Query, found: Explanation, avoidance: Avoidance, moment: float, budget: Budget
 ) -> Evasion:
-    foil = plain(found.counterfactual)
+    foil = plain(found.counterfactual)[:1]
     in_lane = any(action in LANE_CHANGES for action in (*found.factual[:1], *foil))
     done = found.outcome is not None and found.outcome.name == "done"
     return Evasion(
         mishap=avoidance.mishap,
-        possible=avoidance.possible,
+        possible=avoidance.possible and bool(foil),
         at=Quantity(found.sim_time, "clock"),
         moment=Quantity(moment, "clock"),
         foil=Doing(EGO, foil, "past", in_lane) if foil else None,
@@ -220,6 +227,7 @@ def _method(query: Query, found: Explanation, budget: Budget, now: float) -> Met
         fact=Doing(EGO, options[:1], tense, in_lane),
         options=Doing(EGO, options, tense, in_lane),
         single=len(options) == 1,
+        brief=not budget.particulars,
         drives=Quantity(found.evidence.rollouts, "count"),
         situations=Quantity(found.evidence.distinct_samples, "count"),
         contrast=contrast(asked, found, narrow) if known else None,
@@ -235,9 +243,10 @@ def _conditional(query: Query, found: Explanation, budget: Budget) -> Suppositio
     deed = plain(query.factual or query.counterfactual or found.factual[:1]) or ("continue",)
     other = plain(found.counterfactual[:1])
     driving = any(action in DRIVING for action in deed)
-    done = driving or deed[0] in found.factual[:1]
-    stays = done and not cause.decision_changes
-    would = deed if not done and cause.decision_changes else other
+    changes = cause.decision_changes is True
+    done = driving or (deed == other) != changes
+    stays = done and not changes
+    would = deed if not done and changes else other
     denied = not stays and (driving or not other or (not done and would == other))
     in_lane = any(action in LANE_CHANGES for action in (*deed, *other))
     return Supposition(

@@ -59,6 +59,7 @@ class CausePoint:
     speed_from: Quantity | None
     speed_to: Quantity | None
     necessary: Literal["yes", "no"] | None  # planning again without it changes the decision
+    present: bool  # it was in our way at the time
     doubted: bool  # planning again without it changes nothing that matters
 
 
@@ -196,6 +197,7 @@ class GroundsPoint:
     past: bool
     doing: Doing
     chance: Quantity
+    brief: bool  # without how it grew
     doubted: bool  # it was not more probable than not
     fell: bool  # it was, and is no longer
     at: Quantity  # when the chance was that
@@ -237,6 +239,7 @@ class Method:
     fact: Doing
     options: Doing  # all of them, to be listed
     single: bool  # there was but one
+    brief: bool  # without the list
     drives: Quantity
     situations: Quantity
     contrast: Contrast | None
