@@ -26,6 +26,12 @@ queries = st.builds(
     counterfactual=actions,
     negated=st.booleans(),
     tense=st.sampled_from(get_args(Tense)),
+    condition=st.none()
+    | st.sampled_from(
+        ["if vehicle 1 had not been there", "if vehicle 2 had turned left", "if it rained"]
+    ),
+    hypothesised_cause=st.none() | st.sampled_from(["vehicle:1", "vehicle:3", "vehicle:front"]),
+    event=st.none() | st.just("crash"),
 )
 
 

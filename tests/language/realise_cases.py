@@ -1,8 +1,20 @@
 """Explanations to be put into words: hand-made ones, and a Hypothesis strategy for any."""
 
+from typing import get_args
+
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from planner.trace import ACTIONS, COMPONENTS, UNITS, Action, Component, Outcome
+from xavi_dialogue.explain.details import (
+    Avoidance,
+    Certainty,
+    Grounds,
+    Mishap,
+    Pivot,
+    Step,
+    Suspect,
+)
 from xavi_dialogue.explain.explanation import (
     Activity,
     Cause,
@@ -120,7 +132,74 @@ _destinations = st.builds(
     probability=st.none() | _probabilities,
 )
 
-explanations = st.builds(
+_moments = st.floats(0, 3600)
+_shares = st.floats(0, 1)
+_counts = st.integers(0, 60)
+_deeds = st.sampled_from([*ACTIONS, "slow-down", "speed-up"])
+
+
+@st.composite
+def _certainties(draw: st.DrawFn) -> Certainty:
+    """As sure as the situations are in which it did well, and no surer."""
+    situations = draw(st.integers(1, 60))
+    good = draw(st.integers(0, situations))
+    share = good / situations
+    about = draw(st.sampled_from(["plan", "choice"]))
+    return Certainty(about, share, draw(st.floats(0.2 * share, 0.99 * share)), good, situations)
+
+
+_details_of_answers = st.fixed_dictionaries(
+    {},
+    optional={
+        "span": st.tuples(_moments, _moments).map(sorted).map(tuple),
+        "least": st.floats(0, 90),
+        "seen": _moments,
+        "options": _some_plans,
+        "steps": st.lists(st.builds(Step, action=st.sampled_from(ACTIONS), moment=_moments)).map(
+            tuple
+        ),
+        "grounds": st.builds(
+            Grounds,
+            vehicle=_numbers,
+            actions=_some_plans,
+            done=st.booleans(),
+            probability=_shares,
+            latest=_shares,
+            since=st.none() | _moments,
+            start=_moments,
+            end=_moments,
+            before=_shares,
+            after=_shares,
+            deed=st.none() | _deeds,
+            speed_from=_speeds,
+            speed_to=_speeds,
+            rival=_plans,
+            fit=st.none() | st.floats(0, 1000),
+        ),
+        "certainty": _certainties(),
+        "avoidance": st.builds(
+            Avoidance,
+            mishap=st.sampled_from(get_args(Mishap)),
+            possible=st.booleans(),
+            risk=_shares,
+            other=_shares,
+            decisions=_counts,
+            options=_counts,
+        ),
+        "pivot": st.builds(
+            Pivot,
+            kind=st.sampled_from(["conduct", "removal", "factor", "none"]),
+            vehicle=st.none() | _numbers,
+            actions=_plans,
+            probability=st.none() | _shares,
+        ),
+        "suspect": st.builds(
+            Suspect, vehicle=_numbers, part=st.sampled_from(["main", "some", "none"])
+        ),
+    },
+)
+
+_plain_explanations = st.builds(
     Explanation,
     factual=_plans,
     counterfactual=_plans,
@@ -146,6 +225,15 @@ explanations = st.builds(
     destination=st.none() | _destinations,
     moment=st.none() | st.floats(0, 3600),
 )
+
+
+@st.composite
+def _any_explanation(draw: st.DrawFn) -> Explanation:
+    """What any question may bring; details of the types of questions one at a time and mixed."""
+    return replace(draw(_plain_explanations), **draw(_details_of_answers))
+
+
+explanations = st.one_of(_plain_explanations, _any_explanation())
 
 QUESTION_TYPES: tuple[QueryType, ...] = (
     "why",
@@ -173,6 +261,9 @@ queries = st.builds(
     tense=_tenses,
     detail=_details,
     intervention=st.sampled_from([None, "remove"]),
+    condition=st.sampled_from(
+        [None, "if vehicle 1 had not been there", "if vehicle 1 had turned left"]
+    ),
 )
 
 _descriptions = st.sampled_from([None, "the car ahead", "the car behind", "the car on our left"])

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator
+from typing import Literal
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -25,10 +26,49 @@ UNTIDY = re.compile(r"because\s*[.,]|[,.;:]\s*[,.;:]|\s[,.;:?]|  |\(\s|\s\)|[{}_
 EXAMPLES = settings(max_examples=400)
 
 
+def spelt(value: float, unit: Literal["clock", "count"]) -> list[str]:
+    return re.findall(r"\d+", quantity(Quantity(value, unit)))
+
+
+def counted(found: Explanation) -> Iterator[str]:
+    """Numbers of situations and options, and times of the ride."""
+    if (sure := found.certainty) is not None:
+        yield from (str(sure.good), str(sure.situations))
+    if (grounds := found.grounds) is not None:
+        yield from [*spelt(grounds.start, "clock"), *spelt(grounds.end, "clock")]
+        yield from spelt(grounds.fit or 0.0, "count")
+    if found.seen is not None:
+        yield from spelt(found.seen, "clock")
+    yield from spelt(found.sim_time, "clock")
+
+
+def details(found: Explanation, now: float) -> tuple[list[float], list[float], list[float]]:
+    """The times [s], speeds [m/s] and probabilities of what single questions add."""
+    times = [abs(step.moment - now) for step in found.steps]
+    times += [max(end - now, 0.0) for end in found.span or ()]
+    times += [math.floor(found.least or 0.0)]
+    times += [m.delay * m.share for c in found.causes if (m := c.mechanism) and m.delay]
+    speeds: list[float] = []
+    chances: list[float] = []
+    if (grounds := found.grounds) is not None:
+        speeds += [s for s in (grounds.speed_from, grounds.speed_to) if s is not None]
+        chances += [grounds.probability, grounds.latest, grounds.before, grounds.after]
+    if (sure := found.certainty) is not None:
+        chances += [sure.share, sure.low]
+    if (avoidance := found.avoidance) is not None:
+        chances += [avoidance.risk, avoidance.other]
+    if found.pivot is not None:
+        chances.append(found.pivot.probability or 0.0)
+    chances += [m.share for c in found.causes if (m := c.mechanism)]
+    # What was simulated is told as neither impossible nor certain.
+    return times, speeds, [min(max(chance, 0.01), 0.99) for chance in chances]
+
+
 def numbers(found: Explanation, now: float) -> Iterator[str]:
     """Every number that an answer may contain, as it would be spelt."""
     evidence = found.evidence
     yield from (str(evidence.rollouts), str(evidence.distinct_samples))
+    yield from counted(found)
     times = [found.arrival, *(x for e in found.effects for x in (e.delta, e.low, e.high))]
     speeds = [s for c in found.causes if (m := c.mechanism) for s in (m.speed_from, m.speed_to)]
     chances = [c.probability for c in found.causes]
@@ -42,6 +82,10 @@ def numbers(found: Explanation, now: float) -> Iterator[str]:
     if found.moment is not None:
         times.append(abs(now - found.moment))
         yield from re.findall(r"\d+", quantity(Quantity(found.moment, "clock")))
+    more_times, more_speeds, more_chances = details(found, now)
+    times += more_times
+    speeds += more_speeds
+    chances += more_chances
     for value in times:
         yield from re.findall(r"[\d.]+", quantity(Quantity(value or 0.0, "s")))
         yield bare(Quantity(value or 0.0, "s"))
@@ -59,6 +103,12 @@ def vehicles(found: Explanation, query: Query) -> set[int]:
         known.add(found.activity.vehicle)
     if found.destination is not None:
         known.add(found.destination.vehicle)
+    if found.grounds is not None:
+        known.add(found.grounds.vehicle)
+    if found.pivot is not None and found.pivot.vehicle is not None:
+        known.add(found.pivot.vehicle)
+    if found.suspect is not None:
+        known.add(found.suspect.vehicle)
     return known | {int(n) for n in re.findall(r"\d+", query.actor)}
 
 

@@ -74,11 +74,11 @@ def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
             negated=supposed.negated,
             tense=query.tense,
         )
-        return _judged(suppositions.what_if(asked, ride), supposed.vehicle, deed)
+        return _judged(ride, suppositions.what_if(asked, ride), supposed.vehicle, deed)
     trace, again = suppositions.replanned(ride, supposed.vehicle, _moment(query, ride, deed))
     found = suppositions.compared(ride, supposed.vehicle, trace, again)
     if not driving:
-        return _judged(found, supposed.vehicle, deed)
+        return _judged(ride, found, supposed.vehicle, deed)
     share = _share(again, factual(ride.model(again), again), driving[-1])
     if share is None:
         raise thin(deed, None)
@@ -135,14 +135,15 @@ def _given(
     )
 
 
-def _judged(found: Explanation, vehicle: int, deed: tuple[QueryAction, ...]) -> Explanation:
-    """Whether the deed, as the action decided on, is in one plan and not in the other."""
+def _judged(
+    ride: Ride, found: Explanation, vehicle: int, deed: tuple[QueryAction, ...]
+) -> Explanation:
+    """Whether a deed, as the action decided on, was done or is planned, but would not, or so."""
     if not deed:
         return found
-    was, would = (
-        any(same(action, step) for action in deed for step in plan[:1])
-        for plan in (found.factual, found.counterfactual)
-    )
+    plan = planned(ride.latest)[:1]
+    was = any(happened(ride, a) is not None or any(same(a, step) for step in plan) for a in deed)
+    would = any(same(action, step) for action in deed for step in found.counterfactual[:1])
     return _with_change(found, vehicle, changes=was != would)
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from planner.trace import Action
-from xavi_dialogue.explain.query import Detail
+from xavi_dialogue.explain.query import Detail, Query
 
 Style = Literal["passenger", "paper"]
 
@@ -30,6 +30,7 @@ class SpeechContext:
     max_effects: int = 1
     now: float = 0.0  # [s] simulation time
     done: tuple[Action, ...] = ()  # what we have carried out so far, latest last
+    asked: tuple[Query, ...] = ()  # in this conversation so far, oldest first
 
 
 @dataclass(frozen=True, slots=True)

@@ -230,6 +230,8 @@ def bare(amount: Quantity) -> str:
     """The number alone, for where its unit follows later: "from 2 to 4 seconds"."""
     if amount.unit == "s":
         return f"{_round_seconds(abs(amount.value)):g}"
+    if amount.unit == "probability":
+        return quantity(amount).removesuffix(" %")
     return quantity(amount).partition(" ")[0]
 
 

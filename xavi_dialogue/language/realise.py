@@ -82,7 +82,7 @@ def realise(query: Query, result: Explanation | NoExplanation, context: SpeechCo
     return Utterance(
         text=made.text,
         mentioned=made.mentioned,
-        suggestions=questions(follow_ups(query, result, made.mentioned)),
+        suggestions=questions(follow_ups(query, result, made.mentioned, context.asked)),
     )
 
 

@@ -14,7 +14,7 @@ from xavi_dialogue.language.orthography import capitalise, join
 from xavi_dialogue.language.points import doing, vehicle_of
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.rules import load_grammar
-from xavi_dialogue.language.suggestions import from_situation
+from xavi_dialogue.language.suggestions import fresh, from_situation
 from xavi_dialogue.language.wording import lexicon, rewrite
 
 MAX_CHOICES = 4
@@ -53,7 +53,7 @@ class Refusal:
 def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utterance:
     """Say what is wrong with the question, and what can be asked instead."""
     invited = refusal.suggestions or from_situation(context)
-    offered = questions(tuple(q for q in invited if not _same(q, query)))
+    offered = questions(fresh(invited, (query,)))
     return _speak(_content(query, refusal, offered[:1]), context, offered)
 
 
@@ -100,16 +100,6 @@ def _speak(content: Refusal, context: SpeechContext, suggestions: tuple[str, ...
     words, mentioned = inflect(tokens, context)
     text = capitalise(rewrite(join(words), "passenger"))
     return Utterance(text, mentioned, suggestions)
-
-
-def _same(offered: Query, asked: Query) -> bool:
-    """Whether a suggestion would but repeat what has just been declined."""
-    return (offered.type, offered.actor, offered.factual, offered.counterfactual) == (
-        asked.type,
-        asked.actor,
-        asked.factual,
-        offered.counterfactual and asked.counterfactual,
-    )
 
 
 def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
