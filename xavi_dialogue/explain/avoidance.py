@@ -98,7 +98,7 @@ def _mishap(query: Query, ride: Ride) -> tuple[Mishap, float]:
         if crash is not None:
             return "collision", crash.sim_time
         if query.event == CRASH:
-            raise decline("did-not-happen", vehicle=EGO, did=False)
+            raise decline("did-not-happen", vehicle=EGO, did=False, what=CRASH)
         braked = hard_braking(motion)
         if braked is not None:
             return "hard-brake", braked

@@ -164,7 +164,8 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
     Facts, by reason:
 
     - did-not-happen: vehicle (0 is the ego), asked; did (True where the foil is what was done),
-      happened and time [s] of what was done instead, planned (True where it is yet to come).
+      happened and time [s] of what was done instead, planned (True where it is yet to come),
+      what (crash, where that is what did not happen).
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
     - unknown-vehicle: vehicle, known.
     - too-little-evidence: asked, distinct, needed, coverage, rollouts.

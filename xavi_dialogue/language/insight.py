@@ -189,7 +189,9 @@ def _factor(
         return None if against is None else Factor(None, None, None, against)
     held = cause.mechanism
     crash = held is not None and held.how == "collision"
-    lost = held.delay * held.share if held is not None and held.delay is not None else 0.0
+    later = next((e.delta for e in found.effects if e.component == "time" and e.delta > 0.0), None)
+    delay = held.delay * held.share if held is not None and held.delay is not None else 0.0
+    lost = later if later is not None and delay > 0.0 else delay
     return Factor(
         because=cause_point(cause, query.tense, budget),
         delay=Quantity(lost, "s") if lost >= SOON else None,
