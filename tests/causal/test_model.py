@@ -164,7 +164,7 @@ def test_inconsistent_traces_are_named():
     first = trace.rollouts[0]
     stray = msgspec.structs.replace(first, samples=(Sample(1, 9, 0),))
     with pytest.raises(InconsistentTrace, match="rollout 0 samples goal 9"):
-        CausalModel(msgspec.structs.replace(trace, rollouts=(stray,)))
+        CausalModel(msgspec.structs.replace(trace, rollouts=(stray,))).intervene(("continue",))
 
 
 def test_a_continuation_seen_once_in_a_lucky_sample_is_not_the_best():

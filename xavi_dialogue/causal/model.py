@@ -141,28 +141,22 @@ class Intervention(Mixture):
 
 
 class CausalModel:
-    """Answers causal queries about one decision; immutable once built."""
+    """Answers causal queries about one decision; immutable, and indexed when first asked."""
 
     def __init__(self, trace: PlanTrace, given: Mapping[int, frozenset[Choice]] | None = None):
-        """Index the rollouts of a trace.
+        """The network of a decision.
+
+        Queries raise InconsistentTrace where a rollout samples what is not predicted.
 
         Args:
             trace: the record of the decision.
             given: evidence on other vehicles: the choices to which each is confined. The prior
                 is renormalised over them.
-
-        Raises:
-            InconsistentTrace: a rollout samples a goal or trajectory that is not predicted.
         """
         self.trace = trace
         self.given = dict(given or {})
         self._choices = _choices(trace, self.given)
-        self._priors: dict[Joint, float] = {}
-        self._reached: dict[Actions, dict[Joint, int]] = {(): {}}  # node -> sample -> draws
-        self._ended: dict[Actions, dict[Joint, Result]] = {}
         self._followed: dict[Actions, Intervention | None] = {}
-        for rollout in trace.rollouts:
-            self._add(rollout)
 
     @property
     def vehicles(self) -> tuple[int, ...]:
@@ -175,16 +169,17 @@ class CausalModel:
 
     def prior(self, joint: Joint) -> float:
         """p(S), the product over vehicles of goal times trajectory probability."""
-        return self._priors[joint]
+        return self._index.priors[joint]
 
     def options(self, node: Actions = ()) -> Actions:
         """The actions recorded at a node of the search, in order of first record."""
-        found = {seq[len(node)]: None for seq in self._reached if seq and seq[:-1] == node}
-        return tuple(found)
+        reached = self._index.reached if self.given else map(plan_of, self.trace.rollouts)
+        depth = len(node)
+        return tuple({p[depth]: None for p in reached if len(p) > depth and p[:depth] == node})
 
     def recorded(self) -> Iterator[tuple[Actions, Result]]:
         """Every distinct (actions, sample) with what came of it."""
-        for plan, ended in self._ended.items():
+        for plan, ended in self._index.ended.items():
             for result in ended.values():
                 yield plan, result
 
@@ -203,28 +198,31 @@ class CausalModel:
         wanted = do if isinstance(do, Mapping) else dict(enumerate(do, start=1))
         found = [
             intervention
-            for plan in self._ended
+            for plan in self._index.ended
             if _agrees(plan, wanted) and (intervention := self._known(plan)) is not None
         ]
         most = max((intervention.coverage for intervention in found), default=0.0)
         known = [i for i in found if i.coverage >= SUPPORT * most]
         return max(known, key=lambda i: (i.value, i.coverage), default=None)
 
-    def _add(self, rollout: Rollout) -> None:
-        joint = _joint(rollout.samples)
-        if any((goal, way) not in self.given[v] for v, goal, way in joint if v in self.given):
-            return
-        if joint not in self._priors:
-            self._priors[joint] = self._probability(joint, rollout.index)
-        plan: Actions = tuple(timed.action for timed in rollout.actions)
-        for depth in range(len(plan) + 1):
-            reached = self._reached.setdefault(plan[:depth], {})
-            reached[joint] = reached.get(joint, 0) + 1
-        ended = self._ended.setdefault(plan, {})
-        known = ended.get(joint)
-        draws, searched = (0, 0) if known is None else (known.draws, known.searched)
-        first = rollout if known is None else known.rollout
-        ended[joint] = Result(joint, first, draws + 1, searched + (not rollout.forced))
+    @cached_property
+    def _index(self) -> "_Index":
+        drawn: dict[tuple[Actions, Joint], list[Rollout]] = {}
+        for rollout in self.trace.rollouts:
+            drawn.setdefault((plan_of(rollout), _joint(rollout.samples)), []).append(rollout)
+        index = _Index({}, {(): {}}, {})
+        for (plan, joint), rollouts in drawn.items():
+            if any((goal, way) not in self.given[v] for v, goal, way in joint if v in self.given):
+                continue
+            if joint not in index.priors:
+                index.priors[joint] = self._probability(joint, rollouts[0].index)
+            for depth in range(len(plan) + 1):
+                reached = index.reached.setdefault(plan[:depth], {})
+                reached[joint] = reached.get(joint, 0) + len(rollouts)
+            searched = sum(not rollout.forced for rollout in rollouts)
+            found = Result(joint, rollouts[0], len(rollouts), searched)
+            index.ended.setdefault(plan, {})[joint] = found
+        return index
 
     def _probability(self, joint: Joint, index: int) -> float:
         product = 1.0
@@ -245,14 +243,15 @@ class CausalModel:
 
     def _follow(self, plan: Actions) -> Intervention | None:
         """The results under a complete plan; None where the record stops in the middle of it."""
-        if self._reached[plan].keys() - self._ended[plan].keys():
+        index = self._index
+        if index.reached[plan].keys() - index.ended[plan].keys():
             return None
         mass = 1.0
         results: list[Result] = []
         weights: list[float] = []
         for depth in range(len(plan) + 1):
-            ended, reached = self._ended.get(plan[:depth], {}), self._reached[plan[:depth]]
-            priors = {joint: self._priors[joint] for joint in reached}
+            ended, reached = index.ended.get(plan[:depth], {}), index.reached[plan[:depth]]
+            priors = {joint: index.priors[joint] for joint in reached}
             shares = shared_out(priors, sum(reached.values()), mass)
             for joint, result in ended.items():
                 results.append(result)
@@ -261,8 +260,17 @@ class CausalModel:
         total = sum(weights)
         if total <= 0.0:
             return None
-        coverage = sum(self._priors[result.joint] for result in results)
+        coverage = sum(index.priors[result.joint] for result in results)
         return Intervention(tuple(results), tuple(w / total for w in weights), plan, coverage)
+
+
+@dataclass(frozen=True, slots=True)
+class _Index:
+    """The rollouts by the actions that they pass through."""
+
+    priors: dict[Joint, float]
+    reached: dict[Actions, dict[Joint, int]]  # node -> sample -> draws
+    ended: dict[Actions, dict[Joint, Result]]
 
 
 def shared_out(priors: dict[Joint, float], draws: int, mass: float = 1.0) -> dict[Joint, float]:
@@ -306,8 +314,13 @@ def _choices(
     return found
 
 
+def plan_of(rollout: Rollout) -> Actions:
+    """The macro actions of a rollout."""
+    return tuple([timed.action for timed in rollout.actions])
+
+
 def _joint(samples: tuple[Sample, ...]) -> Joint:
-    return tuple(sorted((s.vehicle, s.goal, s.trajectory) for s in samples))
+    return tuple(sorted([(s.vehicle, s.goal, s.trajectory) for s in samples]))
 
 
 def _agrees(plan: Actions, do: Mapping[int, Action]) -> bool:

@@ -20,6 +20,7 @@ from xavi_dialogue.causal.model import (
     Joint,
     Mixture,
     Result,
+    plan_of,
     shared_out,
 )
 
@@ -36,7 +37,7 @@ class Evidence:
 
     def allows(self, result: Result) -> bool:
         """Whether a result agrees with it."""
-        plan = plan_of(result)
+        plan = plan_of(result.rollout)
         return (
             self.outcome in (None, result.rollout.outcome)
             and all(_at(plan, depth) == action for depth, action in self.actions.items())
@@ -62,11 +63,11 @@ class Observation(Mixture):
 
     def actions(self, depth: int) -> dict[Action | None, float]:
         """p(Omega_d | evidence); None: no action at that depth."""
-        return self._marginal(lambda result: _at(plan_of(result), depth))
+        return self._marginal(lambda result: _at(plan_of(result.rollout), depth))
 
     def plans(self) -> dict[Actions, float]:
         """p(Omega | evidence)."""
-        return self._marginal(plan_of)
+        return self._marginal(lambda result: plan_of(result.rollout))
 
     def _marginal(self, of: Callable[[Result], Value]) -> dict[Value, float]:
         found: dict[Value, float] = {}
@@ -96,7 +97,7 @@ class Search:
 
     def policy(self, joint: Joint) -> dict[Actions, float]:
         """p(Omega | S = joint); empty where the search did not draw the sample."""
-        found = {plan_of(r): float(r.searched) for r, _ in self._rows if r.joint == joint}
+        found = {plan_of(r.rollout): float(r.searched) for r, _ in self._rows if r.joint == joint}
         return {plan: count / sum(found.values()) for plan, count in found.items()}
 
     def see(self, evidence: Evidence | None = None) -> Observation | None:
@@ -108,11 +109,6 @@ class Search:
             return None
         results, weights = zip(*rows, strict=True)
         return Observation(results, tuple(weight / chance for weight in weights), chance)
-
-
-def plan_of(result: Result) -> Actions:
-    """The macro actions of a result."""
-    return tuple(timed.action for timed in result.rollout.actions)
 
 
 def _at(plan: Actions, depth: int) -> Action | None:

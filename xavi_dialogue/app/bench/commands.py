@@ -88,6 +88,16 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
         chosen = range(seeds) if seed is None else (seed,)
         show(lambda note: fidelity(scenario, chosen, every, jobs, note), as_json)
 
+    @group.command("explain")
+    def _explain(
+        rides: Annotated[Path, typer.Option(help="Where recorded rides lie.")] = Path(
+            "transcripts"
+        ),
+        as_json: AsJson = False,
+    ) -> None:
+        """Time from a recorded decision to its explanation, and other networks beside ours."""
+        show(lambda note: explain(rides, note), as_json)
+
     @group.command("dialogue")
     def _dialogue(as_json: AsJson = False) -> None:
         """How long answers take."""
@@ -149,6 +159,13 @@ def fidelity(
 
     chosen, left_out = (_there(scenarios), ()) if scenarios else _all(note)
     return replace(measure(chosen, seeds, every, _processes(jobs), note), left_out=left_out)
+
+
+def explain(rides: Path, note: Callable[[str], None]) -> "Report":
+    """Measure explaining."""
+    from xavi_dialogue.app.bench.explain import measure
+
+    return measure(rides, note)
 
 
 def dialogue() -> "Report":
