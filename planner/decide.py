@@ -1,7 +1,6 @@
 """One decision: recognise the others, search, and record it all as a PlanTrace."""
 
 import math
-import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -95,7 +94,7 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
 def prepare(
     frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], salt: str = ""
 ) -> Search:
-    """A search that has not been run yet; `salt` sets its random numbers apart."""
+    """A search that has not been run yet; `salt` sets its draws apart."""
     ego = moment.scene[EGO]
     task = Task(
         frame.roads,
@@ -105,8 +104,7 @@ def prepare(
         round(frame.settings.horizon / DT),
         frame.settings.view_radius,
     )
-    rng = random.Random(f"{frame.seed}/{moment.number}{salt}")
-    return Search(task, moment.root, beliefs, frame.settings, rng)
+    return Search(task, moment.root, beliefs, frame.settings, f"{frame.seed}/{moment.number}{salt}")
 
 
 def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
-from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
+from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
@@ -72,7 +72,7 @@ class Search:
     root: Root
     beliefs: Mapping[int, Sequence[Belief]]
     settings: Settings
-    rng: random.Random
+    seed: str  # of all that is drawn
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
@@ -83,6 +83,10 @@ class Search:
     _legs: dict[tuple[tuple[Sample, ...], Node], Leg] = field(default_factory=dict)
     _known: dict[tuple[tuple[Sample, ...], Node], Simulated] = field(default_factory=dict)
     _motions: dict[tuple[Sample, ...], Traffic] = field(default_factory=dict)
+    _draws: dict[int, random.Random] = field(init=False)  # by vehicle: nobody shifts another's
+
+    def __post_init__(self) -> None:
+        self._draws = {v: random.Random(f"{self.seed}/{v}") for v in self.beliefs}
 
     def run(self) -> None:
         """Draw the rollouts of the search; then compare the first actions, and force the rest."""
@@ -202,14 +206,15 @@ class Search:
 
         The search tries actions in this order, and beyond its depth drives on by it.
         """
+        effort = EFFORT.get(plan.action, 0.0)
         if plan.stops:
-            return STANDING_TIME + LATE
+            return effort + LATE
         lane, begin = plan.path.lane_at(plan.end)
         pace = self.task.roads.network.lanes[lane].speed_limit
         if plan.goal is not None:
-            return plan.goal / pace
+            return effort + plan.goal / pace
         end = Location(lane, plan.end - begin, 0.0)
-        return plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
+        return effort + plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
 
     def _left(self, legs: Sequence[Leg]) -> float:
         """What is left to the goal [s] after these legs, where nobody is in the way."""
@@ -220,9 +225,10 @@ class Search:
         """Draw a goal and a trajectory for every other vehicle."""
         drawn = []
         for vehicle, beliefs in self.beliefs.items():
-            goal = _draw(self.rng, [belief.probability for belief in beliefs])
+            rng = self._draws[vehicle]
+            goal = _draw(rng, [belief.probability for belief in beliefs])
             ways = [way.probability for way in beliefs[goal].trajectories]
-            drawn.append(Sample(vehicle, goal, _draw(self.rng, ways)))
+            drawn.append(Sample(vehicle, goal, _draw(rng, ways)))
         return tuple(drawn)
 
     def _options(

@@ -19,7 +19,7 @@ from sim.scene import Point
 TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
-LEAST_PACE = 4.0  # [m/s] below which nobody wants to drive for long
+LEAST_PACE = 3.0  # [m/s] below which nobody wants to drive for long
 CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
 QUEUE = 60.0  # [m] over which one stands behind another
 FAR_ASIDE = (5.0, 1.4)  # [m], [rad] from its lane at which a vehicle that turns may be

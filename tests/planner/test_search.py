@@ -106,11 +106,11 @@ def test_nobody_stops_twice_in_a_row() -> None:
 def test_beyond_its_depth_a_rollout_drives_on_to_the_goal() -> None:
     one = ran(Settings(rollouts=20, min_rollouts=0, depth=1))
     assert max(len(node) for node in one.tree.edges) == 0  # nothing deeper is learnt
-    driven = {rollout.actions[0]: rollout for rollout in one.rollouts}
-    assert driven["continue"].actions == ("continue",)
-    assert driven["stop"].actions == ("stop", "continue")
-    assert driven["stop"].outcome == driven["change-left"].outcome == "done"
-    assert driven["exit-right"].outcome == "dead"
+    driven = {(rollout.actions, rollout.outcome) for rollout in one.rollouts}
+    assert (("continue",), "done") in driven
+    assert (("stop", "continue"), "done") in driven
+    assert (("change-left", "continue"), "done") in driven
+    assert {outcome for actions, outcome in driven if actions[0] == "exit-right"} == {"dead"}
 
 
 def test_what_leads_to_the_goal_soonest_is_tried_first() -> None:

@@ -18,6 +18,7 @@ from xavi_dialogue.explain.ride import prediction
 
 MORE_OFTEN = 0.05  # probability by which the foil must collide or terminate more often
 LONGER = 0.5  # [s] expected, by which the foil must be held up longer
+LIKELY = 0.5  # share of the rollouts of a plan in which somebody holds it up
 AT_ONCE = 0.5  # [s] after a decision by which a hold-up begins that is going on already ...
 SURELY = 0.9  # ... in this share of the rollouts that have it
 SLOWER = 0.5  # [s] by which the foil must arrive later to be called slower
@@ -53,7 +54,9 @@ def holding_up(
         plan: what the ego does.
         window: [s] simulation times between which the hold-up must lie at least in part.
     """
-    found = [h for h in hold_ups(plan, window).values() if h.share >= 0.5 and h.expected >= LONGER]
+    found = [
+        h for h in hold_ups(plan, window).values() if h.share >= LIKELY and h.expected >= LONGER
+    ]
     found.sort(key=lambda h: (-h.expected, h.vehicle))
     return tuple(_by_hold_up(model, hold_up, None) for hold_up in found)
 

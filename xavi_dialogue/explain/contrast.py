@@ -12,6 +12,7 @@ from xavi_dialogue.explain.explanation import Effect, Evidence, Explanation, Out
 from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.ride import Ride, decline, enough, planned, thin
 
+LANE_CHANGES: tuple[Action, ...] = ("change-left", "change-right")
 NO_EFFECT = 0.05  # of a component's scale: below this nothing tells fact and foil apart
 NO_DIFFERENCE = 0.01  # of probability: nor does this
 
@@ -155,7 +156,8 @@ def _against_best(ride: Ride, trace: PlanTrace, node: Actions) -> Explanation:
     here = factual(model, trace)
     others = alternatives(model, plan[len(node)], node) if len(plan) > len(node) else []
     if others:
-        return explain_contrast(ride, model, here, others[0][1], others[0][0])
+        foil, there = next((pair for pair in others if _natural(plan, pair[0])), others[0])
+        return explain_contrast(ride, model, here, there, foil)
     return Explanation(
         factual=here.plan,
         counterfactual=(),
@@ -166,6 +168,11 @@ def _against_best(ride: Ride, trace: PlanTrace, node: Actions) -> Explanation:
         sim_time=trace.sim_time,
         arrival=arrival(trace, here),
     )
+
+
+def _natural(plan: Actions, foil: Actions) -> bool:
+    """Whether a foil is what one thinks of first: who changes lanes might have stayed in his."""
+    return plan[len(foil) - 1] in LANE_CHANGES and foil[-1] == "continue"
 
 
 def _alike(here: Intervention, there: Intervention, found: Sequence[ComponentEffect]) -> bool:

@@ -156,6 +156,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     avoidance: Avoidance | None = None
     pivot: Pivot | None = None
     suspect: Suspect | None = None
+    cleared: int | None = None  # a vehicle in our way without which all would have been the same
 
 
 class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):

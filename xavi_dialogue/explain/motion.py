@@ -5,7 +5,7 @@ lane's width and heads the same way again has changed lanes; one that heads else
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -77,23 +77,27 @@ class Motion:
         return next((s for s in reversed(self.sightings()) if s.action in _means(action)), None)
 
     def _speeds(self) -> list[Sighting]:
-        found: list[Sighting] = []
-        for sign, action in ((-1.0, "slow-down"), (1.0, "speed-up")):
-            start = best = 0
-            for k in range(1, len(self.speed) + 1):
-                over = k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER
-                if not over:
-                    # A flat beginning is no part of the change.
-                    if sign * (self.speed[k] - self.speed[start]) <= WAVER:
-                        start = best = k
-                    elif sign * (self.speed[k] - self.speed[best]) > 0.0:
-                        best = k
-                    continue
-                if sign * (self.speed[best] - self.speed[start]) >= CHANGED:
-                    kind: QueryAction = "slow-down" if action == "slow-down" else "speed-up"
-                    found.append(Sighting(kind, self.time[start], self.time[best]))
-                start = best = min(k, len(self.speed) - 1)
-        return found
+        return [
+            *self._changes_of_speed("slow-down", -1.0),
+            *self._changes_of_speed("speed-up", 1.0),
+        ]
+
+    def _changes_of_speed(self, action: QueryAction, sign: float) -> Iterator[Sighting]:
+        """The stretches over which the speed grows, or falls where the sign is -1."""
+        foot = start = best = 0  # where it is measured from; where it leaves that; its end so far
+        for k in range(1, len(self.speed) + 1):
+            if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER:
+                if sign * (self.speed[best] - self.speed[foot]) >= CHANGED:
+                    yield Sighting(action, self.time[start], self.time[best])
+                foot = start = best = min(k, len(self.speed) - 1)
+                continue
+            change = sign * (self.speed[k] - self.speed[foot])
+            if change <= 0.0:
+                foot = k
+            if change <= WAVER:  # a flat beginning is no part of it
+                start = best = k
+            elif sign * (self.speed[k] - self.speed[best]) > 0.0:
+                best = k
 
     def _stops(self) -> list[Sighting]:
         """Standstills; one that was there when the vehicle came into view is not its coming to."""

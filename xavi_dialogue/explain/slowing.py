@@ -5,15 +5,16 @@ from msgspec.structs import replace
 from planner.events import Event
 from planner.trace import PlanTrace
 from sim.scene import EGO
+from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
-from xavi_dialogue.explain.causes import expected_actions, holding_up
+from xavi_dialogue.explain.causes import LIKELY, expected_actions, holding_up
 from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
 from xavi_dialogue.explain.deeds import did_not_happen
 from xavi_dialogue.explain.explanation import Activity, Cause, Explanation, Mechanism
 from xavi_dialogue.explain.motion import Motion, Sighting
 from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.query import QueryAction, Tense
-from xavi_dialogue.explain.ride import Ride, decline
+from xavi_dialogue.explain.ride import Ride, Unanswered, decline
 
 RECENT = 2.0  # [s] since when something is still going on
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
@@ -36,7 +37,10 @@ def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) ->
     causes = holding_up(model, plan, window) if braked else ()
     given_way_to = None if wait is None else wait.vehicle
     causes = proven(ride, model, _first(model, causes, given_way_to), plan)
-    return _explanation(ride, model, plan, causes, motion, seen)
+    found = _explanation(ride, model, plan, causes, motion, seen)
+    if wait is None and causes and causes[0].necessary is False:
+        return replace(found, causes=(), cleared=causes[0].vehicle)
+    return found
 
 
 def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> PlanTrace:
@@ -91,11 +95,29 @@ def _find(
 
 
 def _decision(ride: Ride, seen: Sighting, wait: Event | None) -> PlanTrace:
-    """The last decision before the middle of what was seen, or before way was given."""
+    """The decision under which it happened.
+
+    That is the last one before way was given; else, of those taken meanwhile, the one whose plan
+    is held up most, or the last one before the middle of what was seen.
+    """
     trace = ride.at((seen.start + seen.end) / 2.0 if wait is None else wait.sim_time)
     if trace is None:
         raise decline("outside-record", vehicle=EGO, time=seen.start)
-    return trace
+    if wait is not None or seen.action == "speed-up":
+        return trace
+    window = (seen.start - LEEWAY, seen.end + LEEWAY)
+    meanwhile = [t for t in ride.traces if seen.start - LEEWAY <= t.sim_time <= seen.end]
+    return max((trace, *meanwhile), key=lambda t: _held(ride, t, window))
+
+
+def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
+    """How long [s] the plan of a decision is held up by somebody, at the most."""
+    try:
+        plan = factual(ride.model(trace), trace)
+    except Unanswered:
+        return 0.0
+    found = hold_ups(plan, window).values()
+    return max((held.expected for held in found if held.share >= LIKELY), default=0.0)
 
 
 def _first(

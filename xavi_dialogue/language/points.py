@@ -109,6 +109,7 @@ class Constraint:
     turning: bool  # our plan was to turn
     because: CausePoint | None
     also: tuple[CausePoint, ...]
+    cleared: Vehicle | None = None  # in our way, but it made no difference
     suspect: SuspectPoint | None = None
 
 
