@@ -12,7 +12,7 @@ from tests.causal import checks, oracle
 from tests.traces import ragged_trace
 from xavi_dialogue.causal.model import CausalModel
 
-traces = st.integers(0, 5000).map(ragged_trace)
+seeds = st.integers(0, 5000)  # of records, which are made in the tests: that takes its time
 wishes = st.dictionaries(
     st.integers(1, 3),
     st.sampled_from(("continue", "change-left", "stop", "exit-right")),
@@ -20,58 +20,68 @@ wishes = st.dictionaries(
 )
 
 
-@given(traces, wishes)
-def test_interventions_with_any_depths_fixed(trace, do):
+@given(seeds, wishes)
+def test_interventions_with_any_depths_fixed(seed, do):
+    trace = ragged_trace(seed)
     checks.intervention(trace, do)
 
 
-@given(traces, wishes, st.randoms(use_true_random=False))
-def test_interventions_given_what_others_do(trace, do, rng):
+@given(seeds, wishes, st.randoms(use_true_random=False))
+def test_interventions_given_what_others_do(seed, do, rng):
+    trace = ragged_trace(seed)
     checks.intervention(trace, do, checks.some_choices(trace, rng))
 
 
-@given(traces)
-def test_outcomes_expectations_presence_and_collisions(trace):
+@given(seeds)
+def test_outcomes_expectations_presence_and_collisions(seed):
+    trace = ragged_trace(seed)
     for plan in checks.plans(trace):
         checks.mixture(trace, plan)
 
 
-@given(traces)
-def test_effects(trace):
+@given(seeds)
+def test_effects(seed):
+    trace = ragged_trace(seed)
     for foil in checks.plans(trace):
         checks.effects(trace, foil, checks.plans(trace)[0])
 
 
-@given(traces, st.tuples(st.floats(3.0, 8.0), st.floats(0.0, 6.0)) | st.none())
-def test_hold_ups(trace, span):
+@given(seeds, st.tuples(st.floats(3.0, 8.0), st.floats(0.0, 6.0)) | st.none())
+def test_hold_ups(seed, span):
+    trace = ragged_trace(seed)
     for plan in checks.plans(trace):
         checks.hold_ups(trace, plan, None if span is None else (span[0], span[0] + span[1]))
 
 
-@given(traces)
+@given(seeds)
 @settings(max_examples=40)
-def test_influence_and_its_null(trace):
+def test_influence_and_its_null(seed):
+    trace = ragged_trace(seed)
     checks.influence(trace)
 
 
-@given(traces, wishes, st.sampled_from((None, *OUTCOMES)), st.randoms(use_true_random=False))
-def test_what_is_seen(trace, actions, outcome, rng):
+@given(seeds, wishes, st.sampled_from((None, *OUTCOMES)), st.randoms(use_true_random=False))
+def test_what_is_seen(seed, actions, outcome, rng):
+    trace = ragged_trace(seed)
     checks.seen(trace, actions, checks.some_choices(trace, rng), outcome)
 
 
-@given(traces)
-def test_what_is_seen_without_evidence(trace):
+@given(seeds)
+def test_what_is_seen_without_evidence(seed):
+    trace = ragged_trace(seed)
     checks.seen(trace, {}, {}, None)
 
 
-@given(traces)
-def test_the_search_as_a_policy(trace):
+@given(seeds)
+def test_the_search_as_a_policy(seed):
+    trace = ragged_trace(seed)
     checks.policy(trace)
 
 
-@given(traces)
-def test_seeing_all_of_the_sample_and_the_plan_is_doing_so(trace):
+@given(seeds)
+def test_seeing_all_of_the_sample_and_the_plan_is_doing_so(seed):
     """p(R, O | Omega, S): once nothing is left to infer, seeing and doing are one."""
+    trace = ragged_trace(seed)
     for plan, joint in {(r[0], r[1]) for r in oracle.rows_of(trace) if r[4] > 0}:
         only = {v: frozenset({(g, t)}) for v, g, t in joint}
         done = CausalModel(trace, only).intervene(plan)
@@ -81,8 +91,9 @@ def test_seeing_all_of_the_sample_and_the_plan_is_doing_so(trace):
         assert [r.rollout.index for r in done.results] == [row[2].index for _, row in rows]
 
 
-@given(traces)
-def test_the_law_of_total_probability(trace):
+@given(seeds)
+def test_the_law_of_total_probability(seed):
+    trace = ragged_trace(seed)
     checks.total(trace)
 
 
@@ -101,8 +112,9 @@ def test_the_records_are_of_every_kind():
     assert set(ACTIONS) >= {a.action for r in rollouts for a in r.actions}
 
 
-@given(traces)
-def test_errors_are_bounded_by_what_is_not_covered(trace):
+@given(seeds)
+def test_errors_are_bounded_by_what_is_not_covered(seed):
+    trace = ragged_trace(seed)
     for plan in checks.plans(trace):
         found = CausalModel(trace).intervene(plan)
         assume(found is not None)

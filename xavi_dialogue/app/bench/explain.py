@@ -155,6 +155,7 @@ def answer(model: CausalModel) -> None:
 
 def beside() -> Iterator[Beside]:
     """Complete records of ever more vehicles, then usual ones, each until pgmpy takes too long."""
+    done_by_pgmpy(complete(1, 1), (FOIL,))  # imports it
     for records in (
         (complete(vehicles, COMPLETE_DEPTH) for vehicles in range(1, MOST_COMPLETE + 1)),
         (made_up(vehicles, *USUAL[1:]) for vehicles in range(1, MOST_USUAL + 1)),
