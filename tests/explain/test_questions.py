@@ -91,6 +91,32 @@ def test_a_plan_that_always_worked_is_not_certain():
         assert few.certainty.low < UTMOST
 
 
+def late_ride() -> Ride:
+    """Where vehicle 1 goes on (0.7), the ego is not there in time; where it turns (0.3), it is."""
+    aims = {
+        1: (
+            Aim("continue", 0.7, (Way(("continue",)),)),
+            Aim("exit-right", 0.3, (Way(("exit-right",)),)),
+        )
+    }
+
+    def simulate(plan, chosen):
+        return (End("termination") if chosen[1][0] == "continue" else End(time=9.0)), 1
+
+    world = World(aims, (("continue",),), simulate)
+    return Ride(5.0, (trace_of(world, time=4.0),), ())
+
+
+def test_who_is_late_is_still_on_the_way():
+    found = ask(late_ride(), type="confidence", tense="present")
+    assert found.certainty.share == pytest.approx(1.0)
+    assert (found.certainty.good, found.certainty.late) == (2, 1)
+    assert found.outcome.probability == pytest.approx(0.3)
+    when = ask(late_ride(), type="when", tense="future")
+    assert when.arrival is None
+    assert when.least == pytest.approx(30.0 - 1.0)  # the horizon, seen from 1 s later
+
+
 # How we knew ---------------------------------------------------------------------------------
 
 

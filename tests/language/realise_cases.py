@@ -145,7 +145,8 @@ def _certainties(draw: st.DrawFn) -> Certainty:
     good = draw(st.integers(0, situations))
     share = good / situations
     about = draw(st.sampled_from(["plan", "choice"]))
-    return Certainty(about, share, draw(st.floats(0.2 * share, 0.99 * share)), good, situations)
+    low = draw(st.floats(0.2 * share, 0.99 * share))
+    return Certainty(about, share, low, good, situations, draw(st.integers(0, good)))
 
 
 _details_of_answers = st.fixed_dictionaries(

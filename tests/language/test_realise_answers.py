@@ -135,6 +135,12 @@ def test_how_we_will_go_about_it():
             "as I can foresee, that makes the chance over 95 %.",
         ),
         (
+            Certainty("plan", 1.0, 0.88, 21, 21, 16),
+            "I was quite sure: my plan worked out in all 21 situations that I tried, though it "
+            "took longer than I looked ahead in 16. As far as I can foresee, that makes the "
+            "chance at least 90 %.",
+        ),
+        (
             Certainty("plan", 0.0, 0.0, 0, 5),
             "I was not sure at all: my plan worked out in not one of the situations that I tried. "
             "I put the chance at under 5 %.",
@@ -255,6 +261,10 @@ def test_when_something_will_happen():
     long = replace(standing, moment=None, span=None, least=29.8)
     assert said(long, **waits) == (
         "I cannot say: in most of the drives I simulated, we stood for more than 29 seconds."
+    )
+    slow = replace(explanation((), "termination"), least=28.7)
+    assert said(slow, type="when", tense="future") == (
+        "It will probably take more than 28 seconds to get there."
     )
     far = replace(BARE, least=20.9)
     assert said(far, type="when", tense="future") == (

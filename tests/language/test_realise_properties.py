@@ -33,7 +33,7 @@ def spelt(value: float, unit: Literal["clock", "count"]) -> list[str]:
 def counted(found: Explanation) -> Iterator[str]:
     """Numbers of situations and options, and times of the ride."""
     if (sure := found.certainty) is not None:
-        yield from (str(sure.good), str(sure.situations))
+        yield from (str(sure.good), str(sure.situations), str(sure.late))
     if (grounds := found.grounds) is not None:
         yield from [*spelt(grounds.start, "clock"), *spelt(grounds.end, "clock")]
         yield from spelt(grounds.fit or 0.0, "count")

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from planner.trace import Outcome
 from xavi_dialogue.causal.model import Intervention, Joint
 from xavi_dialogue.explain.contrast import alternatives, arrival, evidence, factual
 from xavi_dialogue.explain.details import Certainty
@@ -13,6 +14,7 @@ from xavi_dialogue.explain.ride import MIN_DISTINCT, Ride, planned
 DOUBT = 0.05  # chance that a probability is smaller than its lower bound
 UTMOST = 0.99  # no bound is higher: there is always what nobody foresees
 EQUAL = 0.05  # [s] of reward that make no difference
+WELL: tuple[Outcome, ...] = ("done", "termination")  # who is late is still on the way
 FINENESS = 4000  # steps of a numerical integral
 
 
@@ -20,7 +22,7 @@ def confidence(query: Query, ride: Ride) -> Explanation:
     """How sure the ego is of a deed or of its plan.
 
     Of a deed, how surely it was better than the best alternative; of the plan, or of a deed
-    without an alternative, how surely it leads to the goal.
+    without an alternative, how surely it goes well.
 
     Raises:
         Unanswered: the deed did not happen, or the record lacks it.
@@ -62,20 +64,21 @@ def _of_plan(ride: Ride, found: Premise) -> Explanation:
     trace = found.trace
     model = ride.model(trace)
     plan = factual(model, trace)
-    share = min(plan.outcomes["done"], 1.0)
-    done = [result.joint for result in plan.results if result.rollout.outcome == "done"]
-    proven = sum(model.prior(joint) for joint in done)
+    good = [result for result in plan.results if result.rollout.outcome in WELL]
+    late = sum(result.rollout.outcome == "termination" for result in good)
+    share = min(sum(plan.outcomes[name] for name in WELL), 1.0)
+    proven = sum(model.prior(result.joint) for result in good)
     low = _bound(share, len(plan.results), proven)
     return Explanation(
         factual=plan.plan,
         counterfactual=(),
-        outcome=OutcomeEstimate("done", share),
+        outcome=OutcomeEstimate("done", min(plan.outcomes["done"], 1.0)),
         effects=(),
         causes=(),
         evidence=evidence(model, ride, plan),
         sim_time=trace.sim_time,
         arrival=arrival(trace, plan),
-        certainty=Certainty("plan", share, low, len(done), len(plan.results)),
+        certainty=Certainty("plan", share, low, len(good), len(plan.results), late),
     )
 
 

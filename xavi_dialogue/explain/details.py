@@ -39,13 +39,17 @@ class Grounds(msgspec.Struct, frozen=True):
 
 
 class Certainty(msgspec.Struct, frozen=True):
-    """How sure we are of a plan, or that a choice was better than the best alternative."""
+    """How sure we are of a plan, or that a choice was better than the best alternative.
+
+    A plan goes well where it neither collides nor loses the way.
+    """
 
     about: Literal["plan", "choice"]
-    share: float  # probability that the plan reaches its aim, or that the choice does better
+    share: float  # probability that the plan goes well, or that the choice does better
     low: float  # that probability is at least this, at 95 %
     good: int  # situations in which it does
     situations: int  # that were tried; for a choice, with both options
+    late: int = 0  # good ones in which the plan took longer than was looked ahead
 
 
 class Avoidance(msgspec.Struct, frozen=True):

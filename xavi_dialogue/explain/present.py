@@ -77,13 +77,16 @@ def of_plan(ride: Ride, destination: Destination | None = None) -> Explanation:
     model = ride.model(trace)
     plan = factual(model, trace)
     passed = ride.now - trace.sim_time
-    expected = arrival(trace, plan)
+    ends = outcome(plan)
+    expected = arrival(trace, plan) if ends.name == "done" else None
     left = None if expected is None else max(expected - passed, 0.0)
     partly = [time for _, _, time in plan.present("time")] if trace.waypoint is not None else []
+    if ends.name == "termination":
+        partly = [trace.settings.horizon]
     return Explanation(
         factual=plan.plan,
         counterfactual=(),
-        outcome=outcome(plan),
+        outcome=ends,
         effects=(),
         causes=(),
         evidence=evidence(model, ride, plan),

@@ -125,6 +125,7 @@ def _time(query: Query, found: Explanation, actor: int | None, now: float) -> Ti
         waits_for=None if waits_for is None else Vehicle(waits_for),
         soonest=Quantity(max(low - now, 0.0), "s") if spread else None,
         latest=Quantity(max(high - now, 0.0), "s") if spread else None,
+        slow=found.outcome is not None and found.outcome.name == "termination",
         least=whole(found.least) if found.least is not None and found.least >= 1.0 else None,
     )
 

@@ -124,6 +124,7 @@ def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Surenes
         loose=certainty.share - certainty.low >= 0.05,
         all=certainty.good == certainty.situations,
         none=certainty.good == 0,
+        late=Quantity(certainty.late, "count") if certainty.late else None,
         good=Quantity(certainty.good, "count"),
         situations=Quantity(certainty.situations, "count"),
     )

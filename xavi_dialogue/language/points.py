@@ -130,7 +130,8 @@ class Time:
     waits_for: Vehicle | None = None
     soonest: Quantity | None = None  # how long until then at least and at most, ...
     latest: Quantity | None = None  # ... where that is worth giving
-    least: Quantity | None = None  # it takes longer than this
+    least: Quantity | None = None  # it takes longer than this ...
+    slow: bool = False  # ... since the way there is slow, and not since it is long
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,6 +262,7 @@ class Sureness:
     loose: bool  # that is markedly less than the chance
     all: bool
     none: bool
+    late: Quantity | None  # times that it took longer than we looked ahead
     good: Quantity
     situations: Quantity
 
