@@ -5,6 +5,7 @@ would. So the decision is taken again without the vehicle. It matters where anot
 then chosen, or where what spoke for the choice is largely gone.
 """
 
+import math
 from collections.abc import Sequence
 
 from msgspec.structs import replace
@@ -27,7 +28,8 @@ def proven(
 ) -> tuple[Cause, ...]:
     """The causes that matter; where none does, the first one, marked as not necessary.
 
-    Those that cannot be tried are kept, with `necessary` left open.
+    They are ordered by how much goes with each. Those that cannot be tried are kept, with
+    `necessary` left open, and come last.
 
     Args:
         ride: the record.
@@ -39,24 +41,26 @@ def proven(
     Raises:
         Unanswered: rollouts are needed.
     """
-    tried = tuple(_tried(ride, model, cause, fact, foil) for cause in causes[:MOST])
-    kept = tuple(cause for cause in tried if cause.necessary is not False)
-    return kept or tried[:1]
+    tried = [_tried(ride, model, cause, fact, foil) for cause in causes[:MOST]]
+    kept = [one for one in tried if one[0].necessary is not False]
+    kept.sort(key=lambda one: math.inf if one[1] is None else -one[1])
+    return tuple(cause for cause, _ in kept or tried[:1])
 
 
 def _tried(
     ride: Ride, model: CausalModel, cause: Cause, fact: Intervention, foil: Intervention | None
-) -> Cause:
+) -> tuple[Cause, float | None]:
+    """A cause with what planning again without it shows, and how much [s] goes with it."""
     decision = ride.original(model.trace)
     again = ride.without(decision, cause.vehicle)
     if again is None:
-        return cause
+        return cause, None
     changes = planned(again)[:1] != planned(decision)[:1]
     gone = _gone(ride.model(again), fact, foil)
     if gone is None:
-        return replace(cause, decision_changes=changes, necessary=changes or None)
+        return replace(cause, decision_changes=changes, necessary=changes or None), None
     enough_gone = gone >= max(LEAST, SHARE * abs(_merit(fact, foil)))
-    return replace(cause, decision_changes=changes, necessary=changes or enough_gone)
+    return replace(cause, decision_changes=changes, necessary=changes or enough_gone), gone
 
 
 def _gone(other: CausalModel, fact: Intervention, foil: Intervention | None) -> float | None:
