@@ -30,7 +30,7 @@ def contrast(ride: Ride, trace: PlanTrace, foil: Actions | None, node: Actions =
         Unanswered: the foil is the plan, does not apply, lacks evidence or makes no difference.
     """
     if foil is None:
-        return _against_best(ride, trace, node)
+        return against_best(ride, trace, node)
     plan = planned(trace)
     if plan[: len(node) + len(foil)] == (*node, *foil):
         raise decline(
@@ -150,8 +150,12 @@ def to_effects(found: Sequence[ComponentEffect]) -> tuple[Effect, ...]:
     )
 
 
-def _against_best(ride: Ride, trace: PlanTrace, node: Actions) -> Explanation:
-    """Against the best alternative; without any, the plan by itself."""
+def against_best(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Explanation:
+    """Explain the plan of a decision against the best alternative, or by itself without any.
+
+    Raises:
+        Unanswered: there is too little evidence, or the two make no difference.
+    """
     model, plan = ride.model(trace), planned(trace)
     here = factual(model, trace)
     others = alternatives(model, plan[len(node)], node) if len(plan) > len(node) else []

@@ -8,13 +8,13 @@ from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.causes import LIKELY, expected_actions, holding_up
-from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
+from xavi_dialogue.explain.contrast import against_best, arrival, evidence, factual, outcome
 from xavi_dialogue.explain.deeds import did_not_happen
 from xavi_dialogue.explain.explanation import Activity, Cause, Explanation, Mechanism
 from xavi_dialogue.explain.motion import Motion, Sighting
 from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.query import QueryAction, Tense
-from xavi_dialogue.explain.ride import Ride, Unanswered, decline
+from xavi_dialogue.explain.ride import Ride, Unanswered, chose, decline
 
 RECENT = 2.0  # [s] since when something is still going on
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
@@ -35,6 +35,8 @@ def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) ->
     braked = seen.action != "speed-up"
     window = (seen.start - LEEWAY, seen.end + LEEWAY)
     causes = holding_up(model, plan, window) if braked else ()
+    if braked and not causes and wait is None and chose(trace, "stop"):
+        return replace(against_best(ride, trace), moment=seen.start)
     given_way_to = None if wait is None else wait.vehicle
     causes = proven(ride, model, _first(model, causes, given_way_to), plan)
     found = _explanation(ride, model, plan, causes, motion, seen)

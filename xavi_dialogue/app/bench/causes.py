@@ -284,7 +284,7 @@ def _nearest(trace: PlanTrace) -> int | None:
 
 def _unsure(cause: Cause) -> bool:
     """Whether an answer says that a vehicle which it names may not be necessary."""
-    return cause.decision_changes is False or getattr(cause, "necessary", None) is False
+    return cause.necessary is False
 
 
 def _what(case: Case) -> str:
