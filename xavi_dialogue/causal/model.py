@@ -293,8 +293,8 @@ def shared_out(priors: dict[Joint, float], draws: int, mass: float = 1.0) -> dic
 
 def _undrawn(prior: float, draws: int) -> float:
     """Prior mass of undrawn samples for which one drawn sample of a given prior stands."""
-    drawn = 1.0 - (1.0 - min(prior, 1.0)) ** draws
-    return prior * (1.0 - drawn) / drawn if drawn > 0.0 else 0.0
+    missed = (1.0 - min(prior, 1.0)) ** draws
+    return prior * missed / (1.0 - missed) if missed < 1.0 else 0.0
 
 
 def _choices(

@@ -18,6 +18,8 @@ Scenarios = Annotated[
     list[str] | None, typer.Option("--scenario", help="A name, or a folder; may be repeated.")
 ]
 Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one per processor.")]
+Rides = Annotated[Path, typer.Option(help="Folder of recorded rides.")]
+Page = Annotated[Path | None, typer.Option(help="Put the paper's figures into this page.")]
 
 
 def commands(show: Show) -> typer.Typer:
@@ -90,13 +92,12 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
 
     @group.command("explain")
     def _explain(
-        rides: Annotated[Path, typer.Option(help="Where recorded rides lie.")] = Path(
-            "transcripts"
-        ),
+        rides: Rides = Path("transcripts"),
+        write: Page = None,
         as_json: AsJson = False,
     ) -> None:
         """Time from a recorded decision to its explanation, and other networks beside ours."""
-        show(lambda note: explain(rides, note), as_json)
+        show(lambda note: explain(rides, write, note), as_json)
 
     @group.command("dialogue")
     def _dialogue(as_json: AsJson = False) -> None:
@@ -161,11 +162,15 @@ def fidelity(
     return replace(measure(chosen, seeds, every, _processes(jobs), note), left_out=left_out)
 
 
-def explain(rides: Path, note: Callable[[str], None]) -> "Report":
-    """Measure explaining."""
+def explain(rides: Path, write: Path | None, note: Callable[[str], None]) -> "Report":
+    """Measure explaining, and write the paper's figures into a page."""
     from xavi_dialogue.app.bench.explain import measure
+    from xavi_dialogue.app.bench.factorisations import written
 
-    return measure(rides, note)
+    found = measure(rides, note)
+    if write is not None:
+        write.write_text(written(write.read_text(encoding="utf-8"), found.paper), encoding="utf-8")
+    return found
 
 
 def dialogue() -> "Report":

@@ -13,6 +13,7 @@ from xavi_dialogue.causal.paper import PaperNetwork
 from xavi_dialogue.transports.ride_file import RecordedRide
 
 ROUNDING = 1e-9
+BEGIN, END = "<!-- factorisations: begin -->", "<!-- factorisations: end -->"
 
 
 class Beside(msgspec.Struct, frozen=True):
@@ -81,6 +82,19 @@ def table(rows: Iterable[Beside]) -> str:
     found = msgspec.structs.asdict(summary(rows))
     last = ", ".join(f"{name.replace('_', ' ')} {value}" for name, value in found.items())
     return f"{in_columns([names, *cells])}\n\n{last}"
+
+
+def written(page: str, rows: Iterable[Beside]) -> str:
+    """A page with the table between its markers.
+
+    Raises:
+        ValueError: the page has no markers.
+    """
+    before, begin, rest = page.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise ValueError(f"the page needs {BEGIN} and {END}, each on a line")
+    return f"{before}{begin}\n```text\n{table(rows)}\n```\n{end}{after}"
 
 
 def _foils(name: str, trace: PlanTrace) -> Iterator[Beside]:
