@@ -103,6 +103,26 @@ def unweighted(original):
     return lambda values, weights, share: original(values, np.ones_like(weights), share)
 
 
+def of_the_next(original):
+    def measure(network, vehicle, draws):
+        names = network.vehicles
+        other = names[(names.index(vehicle) + 1) % len(names)]
+        return replace(original(network, other, draws), vehicle=vehicle)
+
+    return measure
+
+
+def unadjusted(original):
+    def values(self, vehicle, prior):
+        every = self.columns
+        self.columns = {vehicle: every[vehicle]}
+        found = original(self, vehicle, prior)
+        self.columns = every
+        return found
+
+    return values
+
+
 MUTANTS = {
     "the sign of effects": (wrap(effects, "effects", negated), effect_sizes),
     "foil and fact change places": (
@@ -205,6 +225,11 @@ MUTANTS = {
         seen,
     ),
     "the softmax is sharper": (value(influence, "RATIONALITY", 2.0), influences),
+    "two vehicles are swapped where they decide": (
+        wrap(influence, "_measure", of_the_next),
+        influences,
+    ),
+    "the others are not adjusted for": (wrap(influence._Draws, "values", unadjusted), influences),
     "the null is its median": (value(influence, "NULL_POINT", 0.5), influences),
 }
 
