@@ -16,7 +16,7 @@ from xavi_dialogue.explain.ride import Ride, enough, planned
 
 MOST = 3  # causes that are tried, and so at most named
 LEAST = 0.5  # [s] of reward that must go with the vehicle ...
-SHARE = 0.25  # ... and this part of what the plan was better by
+SHARE = 0.25  # ... and this part of what the plan was better by than the foil
 
 
 def proven(
@@ -59,8 +59,9 @@ def _tried(
     gone = _gone(ride.model(again), fact, foil)
     if gone is None:
         return replace(cause, decision_changes=changes, necessary=changes or None), None
-    enough_gone = gone >= max(LEAST, SHARE * abs(_merit(fact, foil)))
-    return replace(cause, decision_changes=changes, necessary=changes or enough_gone), gone
+    least = LEAST if foil is None else max(LEAST, SHARE * abs(_merit(fact, foil)))
+    necessary = changes or gone >= least
+    return replace(cause, decision_changes=changes, necessary=necessary), gone
 
 
 def _gone(other: CausalModel, fact: Intervention, foil: Intervention | None) -> float | None:
@@ -86,6 +87,6 @@ def _again(other: CausalModel, intervention: Intervention) -> Intervention | Non
     return None
 
 
-def _merit(fact: Intervention, foil: Intervention | None) -> float:
-    """By how much [s] the plan is better than the foil; without one, what the plan costs."""
-    return -fact.value if foil is None else fact.value - foil.value
+def _merit(fact: Intervention, foil: Intervention) -> float:
+    """By how much [s] the plan is better than the foil."""
+    return fact.value - foil.value
