@@ -219,6 +219,7 @@ def _trajectory(way: Trajectory) -> TrajectoryPrediction:
         actions=way.actions,
         path=points(way.motion.position[there]),
         speed=numbers(way.motion.speed[there]),
+        held_up=way.held_up,
     )
 
 

@@ -16,9 +16,9 @@ from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.likelihood import likelihoods
 from planner.obstacles import NOBODY, Obstacle, Traffic
-from planner.rollout import Leg, Task
+from planner.rollout import Leg, Task, held_up
 from planner.routes import onward
-from planner.trace import Action, EgoGoal, Settings
+from planner.trace import Action, EgoGoal, HeldUp, Settings
 from planner.tracks import (
     Observed,
     aligned,
@@ -40,6 +40,7 @@ class Trajectory:
     probability: float  # given the goal
     actions: tuple[Action, ...]
     motion: Obstacle
+    held_up: tuple[HeldUp, ...] = ()  # by whom, on the way to the goal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,6 +61,7 @@ class _Way:
     waiting: float  # [s] of it, for others
     actions: tuple[Action, ...]
     motion: Obstacle
+    held_up: tuple[HeldUp, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,6 +188,7 @@ def _ways_on(
             len(solution.waits) * DT,
             solution.actions,
             _motion(task, solution, observed, others),
+            held_up(solution.legs, task.start),
         )
         for solution in solutions
     ]
@@ -199,7 +202,8 @@ def _held_up(
     for free in ways(task, starts, NOBODY, 1):
         legs = held(task, starts, free.actions, others) or free.legs
         motion = _motion(task, Solution(free.cost, legs), observed, others)
-        found.append(_Way(free.cost, 0.0, free.actions, motion))
+        kept_by = held_up(legs, task.start)
+        found.append(_Way(free.cost, 0.0, free.actions, motion, kept_by))
     return found
 
 
@@ -251,7 +255,7 @@ def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, 
     weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Trajectory(weight / sum(weights), way.actions, way.motion)
+        Trajectory(weight / sum(weights), way.actions, way.motion, way.held_up)
         for way, weight in zip(onwards, weights, strict=True)
         if weight > 0.0
     )

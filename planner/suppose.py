@@ -17,7 +17,7 @@ from planner.forward import DT, Motion
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.recognise import Belief, Trajectory, motion_along, trajectories_to
-from planner.rollout import Leg, Task, take
+from planner.rollout import Leg, Task, held_up, take
 from planner.routes import Refusal
 from planner.trace import Action, EgoGoal
 from planner.tracks import Observed, coast
@@ -143,7 +143,7 @@ def _acting(
     motion = motion_along(prospect.task, legs, prospect.observed, prospect.others)
     if actions[-1] == "stop":
         motion = _standing(motion, legs[-1])
-    way = Trajectory(1.0, tuple(actions), motion)
+    way = Trajectory(1.0, tuple(actions), motion, held_up(legs, prospect.task.start))
     return Belief(goal, 0.0 if kept is None else kept.likelihood, 1.0, (way,))
 
 

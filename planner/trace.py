@@ -88,13 +88,25 @@ class Track(msgspec.Struct, frozen=True):
     speed: tuple[float, ...]  # [m/s] [N]
 
 
-class TrajectoryPrediction(msgspec.Struct, frozen=True):
+class HeldUp(msgspec.Struct, frozen=True):
+    """A stretch of a drive, imagined or predicted, in which another vehicle held one up."""
+
+    vehicle: int
+    since: float = msgspec.field(name="from")  # [s] simulation time
+    until: float = msgspec.field(name="to")  # [s]
+    how: HoldUp
+    speed_from: float  # [m/s] that vehicle's speed at the start of the stretch
+    speed_to: float  # [m/s] and its lowest speed within it
+
+
+class TrajectoryPrediction(msgspec.Struct, frozen=True, omit_defaults=True):
     """One way in which a vehicle may reach one goal, from the scene on, at 5 Hz."""
 
     probability: float  # given the goal
     actions: tuple[Action, ...]
     path: tuple[Point, ...]  # [m] [N]
     speed: tuple[float, ...]  # [m/s] [N]
+    held_up: tuple[HeldUp, ...] = ()  # by whom, the ego among them; left out where by nobody
 
 
 class GoalPrediction(msgspec.Struct, frozen=True):
@@ -129,17 +141,6 @@ class TimedAction(msgspec.Struct, frozen=True):
 
     action: Action
     start: float  # [s] simulation time
-
-
-class HeldUp(msgspec.Struct, frozen=True):
-    """A stretch of a rollout in which another vehicle held the ego up."""
-
-    vehicle: int
-    since: float = msgspec.field(name="from")  # [s] simulation time
-    until: float = msgspec.field(name="to")  # [s]
-    how: HoldUp
-    speed_from: float  # [m/s] that vehicle's speed at the start of the stretch
-    speed_to: float  # [m/s] and its lowest speed within it
 
 
 class Rollout(msgspec.Struct, frozen=True):
@@ -234,8 +235,9 @@ def encode(trace: PlanTrace) -> bytes:
 def fitted(trace: PlanTrace) -> PlanTrace:
     """The trace without the lines that it has no room for.
 
-    Where it is larger than MAX_BYTES, the less probable predictions lose path and speed, then the
-    rollouts recorded last, then all predictions; what rollouts came to, and why, always stays.
+    Where it is larger than MAX_BYTES, the less probable predictions lose path, speed and who
+    holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
+    what rollouts came to, and why, always stays.
     """
     for below in IMPROBABLE:
         if len(encode(trace)) > MAX_BYTES:
@@ -258,7 +260,7 @@ def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
 
     def stripped(goal: GoalPrediction) -> GoalPrediction:
         ways = (
-            msgspec.structs.replace(way, path=(), speed=())
+            msgspec.structs.replace(way, path=(), speed=(), held_up=())
             if goal.probability * way.probability <= below
             else way
             for way in goal.trajectories

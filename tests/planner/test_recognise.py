@@ -149,6 +149,33 @@ def test_who_waits_inside_the_junction_turns_left(standing: float) -> None:
     assert probability(found, "exit-left") > 0.7
 
 
+def test_who_waits_to_turn_left_is_foreseen_to_let_the_oncoming_pass() -> None:
+    world = moment("s2", {0: EGO["s2"], 1: waiting(2.0), 2: oncoming()}, time=5.0)
+    (left,) = [b for b in predict(frame("s2", Settings()), world)[1] if b.goal.kind == "exit-left"]
+    for way in left.trajectories:
+        first = way.held_up[0]
+        assert (first.vehicle, first.how) == (2, "right-of-way")
+        assert first.since == 5.0 < first.until
+        after = round((first.until - 5.0) / 0.2)
+        assert float(np.max(way.motion.speed[: after - 1])) < 2.0
+
+
+def test_the_ego_is_one_of_those_who_hold_up() -> None:
+    line = roads("s1").line(row("s1", "main_in_0", "straight"))
+    here = before_end("s1", "main_in_0", 80.0)
+    ego = driven(line, here, [4.0] * 10)
+    follower = driven(line, here - LENGTH - 12.0, [10.0, 9.5, 9.0, 8.5, 8.0])
+    found = predict(frame("s1", Settings()), moment("s1", {0: ego, 1: follower}))[1]
+    (onward,) = [belief for belief in found if belief.goal.kind == "continue"]
+    assert {(h.vehicle, h.how) for h in onward.trajectories[0].held_up} == {(0, "leader")}
+
+
+def test_on_a_free_road_nobody_holds_up() -> None:
+    ways = [way for belief in beliefs("s1", {1: changed(1)})[1] for way in belief.trajectories]
+    assert ways
+    assert all(way.held_up == () for way in ways)
+
+
 def test_standing_inside_a_junction_is_nobodys_goal() -> None:
     assert probability(beliefs("s2", {1: waiting(4.0), 2: oncoming()})[1], "stop") == 0.0
 

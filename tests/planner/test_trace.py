@@ -59,6 +59,19 @@ def test_hold_ups_are_written_with_from_and_to(trace: PlanTrace) -> None:
         assert set(stretch) == {"vehicle", "from", "to", "how", "speed_from", "speed_to"}
 
 
+def test_who_holds_a_predicted_vehicle_up_is_written_where_somebody_does(trace: PlanTrace) -> None:
+    ways = [way for goal in trace.predictions[0].goals for way in goal.trajectories]
+    plain = json.loads(encode(trace))["predictions"][0]["goals"]
+    written = [way for goal in plain for way in goal["trajectories"]]
+    assert [len(way.get("held_up", ())) for way in written] == [len(way.held_up) for way in ways]
+    held = msgspec.structs.replace(ways[0], held_up=trace.rollouts[0].held_up[:1])
+    goal = msgspec.structs.replace(trace.predictions[0].goals[0], trajectories=(held,))
+    known = msgspec.structs.replace(trace.predictions[0], goals=(goal,))
+    other = msgspec.structs.replace(trace, predictions=(known,))
+    assert held.held_up
+    assert decode(encode(other)) == other
+
+
 def test_the_id_is_sixteen_hex_digits_of_the_content(trace: PlanTrace) -> None:
     assert len(trace.trace_id) == 16
     int(trace.trace_id, 16)
