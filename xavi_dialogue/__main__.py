@@ -16,6 +16,7 @@ import typer
 from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
+from xavi_dialogue.app.reproduce.command import command as reproduce
 
 if TYPE_CHECKING:
     from sim.scenario import Scenario
@@ -228,6 +229,7 @@ def _measured(measure: Measure, as_json: bool) -> None:
 
 
 app.add_typer(commands(_measured), name="bench")
+app.command("reproduce")(reproduce(_measured))
 
 
 @contextlib.contextmanager

@@ -106,6 +106,17 @@ def test_table_3(effects: int, causes: int, rest: str) -> None:
     assert say(found, effects, causes) == start + rest
 
 
+def test_effects_come_in_the_order_of_the_paper() -> None:
+    """Largest first in their own units, whatever they are worth to the planner."""
+    found = explanation(("continue",), "done", 0.8, (LESS_TURNING, SLOWER, MORE_JERK), (ONE,))
+    for effects, rest in (
+        (1, "slower because"),
+        (2, "slower and with more jerk because"),
+        (3, "slower and with more jerk and with less angular acceleration because"),
+    ):
+        assert f"reached the goal {rest}" in say(found, effects)
+
+
 def test_the_raw_sentence_is_that_of_the_paper() -> None:
     """The example of section 3.4, before post-processing."""
     found = explanation(

@@ -44,11 +44,13 @@ class PaperContent:
 
 
 def select_paper(found: Explanation, max_effects: int, max_causes: int) -> PaperContent:
-    """The counterfactual, its first effects and its first causes.
+    """The counterfactual, its largest effects and its first causes.
 
-    Effects are differences between journeys that arrive: other outcomes have none.
+    Effects are differences between journeys that arrive: other outcomes have none. The paper
+    puts them "in decreasing order by the absolute value" (below Equation 8), in their own units.
     """
     assert found.outcome is not None
+    largest = sorted(found.effects, key=lambda effect: -abs(effect.delta))
     outcome = found.outcome
     struck = outcome.collided_with
     return PaperContent(
@@ -60,7 +62,7 @@ def select_paper(found: Explanation, max_effects: int, max_causes: int) -> Paper
         ),
         effects=tuple(
             PaperEffect(effect.delta, Term("component", effect.component))
-            for effect in (found.effects[:max_effects] if outcome.name == "done" else ())
+            for effect in (largest[:max_effects] if outcome.name == "done" else ())
         ),
         causes=tuple(
             PaperCause(Vehicle(cause.vehicle), _terms(cause.actions), cause.probability)

@@ -1,0 +1,140 @@
+"""One ride of a story: what is said of its foils, what speaks for it, and what SUMO makes of it."""
+
+from collections.abc import Sequence
+from contextlib import suppress
+
+import msgspec
+from msgspec.structs import replace
+
+from planner.driver import Driver
+from planner.trace import Action, EgoGoal, PlanTrace
+from sim.network import Network
+from sim.scenario import Scenario, load
+from sim.sumo import Simulation
+from xavi_dialogue.app.bench.forking import ChildFailed
+from xavi_dialogue.app.bench.resimulate import Aim, Happened, drive_foil
+from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.app.reproduce.claims import Claim, claim_of
+from xavi_dialogue.app.reproduce.rows import FOILS, Foil, rows_of
+from xavi_dialogue.app.reproduce.weighing import Weighed, weigh
+from xavi_dialogue.app.ride import network_of, settings_of, start
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.explain.explanation import Explanation, Reason
+from xavi_dialogue.language.context import SpeechContext
+from xavi_dialogue.language.realise import realise
+
+
+class Wording(msgspec.Struct, frozen=True):
+    """A sentence with at most so many effects and causes."""
+
+    effects: int
+    causes: int
+    text: str
+    claim: Claim
+
+
+class Told(msgspec.Struct, frozen=True):
+    """What came of asking about one foil."""
+
+    foil: Foil
+    seed: int
+    answer: str = ""  # or the refusal in words
+    declined: Reason | None = None
+    decided: float | None = None  # [s] when the decision explained was taken
+    wordings: tuple[Wording, ...] = ()  # one for each size that a row of the foil has
+    weighed: Weighed | None = None
+    happened: Happened | None = None  # in SUMO; None: could not be driven
+    error: str | None = None  # of a ride that broke off
+
+
+def tell(task: tuple[str, int]) -> tuple[Told, ...]:
+    """Drive a scenario with a seed, and ask about its foils; errors are told in the result."""
+    name, seed = task
+    foils = tuple(foil for foil in FOILS if foil.scenario == name)
+    try:
+        return _tell(load(name), seed, foils)
+    except Exception as error:
+        return broken(task, f"{type(error).__name__}: {error}")
+
+
+def broken(task: tuple[str, int], error: str) -> tuple[Told, ...]:
+    """What is told of a ride that broke off."""
+    name, seed = task
+    return tuple(Told(foil, seed, error=error) for foil in FOILS if foil.scenario == name)
+
+
+def _tell(scenario: Scenario, seed: int, foils: tuple[Foil, ...]) -> tuple[Told, ...]:
+    network = network_of(scenario)
+    conversation = Conversation(make_mind(), planner_for(network))
+    with start(scenario, seed, network) as ride:
+        at = drive_to(ride, conversation, None)
+    told = tuple(_ask(conversation, foil, seed, at, network) for foil in foils)
+    happened = _drive(scenario, seed, network, told)
+    return tuple(replace(one, happened=happened.get(one.foil.action)) for one in told)
+
+
+def _ask(conversation: Conversation, foil: Foil, seed: int, at: float, network: Network) -> Told:
+    reply = conversation.ask(foil.question, at, "paper")
+    if reply.explanation is None:
+        return Told(foil, seed, reply.text, reply.reason)
+    dialogue = conversation.dialogue
+    known = (*dialogue.traces, *dialogue.planned.values())
+    trace = next(one for one in known if one.trace_id == reply.trace_id)
+    return Told(
+        foil,
+        seed,
+        reply.text,
+        decided=reply.explanation.sim_time,
+        wordings=_wordings(reply, foil),
+        weighed=_weighed(reply.explanation, trace, dialogue.traces, foil, network),
+    )
+
+
+def _wordings(reply: Reply, foil: Foil) -> tuple[Wording, ...]:
+    """The explanation put into words in each size that the rows of its foil have."""
+    assert reply.query is not None
+    assert reply.explanation is not None
+    found = []
+    for effects, causes in dict.fromkeys((row.effects, row.causes) for row in rows_of(foil)):
+        context = SpeechContext(style="paper", max_effects=effects, max_causes=causes)
+        text = realise(reply.query, reply.explanation, context).text
+        claim = claim_of(reply.explanation, effects, causes)
+        found.append(Wording(effects, causes, text, claim))
+    return tuple(found)
+
+
+def _weighed(
+    found: Explanation,
+    trace: PlanTrace,
+    traces: Sequence[PlanTrace],
+    foil: Foil,
+    network: Network,
+) -> Weighed | None:
+    before = [one for one in traces if one.sim_time < trace.sim_time]
+    return weigh(trace, before, found.factual, foil.action, rows_of(foil), network)
+
+
+def _drive(
+    scenario: Scenario, seed: int, network: Network, told: Sequence[Told]
+) -> dict[Action, Happened]:
+    """What SUMO makes of the foils from the very decisions that were explained.
+
+    One that cannot be driven is left out.
+    """
+    asked = [one for one in told if one.decided is not None]
+    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
+    driver = Driver(network, goal, settings_of(scenario), seed)
+    found: dict[Action, Happened] = {}
+    with Simulation(scenario, seed) as world:
+        scene = world.scene()
+        last = max((one.decided for one in asked if one.decided is not None), default=-1.0)
+        while scene.time <= last + EPSILON:
+            driven = driver.step(scene, scenario.step)
+            for one in asked if driven.trace is not None else ():
+                if driven.trace is not None and driven.trace.sim_time == one.decided:
+                    aim, foil = Aim.of(network, driven.trace), one.foil.action
+                    with suppress(ChildFailed):
+                        found[foil] = drive_foil(world, driver, aim, foil, scene, scenario.step)
+            scene = world.step(driven.command)
+    return found
