@@ -113,14 +113,14 @@ def of_the_next(original):
 
 
 def unadjusted(original):
-    def values(self, vehicle, prior):
+    def fit(self, vehicle):
         every = self.columns
         self.columns = {vehicle: every[vehicle]}
-        found = original(self, vehicle, prior)
+        found = original(self, vehicle)
         self.columns = every
         return found
 
-    return values
+    return fit
 
 
 MUTANTS = {
@@ -229,7 +229,7 @@ MUTANTS = {
         wrap(influence, "_measure", of_the_next),
         influences,
     ),
-    "the others are not adjusted for": (wrap(influence._Draws, "values", unadjusted), influences),
+    "the others are not adjusted for": (wrap(influence._Draws, "fit", unadjusted), influences),
     "the null is its median": (value(influence, "NULL_POINT", 0.5), influences),
 }
 

@@ -45,14 +45,14 @@ class Influence:
 
     vehicle: int
     bits: float  # mutual information of option and the vehicle's choice
-    null: float  # its 95 % point by chance alone
+    null: float | None  # its 95 % point by chance alone; None where it is none at all anyway
     options: tuple[float, ...]  # p(o), averaged over the vehicle's choices
     choices: tuple[ChoiceInfluence, ...]  # least divergent first; ties: the likelier first
 
     @property
     def significant(self) -> bool:
         """Whether it exceeds what chance would produce."""
-        return self.bits >= MIN_BITS and self.bits > self.null + 1e-9
+        return self.null is not None and self.bits > self.null + 1e-9
 
 
 def influence(
@@ -97,36 +97,59 @@ class _Draws:
         self._firsts: NDArray[np.int64] = np.cumsum(draws) - draws  # [K] first draw of each
         self._sources = np.repeat(np.arange(len(draws)), draws)[shuffled]  # [N, PERMUTATIONS]
 
-    def values(self, vehicle: int, prior: Array) -> Array:
-        """Q(o, c) as observed and as permuted, [1 + PERMUTATIONS, number of choices]."""
+    def fit(self, vehicle: int) -> "_Fit":
+        """The additive model, with what one vehicle's choices add to the others'."""
+        mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
+        if wanted.shape[1] == 1:  # it has no choice
+            return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
         ones = np.ones((len(self.rewards), 1))
         others = [columns for name, columns in self.columns.items() if name != vehicle]
-        design, wanted = np.hstack([ones, *others]), self.columns[vehicle]
+        design = np.hstack([ones, *(columns for columns in others if columns.shape[1] > 1)])
         root = self.root[:, None]
         targets = np.hstack([wanted, self.rewards[:, None]])
         fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root * targets)
         rest = targets - design @ fitted
         rest[np.abs(rest) < 1e-9] = 0.0
-        mean = float(np.sum(self.root**2 * self.rewards))
-        if not np.any(rest[:, -1]):
-            return np.full((1 + PERMUTATIONS, len(prior)), mean)
-        slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
         residual = rest[:, -1]
-        permuted = np.add.reduceat(residual[self._sources], self._firsts, axis=0) / self._draws
-        shifts = slopes @ np.column_stack((residual, permuted))
-        return np.asarray(mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
+        if not np.any(residual):
+            return _Fit(mean, np.zeros(wanted.T.shape), residual)
+        slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
+        return _Fit(mean, slopes, residual)
+
+    def permuted(self, residual: Array) -> Array:
+        """Residuals [K] shuffled among the draws, in the mean of each sample [K, P]."""
+        found: Array = np.add.reduceat(residual[self._sources], self._firsts, axis=0)
+        return found / self._draws
+
+
+@dataclass(frozen=True, slots=True)
+class _Fit:
+    """What the choices of one vehicle add to the reward of one option."""
+
+    mean: float  # expected reward
+    slopes: Array  # [choices, K]
+    residual: Array  # [K] what the others leave of the reward
+
+    def values(self, residuals: Array, prior: Array) -> Array:
+        """Q(o, c) for columns of residuals [K, M]: [M, choices]."""
+        shifts = self.slopes @ residuals
+        return np.asarray(self.mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
 
 
 def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influence:
     choices = model.choices(vehicle)
     prior = np.array(list(choices.values()))
-    values = np.stack([option.values(vehicle, prior) for option in draws], axis=1)
-    weights = np.exp(RATIONALITY * (values - np.max(values, axis=1, keepdims=True)))
-    chances = weights / np.sum(weights, axis=1, keepdims=True)  # [1 + P, options, choices]
-    pooled = chances @ prior  # [1 + P, options]
-    ratio = np.log2(np.maximum(chances, 1e-300) / np.maximum(pooled[:, :, None], 1e-300))
-    bits = np.sum(chances * ratio, axis=1) @ prior
-    null = np.sort(bits[1:])[int(NULL_POINT * PERMUTATIONS)]
+    fits = [option.fit(vehicle) for option in draws]
+    observed = [fit.values(fit.residual[:, None], prior) for fit in fits]
+    found, chances, pooled = _information(np.stack(observed, axis=1), prior)
+    null = None
+    if found[0] >= MIN_BITS:
+        shuffled = [
+            fit.values(option.permuted(fit.residual), prior)
+            for option, fit in zip(draws, fits, strict=True)
+        ]
+        bits, _, _ = _information(np.stack(shuffled, axis=1), prior)
+        null = float(np.sort(bits)[int(NULL_POINT * PERMUTATIONS)])
     details = [
         ChoiceInfluence(
             choice,
@@ -139,11 +162,25 @@ def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influ
     details.sort(key=lambda d: (round(d.divergence, 6), -d.probability, d.choice))
     return Influence(
         vehicle,
-        max(float(bits[0]), 0.0),
-        float(null),
+        max(float(found[0]), 0.0),
+        null,
         tuple(pooled[0].tolist()),
         tuple(details),
     )
+
+
+def _information(values: Array, prior: Array) -> tuple[Array, Array, Array]:
+    """The mutual information of option and choice in bits [M], p(o | c) and p(o).
+
+    Args:
+        values: Q(o, c), [M, options, choices].
+        prior: p(c), [choices].
+    """
+    weights = np.exp(RATIONALITY * (values - np.max(values, axis=1, keepdims=True)))
+    chances = weights / np.sum(weights, axis=1, keepdims=True)
+    pooled = chances @ prior
+    ratio = np.log2(np.maximum(chances, 1e-300) / np.maximum(pooled[:, :, None], 1e-300))
+    return np.sum(chances * ratio, axis=1) @ prior, chances, pooled
 
 
 def divergence(p: Array, q: Array) -> float:
