@@ -3,11 +3,13 @@
 from sim.scene import EGO
 from xavi_dialogue.explain.actions import same
 from xavi_dialogue.explain.explanation import Facts, NoExplanation
-from xavi_dialogue.explain.query import QueryAction
+from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Deed, Ride, Unanswered, planned
 
 #: Descriptions that are read off the recorded speeds and not off the planner's choices.
 DRIVING: tuple[QueryAction, ...] = ("slow-down", "speed-up", "give-way", "stop")
+HALTS = frozenset[QueryAction](("stop", "give-way"))
+NO_CHOICE = "that is no choice of its own: it follows from the road and from the others on it"
 #: Deeds that are told from driving on.
 MANOEUVRES: tuple[QueryAction, ...] = (
     *("change-left", "change-right", "exit-left", "exit-right", "continue-next-exit", "stop"),
@@ -21,13 +23,18 @@ def happened(ride: Ride, action: QueryAction) -> Deed | None:
 
 
 def did_not_happen(ride: Ride, asked: tuple[QueryAction, ...]) -> Unanswered:
-    """The refusal where the ego did not do what the question says, with what it did instead."""
+    """The refusal where the ego did not do what the question says, with what it did instead.
+
+    Facts: `happened` and since when, where it has done more than driving on; `planned` where it
+    means to do it yet, which can then be asked about.
+    """
     facts: Facts = {"vehicle": EGO, "asked": asked, "did": False}
-    deed = ride.manoeuvre
-    if deed is not None:
-        facts |= {"happened": (deed.action,), "time": deed.time}
-    if ride.traces and any(same(action, step) for action in asked for step in planned(ride.latest)):
+    facts |= _instead(ride, asked)
+    expected = [a for a in asked if a != "give-way"]  # which no plan foresees as such
+    if ride.traces and any(same(a, step) for a in expected for step in planned(ride.latest)):
         facts["planned"] = True
+        ahead = (Query(type="why", factual=asked, tense="future"),)
+        return Unanswered(NoExplanation(reason="did-not-happen", facts=facts, suggestions=ahead))
     return Unanswered(NoExplanation(reason="did-not-happen", facts=facts))
 
 
@@ -39,3 +46,26 @@ def was_done(ride: Ride, foil: tuple[QueryAction, ...]) -> Unanswered | None:
     facts: Facts = {"vehicle": EGO, "asked": foil, "did": True}
     facts |= {"happened": (deed.action,), "time": deed.time}
     return Unanswered(NoExplanation(reason="did-not-happen", facts=facts))
+
+
+def no_choice(ride: Ride, undone: tuple[QueryAction, ...]) -> Unanswered:
+    """The refusal to undo what the ego did without choosing it, which can be explained."""
+    facts: Facts = {"vehicle": EGO, "asked": undone, "undone": True, "reason": NO_CHOICE}
+    facts["time"] = ride.now
+    why = (Query(type="why", factual=undone),)
+    return Unanswered(NoExplanation(reason="not-applicable", facts=facts, suggestions=why))
+
+
+def _instead(ride: Ride, asked: tuple[QueryAction, ...]) -> Facts:
+    """What comes nearest to what did not happen, and when."""
+    if asked and all(action in DRIVING for action in asked):
+        nearest: tuple[QueryAction, ...] = ("slow-down",) if set(asked) & HALTS else ()
+        motion = ride.motion(EGO)
+        seen = [found for action in nearest if (found := motion.last(action)) is not None]
+        return {"happened": (seen[0].action,), "time": seen[0].start} if seen else {}
+    deed = ride.manoeuvre
+    if deed is None:
+        return {}
+    if deed.action == "continue":
+        return {"happened": (deed.action,)}
+    return {"happened": (deed.action,), "time": deed.time}

@@ -1,9 +1,14 @@
-"""Which way: "change lanes" names no side, and the record knows which one is meant."""
+"""What a question leaves open and the record settles: which side is meant, and whether it is over.
+
+"Change lanes" names no side; and "why did you not go straight on?" is about the present as long as
+nothing was done yet but driving on.
+"""
 
 from collections.abc import Callable
 
 from msgspec.structs import replace
 
+from xavi_dialogue.explain.actions import STRAIGHT
 from xavi_dialogue.explain.deeds import happened
 from xavi_dialogue.explain.motion import foresees
 from xavi_dialogue.explain.query import Query, QueryAction
@@ -19,10 +24,12 @@ MIRRORED: dict[QueryAction, QueryAction] = {
 
 
 def directed(query: Query, ride: Ride) -> Query:
-    """The query with the side on which it happened, where the question names none.
+    """The query with the side on which it happened, and with the tense of what is under way.
 
-    What is only asked about keeps its side: nothing in the record tells which one is meant.
+    A foil without a side is on the one that was taken; else, of the ego's, on the one on which it
+    was possible.
     """
+    query = _present(query, ride)
     if query.underspecified != "direction":
         return query
     known = _known(query, ride)
@@ -30,8 +37,34 @@ def directed(query: Query, ride: Ride) -> Query:
     def turned(actions: tuple[QueryAction, ...] | None) -> tuple[QueryAction, ...] | None:
         return None if actions is None else tuple(_turn(action, known) for action in actions)
 
-    foil = turned(query.counterfactual) if query.negated else query.counterfactual
-    return replace(query, factual=turned(query.factual), counterfactual=foil)
+    factual, foil = turned(query.factual), query.counterfactual
+    if query.negated or query.factual is None:
+        foil = turned(foil)
+        if foil == query.counterfactual and foil and _ours(query) and not query.negated:
+            possible = _possible(ride)
+            foil = tuple(_turn(a, possible) if not known(a) else a for a in foil)
+    return replace(query, factual=factual, counterfactual=foil)
+
+
+def _present(query: Query, ride: Ride) -> Query:
+    """The query in the present, where it asks why not, and the ego has but driven on so far."""
+    past = query.type == "why_not" and query.tense == "past" and _ours(query)
+    if not past or query.factual or not query.counterfactual or ride.ended:
+        return query
+    deed = ride.manoeuvre
+    if deed is not None and (deed.action != "continue" or query.counterfactual[0] not in STRAIGHT):
+        return query
+    return replace(query, tense="present")
+
+
+def _ours(query: Query) -> bool:
+    return vehicle_of(query) == 0 or query.actor == "ego"
+
+
+def _possible(ride: Ride) -> Callable[[QueryAction], bool]:
+    """Tells whether a decision of the ego had an action to choose from."""
+    options = {a for t in ride.traces if t.under_way is None for a in ride.model(t).options()}
+    return lambda action: action in options
 
 
 def _turn(action: QueryAction, known: Callable[[QueryAction], bool]) -> QueryAction:

@@ -4,11 +4,13 @@ from dataclasses import dataclass
 
 from planner.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions
-from xavi_dialogue.explain.actions import means, same, to_macros
+from xavi_dialogue.explain.actions import STRAIGHT, means, same, to_macros
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened, was_done
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Deed, Ride, chose, planned
 from xavi_dialogue.explain.slowing import decision_of
+
+TURNS: tuple[QueryAction, ...] = ("exit-left", "exit-right", "continue-next-exit")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,10 +42,10 @@ def about_foil(ride: Ride, query: Query) -> Premise:
     """The decision at which a foil was an alternative.
 
     That is the one of the premise; where the question names no deed and the foil did not apply
-    there, the last one at which it did.
+    there, the last one at which it did. Which way to go is asked of the last turn, though.
 
     Raises:
-        Unanswered: as for the premise, or the foil is what was done.
+        Unanswered: as for the premise, or the foil is what was done or is yet to be done.
     """
     found = premise(ride, query)
     foil = query.counterfactual
@@ -52,6 +54,12 @@ def about_foil(ride: Ride, query: Query) -> Premise:
     done = was_done(ride, foil)
     if done is not None:
         raise done
+    turned = found.deed is not None and found.deed.action in TURNS
+    if turned and foil[0] in (*TURNS, *STRAIGHT):
+        return found
+    on = found.deed is None or found.deed.action == "continue"
+    if on and foil[0] in TURNS and len(foil) == 1 and foil[0] in planned(ride.latest):
+        raise did_not_happen(ride, foil)
     if _open(ride, found.trace, foil):
         return found
     others = [t for t in ride.traces if _open(ride, t, foil) and not _begins(t, foil)]
@@ -61,10 +69,9 @@ def about_foil(ride: Ride, query: Query) -> Premise:
 def _premise_of(ride: Ride, action: QueryAction, query: Query) -> Premise:
     deed = happened(ride, action)
     if query.tense != "past" and (deed is None or deed.ended is not None):
-        trace = ride.latest
-        for depth, step in enumerate(planned(trace)):
-            if same(action, step) and trace.under_way is None:
-                return Premise(trace, None, planned(trace)[:depth])
+        ahead = _ahead(ride, action)
+        if ahead is not None:
+            return ahead
     if deed is None and action in DRIVING:
         return Premise(decision_of(ride, (action,), query.tense), None)
     if deed is None:
@@ -72,6 +79,17 @@ def _premise_of(ride: Ride, action: QueryAction, query: Query) -> Premise:
     if query.tense == "future" and deed.ended is not None:
         raise did_not_happen(ride, query.factual or ())
     return Premise(ride.choice_of(deed), deed)
+
+
+def _ahead(ride: Ride, action: QueryAction) -> Premise | None:
+    """The last free decision for what the latest one plans; none is free within a manoeuvre."""
+    for trace in reversed(ride.traces):
+        depths = [k for k, step in enumerate(planned(trace)) if same(action, step)]
+        if not depths:
+            break
+        if trace.under_way is None:
+            return Premise(trace, None, planned(trace)[: depths[0]])
+    return None
 
 
 def _open(ride: Ride, trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:

@@ -7,7 +7,7 @@ the earlier turn does not supply what is missing.
 import msgspec
 
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.language.readings import Reading
+from xavi_dialogue.language.readings import INFLUENCE, Reading
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 #: Types whose counterfactual is what they ask about.
@@ -29,6 +29,8 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
     query = reading.query
     if reading.rule in LEANING:
         return _lean(reading, previous) if previous is not None else _alone(reading)
+    if query.event == INFLUENCE and not query.factual:
+        return _laid_to(query, previous)
     if reading.anaphoric or reading.elided:
         if previous is None:
             return _pointed_at(reading)
@@ -70,6 +72,22 @@ def _pointed_at(reading: Reading) -> Query | None:
     if reading.anaphoric and query.type == "why" and query.hypothesised_cause is None:
         return query
     return None
+
+
+def _laid_to(query: Query, previous: Query | None) -> Query:
+    """What a vehicle had to do with what was spoken of; by itself, with what was just done."""
+    if previous is None or not previous.factual or previous.actor != "ego":
+        return query
+    cause = query.hypothesised_cause
+    if cause == "vehicle:it":
+        cause = previous.hypothesised_cause or cause
+    return _refer(
+        query,
+        factual=previous.factual,
+        hypothesised_cause=cause,
+        tense=previous.tense,
+        underspecified=previous.underspecified,
+    )
 
 
 def _supply_actions(reading: Reading, previous: Query) -> Query:

@@ -29,6 +29,8 @@ from xavi_dialogue.language.slots import (
 from xavi_dialogue.language.tense import tense_for
 from xavi_dialogue.language.tokens import AUXILIARIES, WEAK, Token
 
+#: `Query.event` where it is asked what a vehicle had to do with it, rather than whether.
+INFLUENCE = "influence"
 #: What the clauses of a question are, by start rule and clause rule.
 _ROLES: dict[str, dict[str, str]] = {
     "why": {"said": "factual", "contrast": "counterfactual", "own": "factual"},
@@ -182,6 +184,11 @@ def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     because = first(tree, "because")
     if because and (cause := first(because, "actor")):
         fields["hypothesised_cause"] = actor(cause)
+        if "WHY" in terminals(tree):
+            fields["event"] = INFLUENCE
+    if "INVOLVED" in terminals(tree):
+        named = [name for c in children(tree, "actor") if (name := actor(c)) != "vehicle:it"]
+        return {"event": INFLUENCE, "hypothesised_cause": named[-1] if named else "vehicle:it"}
     if "MADE" in terminals(tree):
         causes = [actor(c) for c in children(tree, "actor")]
         fields["hypothesised_cause"] = causes[-1]
