@@ -107,11 +107,12 @@ def _row(row: RowFound, found: FoilFound) -> Iterator[str]:
         yield from map(_said, row.ours)
     else:
         yield "    not supported"
+    if 2 * row.borne_out < found.seeds:
         yield from (f"      {figures}" for figures in _against(row, found.grounds))
 
 
 def _against(row: RowFound, grounds: Grounds | None) -> Iterator[str]:
-    """The figures that speak against a row."""
+    """The figures behind a row that is not borne out, or by few seeds."""
     if grounds is None:
         return
     if row.claim.outcome == "collision":
