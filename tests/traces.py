@@ -45,6 +45,7 @@ class Way:
     actions: Actions
     probability: float = 1.0
     speed: tuple[float, ...] = (10.0, 10.0, 10.0)
+    held_up: tuple[HeldUp, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -228,6 +229,7 @@ def _prediction(vehicle: int, known: tuple[Aim, ...]) -> VehiclePrediction:
                         way.actions,
                         tuple((float(k), 0.0) for k in range(len(way.speed))),
                         way.speed,
+                        way.held_up,
                     )
                     for way in aim.ways
                 ),

@@ -409,7 +409,7 @@ def test_what_a_track_shows_and_the_goal_behind_it() -> None:
 @pytest.mark.parametrize(
     ("probability", "sure", "chance"),
     [
-        (1.0, "as sure as I can be", "100 %"),
+        (1.0, "almost certain", "over 95 %"),
         (0.999, "almost certain", "over 95 %"),
         (0.8, "quite sure", "80 %"),
         (0.5, "only fairly sure", "50 %"),

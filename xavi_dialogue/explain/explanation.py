@@ -121,7 +121,9 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
       `decision_changes` tells whether the two plans differ.
     - Why or what about another vehicle: `activity` holds what it is expected to do, or what its
       track shows (probability None); `destination` the goal under which that is rational;
-      `rival` what goes with another goal that is nearly as probable.
+      `rival` what goes with another goal that is nearly as probable; where it is seen to brake or
+      stand, the causes are those it gives way to or has in its way, the ego (0) among them, with
+      the probability of that over its goals and ways as the mechanism's share.
     - Where: `destination`, and arrival 0 once the ego is there.
     - When: `moment`, with `span` where it is only expected, or `arrival` for the way to the goal;
       `least` where no more is known than that it takes longer. With `activity` standing, `moment`

@@ -4,6 +4,7 @@ from msgspec.structs import replace
 
 from planner.trace import Action, PlanTrace
 from xavi_dialogue.causal.model import CausalModel, Choice
+from xavi_dialogue.explain import hindered
 from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
 from xavi_dialogue.explain.motion import foresees
@@ -46,7 +47,9 @@ def what(query: Query, ride: Ride) -> Explanation:
     trace = last_with(ride, vehicle)
     seen = motion.sightings()
     if query.tense != "past" or not seen:
-        return _expectation(ride, trace, vehicle, ())
+        found = _expectation(ride, trace, vehicle, ())
+        present = query.tense == "present"
+        return hindered.at_present(found, ride, vehicle) if present else found
     actions = tuple(s.action for s in seen)
     activity = Activity(vehicle, actions[-2:], None, motion.speed[-1], motion.trend)
     return Explanation(
@@ -64,7 +67,7 @@ def what(query: Query, ride: Ride) -> Explanation:
 
 
 def why(query: Query, ride: Ride) -> Explanation:
-    """Why a vehicle does what it does: the goal under which that is rational."""
+    """Why a vehicle does what it does: its goal that makes it rational, and who is in its way."""
     return _why(query, ride, actor_of(query, ride), query.factual or ())
 
 
@@ -184,13 +187,23 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
         last = max((s for s in found if s), key=lambda s: s.end)
         known = [t for t in ride.traces if t.sim_time >= last.end and prediction(t, vehicle)]
         trace = known[0] if known else last_with(ride, vehicle)
-        return _expectation(ride, trace, vehicle, asked, last.start)
+        explained = _expectation(ride, trace, vehicle, asked, last.start)
+        if query.tense == "present" and last.action in hindered.BRAKING:
+            return hindered.at_present(explained, ride, vehicle)
+        return hindered.behind(explained, ride, vehicle, last)
     trace = last_with(ride, vehicle)
     model = ride.model(trace)
-    chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
+    ways = matching(model, vehicle, asked)
+    chance = sum(model.choices(vehicle)[choice] for choice in ways)
     if asked and (query.tense == "past" or chance < EXPECTED):
         raise _not_seen(ride, trace, vehicle, asked, chance)
-    return _expectation(ride, trace, vehicle, asked)
+    expected = _expectation(ride, trace, vehicle, asked)
+    if not asked:
+        present = query.tense == "present"
+        return hindered.at_present(expected, ride, vehicle) if present else expected
+    if not set(asked) & set(hindered.BRAKING):
+        return expected
+    return hindered.foreseen(expected, ride, trace, vehicle, ways)
 
 
 def _not_seen(

@@ -10,6 +10,7 @@ from typing import Literal
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points
+from xavi_dialogue.language.hindrance import in_the_way
 from xavi_dialogue.language.insight import insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
 from xavi_dialogue.language.points import (
@@ -78,6 +79,8 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
     actions, probability = _expected(found)
     done = max((i + 1 for i, action in enumerate(actions) if action in deed), default=0)
     aims = actions[done:]
+    held = in_the_way(query.tense, found, actor, aims)
+    standing = found.activity is not None and found.activity.trend == "standing"
     return Motive(
         vehicle=Vehicle(actor),
         past=query.tense == "past",
@@ -88,6 +91,9 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
         probability=1.0 if probability is None else probability,
         chance=None if probability is None else Quantity(probability, "probability"),
         more=budget.more,
+        held=held,
+        waits=standing and query.tense == "present" and (not deed or "stop" in deed),
+        ahead=query.tense == "future" or (bool(deed) and found.moment is None),
     )
 
 
@@ -169,4 +175,5 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         arrived=found.arrival == 0.0,
         outcome=found.outcome.name if found.outcome else None,
         gone=Quantity(found.seen, "clock") if gone and found.seen is not None else None,
+        held=None if mine or tense != "present" else in_the_way(query.tense, found, actor, ()),
     )

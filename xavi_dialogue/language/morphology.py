@@ -219,9 +219,9 @@ def quantity(amount: Quantity) -> str:
         case "count":
             return str(nearest(value))
     percent = 5 * nearest(value * 20)
-    if percent >= 100 and value < 1 - 1e-9:
+    if percent >= 100:
         return "over 95 %"
-    if percent <= 0 and value > 1e-9:
+    if percent <= 0:
         return "under 5 %"
     return f"{percent} %"
 

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 
 from planner.trace import Component
 from xavi_dialogue.explain.query import Tense
+from xavi_dialogue.language.hindrance import InTheWay
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
 
 LANE_CHANGES = ("change-left", "change-right", "overtake")
@@ -164,6 +165,9 @@ class Motive:
     probability: float
     chance: Quantity | None
     more: bool
+    held: InTheWay | None = None
+    waits: bool = False  # it stands, and what is asked about is going on
+    ahead: bool = False  # what is asked about is yet to come
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,6 +193,7 @@ class ActivityPoint:
     arrived: bool
     outcome: str | None
     gone: Quantity | None = None  # when it was seen last, where it is out of view
+    held: InTheWay | None = None
 
 
 @dataclass(frozen=True, slots=True)
