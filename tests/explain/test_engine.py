@@ -9,6 +9,7 @@ from xavi_dialogue.explain.engine import explain, settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.ride import ROUNDS
 
 S1, S2 = s1_ride(), s2_ride()  # with enough draws to meet every sample
 
@@ -187,10 +188,16 @@ def test_evidence_that_stays_thin_is_declined_with_numbers():
     ride = thin_ride()
     once = thin_ride().traces[0]
     rare = [r for r in once.rollouts if r.actions[0].action == "continue"]
-    twice = msgspec.structs.replace(once, rollouts=(*once.rollouts, *rare))
-    found = explain(
-        Query(type="why_not", counterfactual=("continue",)), record(ride, extra=[twice])
-    )
+    rows = (*once.rollouts, *rare)
+    twice = [
+        msgspec.structs.replace(once, rollouts=rows, what_if=WhatIf(("continue",), rollouts=n))
+        for n in ROUNDS
+    ]
+    query = Query(type="why_not", counterfactual=("continue",))
+    more = explain(query, record(ride, extra=twice[:1]))
+    assert isinstance(more, NeedRollout)
+    assert more.rollouts == ROUNDS[1]
+    found = explain(query, record(ride, extra=twice))
     assert found.reason == "too-little-evidence"
     assert (found.facts["rollouts"], found.facts["distinct"]) == (2, 1)
     assert found.facts["coverage"] < 0.5

@@ -130,11 +130,11 @@ def test_unfit_facts_are_left_out() -> None:
     assert "I did not move to the left lane." in text
 
 
-def test_suggestions_come_from_the_refusal_else_from_the_situation() -> None:
+def test_suggestions_come_from_the_refusal_and_then_from_the_situation() -> None:
     query = Query(type="out_of_scope", reason="off-topic")
     offered = (Query(type="why", factual=("exit-right",)),)
     given = realise(query, NoExplanation(reason="out-of-scope", suggestions=offered), QUIET)
-    assert given.suggestions == ("Why did you turn right?",)
+    assert given.suggestions[0] == "Why did you turn right?"
     assert given.text.endswith("You could ask: Why did you turn right?")
     own = realise(query, NoExplanation(reason="out-of-scope"), AFTER_A_CHANGE)
     assert own.suggestions[0] == "Why did you move to the left lane?"

@@ -53,7 +53,7 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         case Asked():
             return _ask(mind, dialogue, event)
         case TurnedAway():
-            return _turn_away(dialogue, event)
+            return _turn_away(mind, dialogue, event)
         case RolloutsArrived():
             return _go_on(mind, dialogue, event)
         case RolloutsFailed():
@@ -88,7 +88,7 @@ def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
     phase = after(PHASES, session.phase, Move.ASKED)
     record = dialogue.record(asked.at)
     if phase is Phase.PLANNING:
-        return dialogue, (_answered(asked, turn_away(session, asked, record, "busy")),)
+        return dialogue, (_answered(asked, turn_away(mind, session, asked, record, "busy")),)
     session = replace(session, phase=phase)
     understood = understand(mind, session, asked, record)
     if isinstance(understood, Said):
@@ -105,9 +105,11 @@ def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) 
         known = dialogue.planned.get(found)
         if len(extra) >= MAX_ROUNDS or known in extra:
             why = NoExplanation(reason="too-little-evidence")
-            found = refuse(session, asked, record, understood, why)
+            found = refuse(mind, session, asked, record, understood, why)
         elif found in question.refused:  # there is no answer without it
-            found = refuse(session, asked, record, understood, NoExplanation(reason=question.why))
+            found = refuse(
+                mind, session, asked, record, understood, NoExplanation(reason=question.why)
+            )
         elif known is not None:
             question = replace(question, extra=(*extra, known))
             return _think(mind, dialogue, session, question)
@@ -155,11 +157,11 @@ def _give_up(mind: Mind, dialogue: Dialogue, event: RolloutsFailed) -> Step:
     return _think(mind, dialogue, session, replace(pending, refused=refused, why=event.reason))
 
 
-def _turn_away(dialogue: Dialogue, event: TurnedAway) -> Step:
+def _turn_away(mind: Mind, dialogue: Dialogue, event: TurnedAway) -> Step:
     asked = event.asked
     session = dialogue.session(asked.session)
     session = replace(session, phase=after(PHASES, session.phase, Move.TURNED_AWAY))
-    said = turn_away(session, asked, dialogue.record(asked.at), event.reason)
+    said = turn_away(mind, session, asked, dialogue.record(asked.at), event.reason)
     return _with(dialogue, asked.session, session), (_answered(asked, said),)
 
 

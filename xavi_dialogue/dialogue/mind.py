@@ -35,6 +35,7 @@ from xavi_dialogue.language.refusals import (
     realise_not_understood,
     realise_smalltalk,
 )
+from xavi_dialogue.language.suggestions import about_vehicle, from_situation
 
 CONTEXT_TURNS = 6  # earlier turns that a question may lean on
 
@@ -77,14 +78,14 @@ def understand(mind: Mind, session: Session, asked: Asked, record: Record) -> Un
     pick = chosen(asked.text, len(session.choices)) if session.choices else None
     if pick is not None:
         query = session.choices[pick]
-        return _refer(session, asked, record, questions((query,))[0], query)
+        return _refer(mind, session, asked, record, questions((query,))[0], query)
     text = asked.text
     earlier = tuple(turn.text for turn in session.turns if turn.query is not None)
     vehicles = frozenset(vehicle for trace in record.traces for vehicle in trace.scene) | {0}
     parsed = mind.parse(text, vehicles, earlier[-CONTEXT_TURNS:])
     if isinstance(parsed, Query):
-        return _refer(session, asked, record, text, parsed)
-    context = speech(session, asked, record)
+        return _refer(mind, session, asked, record, text, parsed)
+    context = _inviting(mind, record, speech(session, asked, record))
     readings = parsed.readings[:MAX_CHOICES]
     utterance = realise_not_understood(parsed.cause, context, readings)
     reason: Reason = "ambiguous" if utterance.choices else "not-understood"
@@ -98,21 +99,13 @@ def answer(
     """The reply to a question that was understood, or what it takes to find it."""
     understood = replace(understood, query=settled(understood.query, record))
     text, query = understood.text, understood.query
-    context = speech(session, asked, record)
-    if query.type == "smalltalk":
-        return Said(
-            text, query, _reply(record, realise_smalltalk(query.event, context), None, query)
-        )
-    if query.type == "help":
-        return Said(text, query, _reply(record, realise_help(context), None, query))
-    if query.type == "ambiguous":
-        utterance = realise_not_understood("ambiguous", context)
-        return Said(text, query, _reply(record, utterance, "ambiguous", query))
+    if query.type in ("smalltalk", "help", "ambiguous"):
+        return _chat(mind, session, asked, record, understood)
     found = mind.explain(query, record)
     if isinstance(found, NeedRollout):
         return found
     if isinstance(found, NoExplanation):
-        return refuse(session, asked, record, understood, found)
+        return refuse(mind, session, asked, record, understood, found)
     trace = explained_trace(found, record)
     context = speech(session, asked, record, trace)
     utterance = realise(query, found, context)
@@ -122,21 +115,43 @@ def answer(
     return Said(text, query, reply, _topics(query, utterance))
 
 
+def _chat(
+    mind: Mind, session: Session, asked: Asked, record: Record, understood: Understood
+) -> Said:
+    """What to say to small talk, to a request for help, and where it is not clear what is meant."""
+    query = understood.query
+    context = _inviting(mind, record, speech(session, asked, record))
+    reason: Reason | None = None
+    if query.type == "smalltalk":
+        utterance = realise_smalltalk(query.event, context)
+    elif query.type == "help":
+        utterance = realise_help(context)
+    else:
+        utterance, reason = realise_not_understood("ambiguous", context), "ambiguous"
+    return Said(understood.text, query, _reply(record, utterance, reason, query))
+
+
 def refuse(
-    session: Session, asked: Asked, record: Record, understood: Understood, why: NoExplanation
+    mind: Mind,
+    session: Session,
+    asked: Asked,
+    record: Record,
+    understood: Understood,
+    why: NoExplanation,
 ) -> Said:
     """Say why there is no answer."""
     query = understood.query
-    utterance = realise(query, why, speech(session, asked, record))
+    context = speech(session, asked, record)
+    more = (*why.suggestions, *about_vehicle(query, context))
+    utterance = realise(query, why, _inviting(mind, record, context, more))
     reply = _reply(record, utterance, why.reason, query)
     return Said(understood.text, query, reply, _topics(query, utterance))
 
 
-def turn_away(session: Session, asked: Asked, record: Record, reason: Reason) -> Said:
+def turn_away(mind: Mind, session: Session, asked: Asked, record: Record, reason: Reason) -> Said:
     """Say that the question cannot be taken up at all."""
-    utterance = realise(
-        Query(type="what"), NoExplanation(reason=reason), speech(session, asked, record)
-    )
+    context = _inviting(mind, record, speech(session, asked, record))
+    utterance = realise(Query(type="what"), NoExplanation(reason=reason), context)
     return Said(asked.text, None, _reply(record, utterance, reason))
 
 
@@ -157,6 +172,15 @@ def speech(
     )
 
 
+def _inviting(
+    mind: Mind, record: Record, context: SpeechContext, more: tuple[Query, ...] = ()
+) -> SpeechContext:
+    """The situation with what of all that might be suggested would be declined."""
+    offered = (*more, *from_situation(context))
+    closed = [q for q in offered if isinstance(mind.explain(q, record), NoExplanation)]
+    return replace(context, closed=tuple(closed))
+
+
 def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
     """The recorded decision that an explanation is about."""
     wanted = frozenset(found.evidence.traces)
@@ -165,7 +189,7 @@ def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
 
 
 def _refer(
-    session: Session, asked: Asked, record: Record, text: str, query: Query
+    mind: Mind, session: Session, asked: Asked, record: Record, text: str, query: Query
 ) -> Understood | Said:
     """Put a number in the place of a description of a vehicle."""
     description = described(query.actor)
@@ -181,7 +205,7 @@ def _refer(
         known = {name for trace in record.traces for name in trace.scene} - {0}
         facts = {"known": tuple(f"vehicle {name}" for name in sorted(known))}
         why = NoExplanation(reason="unknown-vehicle", facts={"asked": description, **facts})
-        return refuse(session, asked, record, Understood(text, query), why)
+        return refuse(mind, session, asked, record, Understood(text, query), why)
     offered = meant[:MAX_CHOICES]
     utterance = realise_clarification(
         questions(offered, MAX_CHOICES), speech(session, asked, record)

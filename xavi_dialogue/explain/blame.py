@@ -5,6 +5,7 @@ from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.influence import influence
 from xavi_dialogue.causal.model import Intervention
+from xavi_dialogue.explain.causes import LONGER
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.ride import Ride, decline
 from xavi_dialogue.explain.vehicles import check_known, number_of
@@ -34,9 +35,12 @@ def check_influence(ride: Ride, vehicle: int, trace: PlanTrace) -> None:
     """Decline where the record of a decision shows no influence of a vehicle on it.
 
     That is where the mutual information of its behaviour and the choice among all first actions
-    does not exceed what chance produces, and where it holds the ego up, or is collided with, under
-    none of them. Facts: `bits` and `null` [bit] where they can be measured; `seen` is False where
-    the decision did not reckon with the vehicle at all.
+    does not exceed what chance produces; and where under none of them, those apart that leave the
+    way to the goal, it is collided with or expected to hold the ego up; and the ego did not give
+    way to it since.
+
+    Facts: `bits` and `null` [bit] where they can be measured; `seen` is False where the decision
+    did not reckon with the vehicle at all.
 
     Raises:
         Unanswered: there is no influence; or the vehicle is unknown.
@@ -46,7 +50,8 @@ def check_influence(ride: Ride, vehicle: int, trace: PlanTrace) -> None:
     if vehicle not in model.vehicles:
         raise decline("no-influence", vehicle=vehicle, seen=False, time=trace.sim_time)
     options = [i for a in model.options() if (i := model.intervene((a,))) is not None]
-    if any(_concerns(option, vehicle) for option in options):
+    waited = any(e.vehicle == vehicle for e in ride.events if e.sim_time >= trace.sim_time)
+    if waited or any(_concerns(option, vehicle) for option in options):
         return
     measured = next((found for found in influence(model) if found.vehicle == vehicle), None)
     if measured is not None and measured.significant:
@@ -57,6 +62,9 @@ def check_influence(ride: Ride, vehicle: int, trace: PlanTrace) -> None:
 
 
 def _concerns(option: Intervention, vehicle: int) -> bool:
-    """Whether a vehicle is in the way under an option, however rarely."""
-    return vehicle in hold_ups(option) or vehicle in option.collisions()
-
+    """Whether a vehicle is in the way under an option that leads to the goal."""
+    if option.likeliest == "dead":
+        return False
+    held = hold_ups(option).get(vehicle)
+    delays = held is not None and held.expected >= LONGER
+    return delays or vehicle in option.collisions()

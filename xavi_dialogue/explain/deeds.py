@@ -9,7 +9,7 @@ from xavi_dialogue.explain.ride import Deed, Ride, Unanswered, planned
 #: Descriptions that are read off the recorded speeds and not off the planner's choices.
 DRIVING: tuple[QueryAction, ...] = ("slow-down", "speed-up", "give-way", "stop")
 HALTS = frozenset[QueryAction](("stop", "give-way"))
-NO_CHOICE = "that is no choice of its own: it follows from the road and from the others on it"
+NO_CHOICE = "it follows from the road and from the others on it"
 #: Deeds that are told from driving on.
 MANOEUVRES: tuple[QueryAction, ...] = (
     *("change-left", "change-right", "exit-left", "exit-right", "continue-next-exit", "stop"),

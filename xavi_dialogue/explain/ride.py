@@ -18,11 +18,15 @@ from xavi_dialogue.explain.explanation import Facts, NeedRollout, NoExplanation,
 from xavi_dialogue.explain.motion import Motion, join
 from xavi_dialogue.explain.record import Record
 
-#: Evidence is enough if the samples behind it cover this share of the prior mass ...
+#: Evidence is enough if the samples behind it cover this share of the prior mass, so that what all
+#: agree on is likeliest, however few there are; all of them, where no more exist ...
 MIN_COVERAGE = 0.5
 #: ... or are this many: what happens with probability 1/4 goes unseen in 11 draws with less than
-#: 5 % (0.75^11 = 0.042).
+#: 5 % (0.75^11 = 0.042). docs/causal.md has the errors that go with both.
 MIN_DISTINCT = 11
+#: Rollouts that are asked for where the search's own do not suffice, and where those do not either:
+#: they spread over what may follow the actions, of which only the best counts.
+ROUNDS = (40, 160)
 ROUNDING = 1e-6  # [s]
 
 
@@ -178,20 +182,49 @@ class Ride:
         moment = (trace.sim_time, trace.decision)
         return next((t for t in self.traces if (t.sim_time, t.decision) == moment), trace)
 
+    def _more(self, trace: PlanTrace, actions: Actions) -> NeedRollout | None:
+        """The next request for rollouts of leading actions; None where there is none left."""
+        if trace.under_way is not None:
+            return None
+        made = [e.what_if for e in self.variants(trace) if e.what_if is not None]
+        done = {one.rollouts for one in made if one.actions == actions}
+        needs = [
+            NeedRollout(trace_id=trace.trace_id, actions=actions, rollouts=rollouts)
+            for rollouts in ROUNDS
+            if rollouts not in done
+        ]
+        more = [need for need in needs if need not in self._refused]
+        return next(iter(more if done else needs), None)
+
+    def _check_possible(self, trace: PlanTrace, actions: Actions) -> None:
+        """Decline actions that turned out not to apply when they were to be tried.
+
+        Raises:
+            Unanswered: one of them does not, with the planner's reason.
+        """
+        steps = {(actions[:depth], action) for depth, action in enumerate(actions)}
+        for again in self.variants(trace):
+            for entry in again.not_applicable:
+                if (entry.node, entry.action) in steps:
+                    asked, time = (entry.action,), trace.sim_time
+                    raise decline("not-applicable", asked=asked, reason=entry.reason, time=time)
+
     def evidence(self, trace: PlanTrace, actions: Actions) -> tuple[CausalModel, Intervention]:
         """Enough rollouts of leading actions, from the search or from planning again.
 
         Raises:
-            Unanswered: rollouts are needed; or they have been made and are still too few.
+            Unanswered: rollouts are needed; or they have been made and are still too few, or an
+                action does not apply.
         """
         again = self.variants(trace)
         found = [(m, m.intervene(actions)) for m in map(self.model, (trace, *again))]
         for model, intervention in found:
             if intervention is not None and enough(intervention):
                 return model, intervention
-        draws = [0 if i is None else i.draws for _, i in found]
-        if max(draws[1:], default=0) <= draws[0] and trace.under_way is None:
-            raise Unanswered(NeedRollout(trace_id=trace.trace_id, actions=actions))
+        self._check_possible(trace, actions)
+        need = self._more(trace, actions)
+        if need is not None:
+            raise Unanswered(need)
         known = [intervention for _, intervention in found if intervention is not None]
         raise thin(actions, max(known, key=lambda i: i.draws, default=None))
 

@@ -31,6 +31,7 @@ class SpeechContext:
     now: float = 0.0  # [s] simulation time
     done: tuple[Action, ...] = ()  # what we have carried out so far, latest last
     asked: tuple[Query, ...] = ()  # in this conversation so far, oldest first
+    closed: tuple[Query, ...] = ()  # that might be suggested, but would be declined now
 
 
 @dataclass(frozen=True, slots=True)

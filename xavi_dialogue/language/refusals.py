@@ -14,7 +14,7 @@ from xavi_dialogue.language.orthography import capitalise, join
 from xavi_dialogue.language.points import doing, vehicle_of
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.rules import load_grammar
-from xavi_dialogue.language.suggestions import fresh, from_situation
+from xavi_dialogue.language.suggestions import about_vehicle, answerable, fresh, from_situation
 from xavi_dialogue.language.wording import lexicon, rewrite
 
 MAX_CHOICES = 4
@@ -36,23 +36,40 @@ class Refusal:
     topic: str | None = None  # of out-of-scope, small talk, or what was not understood
     verb: str | None = None  # what cannot be done at all: "fly"
     past: bool = True
+    ahead: bool = False  # it is asked about what is to come
     who: Vehicle | None = None  # the vehicle it is about; None: us
     asked: Doing | None = None  # what the question takes for granted, or asks about
     instead: Doing | None = None  # what happened in its place
     did: bool = False  # what was asked about is what was done
+    undone: bool = False  # what was asked about is that it had not been done
+    only: bool = False  # what happened in its place is all that happened so far
     planned: bool = False  # what was asked about is yet to come ...
     probability: float | None = None  # ... and how probably
     at: Quantity | None = None  # when that was
     clause: str | None = None  # the planner's reason
     known: tuple[Vehicle, ...] = ()
-    found: Quantity | None = None  # distinct situations behind the evidence there is
+    seen: bool = True  # the decision reckoned with the vehicle
+    close: bool = False  # the times of arrival that were compared are the same to half a second
+    tried: float | None = None  # distinct situations behind the evidence there is ...
+    found: Quantity | None = None  # ... to be put into words
     needed: Quantity | None = None
+    share: Quantity | None = None  # of all that may happen, behind that evidence
     suggestion: str | None = None  # a question that can be asked
+
+
+#: Manoeuvres whose side the question left open.
+SIDELESS = {
+    "change-left": "change-lanes",
+    "change-right": "change-lanes",
+    "exit-left": "turn",
+    "exit-right": "turn",
+}
 
 
 def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utterance:
     """Say what is wrong with the question, and what can be asked instead."""
-    invited = refusal.suggestions or from_situation(context)
+    about = (*refusal.suggestions, *about_vehicle(query, context))
+    invited = (*answerable(about, context), *from_situation(context))
     offered = questions(fresh(invited, (query,)))
     return _speak(_content(query, refusal, offered[:1]), context, offered)
 
@@ -111,27 +128,38 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
     asked = _actions(facts, "asked") or claimed or factual or foil
     instead = _actions(facts, "happened")
     clause = _text(facts, "reason")
+    did = facts.get("did") is True
+    if query.underspecified == "direction" and refusal.reason == "did-not-happen" and not did:
+        asked = tuple(SIDELESS.get(action, action) for action in asked)
     return Refusal(
         reason=refusal.reason,
         topic=_text(facts, "what") or query.reason,
         verb=_text(facts, "verb") or query.event,
         past=query.tense == "past",
+        ahead=query.tense == "future",
         who=Vehicle(actor) if actor else None,
         asked=doing(actor or EGO, asked, query.tense),
         instead=doing(actor or EGO, instead, "past"),
-        did=facts.get("did") is True,
+        did=did,
+        undone=facts.get("undone") is True,
+        only=instead == ("continue",) and "time" not in facts,
         planned=facts.get("planned") is True,
         probability=_number_of(facts, "probability"),
         at=_quantity(facts, "time", "clock"),
         clause=clause if clause is None or actor else rewrite(clause, "own"),
         known=_vehicles(facts),
+        seen=facts.get("seen") is not False,
+        close=abs(_number_of(facts, "delta") or math.inf) < 0.5 or facts.get("delta") == 0.0,
+        tried=_number_of(facts, "distinct"),
         found=_quantity(facts, "distinct", "count"),
         needed=_quantity(facts, "needed", "count"),
+        share=_quantity(facts, "coverage", "probability"),
         suggestion=next(iter(offered), None),
     )
 
 
 _Facts = Mapping[str, object]
+Unit = Literal["clock", "count", "probability"]
 
 
 def _text(facts: _Facts, key: str) -> str | None:
@@ -155,7 +183,7 @@ def _actions(facts: _Facts, key: str) -> tuple[str, ...]:
     return tuple(n for n in names if n in known) if isinstance(names, tuple | list) else ()
 
 
-def _quantity(facts: _Facts, key: str, unit: Literal["clock", "count"]) -> Quantity | None:
+def _quantity(facts: _Facts, key: str, unit: Unit) -> Quantity | None:
     value = _number_of(facts, key)
     return None if value is None else Quantity(value, unit)
 

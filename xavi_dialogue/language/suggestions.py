@@ -31,7 +31,7 @@ def follow_ups(
 def from_situation(context: SpeechContext) -> tuple[Query, ...]:
     """Questions that can be asked at any time: about the last manoeuvre, others, and the plan.
 
-    Those that have been asked are left out.
+    Those that have been asked are left out, and those to which there is no answer now.
     """
     invited: list[Query] = []
     if context.done:
@@ -40,7 +40,21 @@ def from_situation(context: SpeechContext) -> tuple[Query, ...]:
         Query(type="what", actor=f"vehicle:{number}", tense="present")
         for number in sorted(context.vehicles)[:1]
     ]
-    return fresh((*invited, _PLAN, _GOAL, _SURE), context.asked)
+    return answerable(fresh((*invited, _PLAN, _GOAL, _SURE), context.asked), context)
+
+
+def about_vehicle(query: Query, context: SpeechContext) -> tuple[Query, ...]:
+    """What can be asked about the vehicle of a question, where it is in view."""
+    _, _, number = query.actor.partition(":")
+    if not number.isdecimal() or int(number) not in context.vehicles:
+        return ()
+    asked = Query(type="what", actor=query.actor, tense="present")
+    return fresh((asked,), context.asked)
+
+
+def answerable(offered: Iterable[Query], context: SpeechContext) -> tuple[Query, ...]:
+    """The questions to which there is an answer now."""
+    return tuple(query for query in offered if query not in context.closed)
 
 
 def fresh(offered: Iterable[Query], asked: tuple[Query, ...]) -> tuple[Query, ...]:
@@ -53,6 +67,8 @@ def _repeats(offered: Query, asked: Query) -> bool:
     if (offered.type, offered.actor) != (asked.type, asked.actor):
         return False
     if offered.type == "what" and offered.tense != asked.tense:
+        return False
+    if (offered.tense == "future") != (asked.tense == "future"):
         return False
     if offered.type in ("what_if", "why_not", "compare"):
         return offered.counterfactual == asked.counterfactual
