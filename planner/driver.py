@@ -7,29 +7,24 @@ import math
 from dataclasses import dataclass, replace
 
 from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
-from planner.decide import Decision, Frame, Moment, decide, observed, root_at
+from planner.control import Around, Driving, Outlook, control
+from planner.decide import Decision, Frame, Moment, decide, root_at
 from planner.events import Event, EventKind
-from planner.forward import DT, Hindrance, Lane, Motion, accelerate, advance
-from planner.kernels.driving import FORESIGHT, GAP_HORIZON
+from planner.forward import DT, Hindrance, Lane, Motion, advance
 from planner.memory import Memory
-from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
-from planner.tracks import aligned, coast
 from planner.trajectory import Roads
 from planner.waypoints import way
 from sim.network import Location, Network
 from sim.scene import EGO, Command, Scene
 
-CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 PAUSE = 0.3  # [s] between decisions at least
 NEAR = 60.0  # [m] within which surprises count
 SURPRISE = 1.2  # [m/s] by which a speed must differ from all that was foreseen
 END_GAP = 1.0  # [m] before the end of the road at which to stop
-LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
-SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 
 
 class DriverError(Exception):
@@ -210,7 +205,12 @@ class Driver:
     def _drive(self, scene: Scene, dt: float, events: list[Event]) -> Command:
         current = self._current
         assert current is not None
-        acceleration, hindrance = self._control(current, scene, dt)
+        last = (
+            None if self._last is None else Outlook(self._last.trace.sim_time, self._last.beliefs)
+        )
+        around = Around(self._frame.roads, self._memory, last, scene)
+        driving = Driving(current.plan, current.lane, current.motion)
+        acceleration, hindrance = control(driving, around, dt)
         motion = advance(current.motion, acceleration, dt)
         standing = current.standing + dt if motion.speed < 0.1 else 0.0
         current = replace(current, motion=motion, standing=standing)
@@ -233,50 +233,6 @@ class Driver:
             events.append(_event("action-ended", time, current))
             return None
         return current
-
-    def _control(
-        self, current: _Execution, scene: Scene, dt: float
-    ) -> tuple[float, Hindrance | None]:
-        """Keep behind what is seen, and give way to what is predicted."""
-        path, width = current.plan.path, scene.ego.width
-        seen = Traffic.of(self._seen(scene))
-        crossing = Traffic.of(self._predicted(scene, 0.0) if current.plan.give_ways else [])
-        foreseen = Traffic.of(self._predicted(scene, LIKELY))
-        return accelerate(
-            current.plan,
-            current.lane,
-            current.motion,
-            occupancy(path, seen, width, 0, 2),
-            occupancy(path, crossing, width, 0, GAP_HORIZON),
-            occupancy(path, foreseen, width, 0, FORESIGHT),
-            scene.ego.length,
-            dt,
-        )
-
-    def _seen(self, scene: Scene) -> list[Obstacle]:
-        """The others where they are, going on as they do."""
-        found = []
-        for vehicle, state in self._memory.now.items():
-            if vehicle != EGO:
-                track = observed(vehicle, self._memory.track(vehicle, scene.time), state)
-                found.append(coast(self._frame.roads, track, 2, past=False))
-        return found
-
-    def _predicted(self, scene: Scene, likely: float) -> list[Obstacle]:
-        """The motions that the last decision found likely enough, from now on."""
-        found: list[Obstacle] = []
-        if self._last is None:
-            return found
-        elapsed = round((scene.time - self._last.trace.sim_time) / DT)
-        for vehicle, beliefs in self._last.beliefs.items():
-            here = scene.vehicles.get(vehicle)
-            slow = here is None or here.speed < SLOW
-            least = max(likely, CAUTION if slow else 0.0)
-            for belief in beliefs:
-                for line in belief.trajectories:
-                    if belief.probability * line.probability >= least:
-                        found.append(aligned(line.motion, -elapsed, GAP_HORIZON + 10))
-        return found
 
     def _note_waiting(
         self,

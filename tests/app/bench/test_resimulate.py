@@ -91,3 +91,11 @@ def test_foils_come_to_what_the_roads_say_and_the_ride_goes_on_as_it_was() -> No
         assert happened.outcome == "done"
         assert happened.time is not None
         assert happened.time + 2.0 < slow < stopped
+
+
+def test_two_that_wait_for_one_another_do_not_wait_forever_and_nobody_is_touched() -> None:
+    with halted("s2") as ride:
+        trace = ride.drive_to(3.9)
+        # Past its line, the ego stops for one that goes first, which stops for the ego, while a
+        # third stands so near its way that the side of the ego would touch it.
+        assert ride.foil(trace, "exit-left") == Happened("dead")

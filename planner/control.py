@@ -1,0 +1,143 @@
+"""Control: how to brake or speed up in the coming step, among what is seen and foreseen."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from planner.clearance import first_touch
+from planner.decide import observed
+from planner.forward import DT, Hindrance, Lane, Motion, accelerate
+from planner.kernels.driving import (
+    COMFORT,
+    CRAWL,
+    EMERGENCY,
+    FOLLOWING,
+    FORESIGHT,
+    GAP_HORIZON,
+    REACTION,
+    safe_speed,
+    towards,
+)
+from planner.manoeuvres import ActionPlan
+from planner.memory import Memory
+from planner.obstacles import Obstacle, Traffic, occupancy
+from planner.recognise import Belief
+from planner.tracks import aligned, coast
+from planner.trajectory import Roads
+from sim.scene import EGO, Scene
+
+CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
+LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
+SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
+INSIDE = 1.0  # [m] beyond its line from which the ego is in the way of those who may go first
+PATIENCE = 25  # samples at 5 Hz for which one of them stands before it is taken to wait
+STANDING = 0.1  # [m/s]
+SPARE = 3.0  # [m] to look beyond where the ego can stop
+
+
+@dataclass(frozen=True, slots=True)
+class Driving:
+    """What the ego drives, and where on it it is."""
+
+    plan: ActionPlan
+    lane: Lane
+    motion: Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Outlook:
+    """What the last decision foresaw."""
+
+    time: float  # [s] of it
+    beliefs: Mapping[int, Sequence[Belief]]
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """What is known of the others."""
+
+    roads: Roads
+    memory: Memory
+    outlook: Outlook | None
+    scene: Scene
+
+
+def control(driving: Driving, around: Around, dt: float) -> tuple[float, Hindrance | None]:
+    """Keep behind what is seen, and give way to what is predicted.
+
+    Returns:
+        Acceleration [m/s2] in the coming step of `dt` [s], and who is in the way.
+    """
+    path, ego = driving.plan.path, around.scene.ego
+    seen = Traffic.of(_seen(around))
+    crossing = Traffic.of(_predicted(driving, around, 0.0) if driving.plan.give_ways else [])
+    foreseen = Traffic.of(_predicted(driving, around, LIKELY))
+    chosen = accelerate(
+        driving.plan,
+        driving.lane,
+        driving.motion,
+        occupancy(path, seen, ego.width, 0, 2),
+        occupancy(path, crossing, ego.width, 0, GAP_HORIZON),
+        occupancy(path, foreseen, ego.width, 0, FORESIGHT),
+        ego.length,
+        dt,
+    )
+    return _clear(driving, around, chosen, dt)
+
+
+def _clear(
+    driving: Driving, around: Around, chosen: tuple[float, Hindrance | None], dt: float
+) -> tuple[float, Hindrance | None]:
+    """Stop before a vehicle that stands so near the path that turning would touch it."""
+    motion, now = driving.motion, around.memory.now
+    standing = {v: s for v, s in now.items() if v != EGO and s.speed <= CRAWL}
+    reach = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + SPARE
+    found = first_touch(driving.plan.path, motion.arc, reach, around.scene.ego, standing)
+    if found is None:
+        return chosen
+    free, vehicle = found
+    wanted = safe_speed(free - motion.arc, 0.0, FOLLOWING)
+    braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
+    if braking >= chosen[0]:
+        return chosen
+    return braking, Hindrance(vehicle, "blocked", standing[vehicle].speed)
+
+
+def _seen(around: Around) -> list[Obstacle]:
+    """The others where they are, going on as they do."""
+    found = []
+    for vehicle, state in around.memory.now.items():
+        if vehicle != EGO:
+            track = observed(vehicle, around.memory.track(vehicle, around.scene.time), state)
+            found.append(coast(around.roads, track, 2, past=False))
+    return found
+
+
+def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle]:
+    """The motions that the last decision found likely enough, from now on."""
+    found: list[Obstacle] = []
+    if around.outlook is None:
+        return found
+    elapsed = round((around.scene.time - around.outlook.time) / DT)
+    for vehicle, beliefs in around.outlook.beliefs.items():
+        here = around.scene.vehicles.get(vehicle)
+        if here is not None and _waits_for_us(driving, around, vehicle):
+            continue
+        slow = here is None or here.speed < SLOW
+        least = max(likely, CAUTION if slow else 0.0)
+        for belief in beliefs:
+            for line in belief.trajectories:
+                if belief.probability * line.probability >= least:
+                    found.append(aligned(line.motion, -elapsed, GAP_HORIZON + 10))
+    return found
+
+
+def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
+    """Whether a vehicle that may go first lets the ego, which is past its line, go on.
+
+    Else the two would wait for one another forever.
+    """
+    arc = driving.motion.arc
+    if not any(line.stop + INSIDE < arc < line.clear for line in driving.plan.give_ways):
+        return False
+    speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
+    return len(speeds) == PATIENCE and max(speeds) < STANDING
