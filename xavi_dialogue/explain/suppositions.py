@@ -25,7 +25,7 @@ def what_if(query: Query, ride: Ride) -> Explanation:
     """What the ego would do if a vehicle did, or had not done, something; or were not there."""
     vehicle = actor_of(query, ride)
     asked = query.counterfactual or ()
-    moment = moment_of(ride, query.tense)
+    moment = moment_of(ride, query.tense, vehicle)
     if not asked or query.intervention == "remove":
         return _without(ride, vehicle, moment)
     return _otherwise(query, ride, vehicle, asked, moment)
@@ -39,6 +39,8 @@ def _otherwise(
     if past:
         check_contrary(ride, vehicle, asked, done=query.negated)
     deed = ride.manoeuvre if past else None
+    if deed is not None and moment > ride.choice_of(deed).sim_time + ROUNDING:
+        deed = None  # which was done before that vehicle came into view
     refused: Unanswered = thin(asked, None)
     for trace in reversed(ride.traces):
         if trace.sim_time > moment + ROUNDING or prediction(trace, vehicle) is None:
@@ -55,11 +57,18 @@ def _otherwise(
     raise refused
 
 
-def moment_of(ride: Ride, tense: Tense) -> float:
-    """The time [s] of the decision that a supposition is about."""
+def moment_of(ride: Ride, tense: Tense, vehicle: int | None = None) -> float:
+    """The time [s] of the decision that a supposition is about.
+
+    Of the past, it is the one for the last deed; of a vehicle that came into view only then, the
+    latest.
+    """
     deed = ride.manoeuvre
     if tense == "past" and deed is not None:
-        return ride.choice_of(deed).sim_time
+        time = ride.choice_of(deed).sim_time
+        before = [trace for trace in ride.traces if trace.sim_time <= time + ROUNDING]
+        if vehicle is None or any(prediction(trace, vehicle) for trace in before):
+            return time
     return ride.latest.sim_time
 
 
