@@ -39,7 +39,8 @@ def check_influence(ride: Ride, vehicle: int, trace: PlanTrace) -> None:
     way to the goal, it is collided with or expected to hold the ego up; and the ego did not give
     way to it since.
 
-    Facts: `bits` and `null` [bit] where they can be measured; `seen` is False where the decision
+    Facts: `bits` [bit] where there was a choice, and `null` [bit] its 95 % point by chance, which
+    is left out where there is nothing to compare with it; `seen` is False where the decision
     did not reckon with the vehicle at all.
 
     Raises:

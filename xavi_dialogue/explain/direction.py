@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from xavi_dialogue.explain.actions import STRAIGHT
 from xavi_dialogue.explain.deeds import happened
 from xavi_dialogue.explain.motion import foresees
+from xavi_dialogue.explain.premise import TURNS
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, planned, prediction
 from xavi_dialogue.explain.vehicles import vehicle_of
@@ -51,6 +52,8 @@ def _present(query: Query, ride: Ride) -> Query:
     past = query.type == "why_not" and query.tense == "past" and _ours(query)
     if not past or query.factual or not query.counterfactual or ride.ended:
         return query
+    if query.counterfactual[0] in TURNS and query.counterfactual[0] in planned(ride.latest):
+        return query  # it is not done yet
     deed = ride.manoeuvre
     if deed is not None and (deed.action != "continue" or query.counterfactual[0] not in STRAIGHT):
         return query

@@ -126,6 +126,8 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
     factual, foil = query.factual or (), query.counterfactual or ()
     claimed = foil if query.type in ("why_not", "what_if", "compare") else factual
     asked = _actions(facts, "asked") or claimed or factual or foil
+    if refusal.reason == "too-little-evidence" and actor:
+        asked = claimed  # what was tried too little is what we would do then
     instead = _actions(facts, "happened")
     clause = _text(facts, "reason")
     did = facts.get("did") is True
