@@ -96,6 +96,27 @@ def test_a_vehicle_that_is_not_there_is_unknown() -> None:
     assert (reply.kind, reply.reason) == ("refusal", "unknown-vehicle")
 
 
+def test_a_suspect_that_is_described_is_found_in_the_scene() -> None:
+    described = Talk(real_mind()).reply("Did you change left because of the car ahead of us?")
+    numbered = Talk(real_mind()).reply("Did you change left because of vehicle 1?")
+    assert described.query is not None
+    assert described.query.hypothesised_cause == "vehicle:1"
+    assert described.text == numbered.text
+    assert described.text.startswith("Yes.")
+
+
+def test_a_suspect_that_is_not_there_is_unknown() -> None:
+    reply = Talk(real_mind()).reply("Did you change left because of the truck?")
+    assert (reply.kind, reply.reason) == ("refusal", "unknown-vehicle")
+
+
+def test_what_another_could_have_avoided_is_declined_as_such() -> None:
+    reply = Talk(real_mind()).reply("How could vehicle 1 have avoided slowing down?")
+    assert reply.reason == "out-of-scope"
+    assert reply.query is not None
+    assert reply.query.actor == "vehicle:1"
+
+
 def test_what_lies_after_the_moment_asked_at_is_not_known() -> None:
     reply = Talk(real_mind()).reply("Why did you change lanes?", at=2.0)
     assert (reply.kind, reply.reason) == ("refusal", "did-not-happen")

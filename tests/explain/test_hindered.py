@@ -172,3 +172,22 @@ def test_what_is_yet_to_come_is_explained_by_the_ways_on_which_it_does() -> None
     found, text = ask(decision(3.0, held, held, speeds=(8.0,) * 20), tense="future")
     assert [cause.vehicle for cause in found.causes] == [2]
     assert text == "Vehicle 1 will stop to let vehicle 2 pass before turning left."
+
+
+@pytest.mark.parametrize(
+    ("suspect", "part", "answer"),
+    [
+        ("vehicle:2", "main", "Yes. Vehicle 1 stopped to let vehicle 2 pass"),
+        ("vehicle:3", "none", "No, not because of vehicle 3. Vehicle 1 stopped to let vehicle 2"),
+        ("ego", "none", "No, not because of me. Vehicle 1 stopped to let vehicle 2 pass"),
+    ],
+)
+def test_a_suspect_is_confirmed_or_cleared(suspect: str, part: str, answer: str) -> None:
+    query = Query(
+        type="why", actor="vehicle:1", factual=("stop",), hypothesised_cause=suspect, tense="past"
+    )
+    found = told(query, Record(3.0, (decision(3.0, [stretch(2, 3.0, 6.0)]),)))
+    assert isinstance(found, Explanation)
+    assert found.suspect is not None
+    assert found.suspect.part == part
+    assert realise(query, found, SpeechContext()).text.startswith(answer)

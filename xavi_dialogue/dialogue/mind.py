@@ -191,21 +191,27 @@ def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
 def _refer(
     mind: Mind, session: Session, asked: Asked, record: Record, text: str, query: Query
 ) -> Understood | Said:
-    """Put a number in the place of a description of a vehicle."""
-    description = described(query.actor)
-    found = None
-    if description is not None:
-        found = candidates(description, Scope(_scenes(query, record), session.topic))
+    """Put numbers in the place of descriptions of vehicles.
+
+    Of several that a suspected one may be, none is asked about: the answer names the causes.
+    """
+    scope = Scope(_scenes(query, record), session.topic)
+    suspected, acting = described(query.hypothesised_cause or ""), described(query.actor)
+    suspects = None if suspected is None else candidates(suspected, scope)
+    if suspects is not None and len(suspects) == 1:
+        query = msgspec.structs.replace(query, hypothesised_cause=f"{PREFIX}{suspects[0]}")
+    found = None if acting is None else candidates(acting, scope)
+    if suspects == () or found == ():
+        known = {name for trace in record.traces for name in trace.scene} - {0}
+        facts = {"known": tuple(f"vehicle {name}" for name in sorted(known))}
+        unseen = acting if found == () else suspected
+        why = NoExplanation(reason="unknown-vehicle", facts={"asked": unseen, **facts})
+        return refuse(mind, session, asked, record, Understood(text, query), why)
     if found is None:
         return Understood(text, query)
     meant = tuple(msgspec.structs.replace(query, actor=f"{PREFIX}{name}") for name in found)
     if len(meant) == 1:
         return Understood(text, meant[0])
-    if not meant:
-        known = {name for trace in record.traces for name in trace.scene} - {0}
-        facts = {"known": tuple(f"vehicle {name}" for name in sorted(known))}
-        why = NoExplanation(reason="unknown-vehicle", facts={"asked": description, **facts})
-        return refuse(mind, session, asked, record, Understood(text, query), why)
     offered = meant[:MAX_CHOICES]
     utterance = realise_clarification(
         questions(offered, MAX_CHOICES), speech(session, asked, record)

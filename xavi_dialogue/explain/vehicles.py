@@ -3,9 +3,11 @@
 from msgspec.structs import replace
 
 from planner.trace import Action, PlanTrace
+from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Choice
 from xavi_dialogue.explain import hindered
 from xavi_dialogue.explain.causes import expected_actions
+from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
 from xavi_dialogue.explain.motion import foresees
 from xavi_dialogue.explain.query import Query, QueryAction
@@ -68,7 +70,30 @@ def what(query: Query, ride: Ride) -> Explanation:
 
 def why(query: Query, ride: Ride) -> Explanation:
     """Why a vehicle does what it does: its goal that makes it rational, and who is in its way."""
-    return _why(query, ride, actor_of(query, ride), query.factual or ())
+    vehicle = actor_of(query, ride)
+    return _suspected(query, ride, _why(query, ride, vehicle, query.factual or ()))
+
+
+def _suspected(query: Query, ride: Ride, found: Explanation) -> Explanation:
+    """With a word on the vehicle taken for the cause, where it is known who was in the way.
+
+    Raises:
+        Unanswered: that vehicle is unknown.
+    """
+    blamed = query.hypothesised_cause or ""
+    suspect = EGO if blamed == "ego" else number_of(blamed)
+    if suspect is None:
+        return found
+    if suspect != EGO:
+        check_known(ride, suspect)
+    named = [cause.vehicle for cause in found.causes]
+    if not named:
+        return found
+    if suspect not in named:
+        return replace(found, suspect=Suspect(suspect, "none"))
+    first = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+    part = Suspect(suspect, "main" if named[0] == suspect else "some")
+    return replace(found, causes=tuple(first), suspect=part)
 
 
 def why_not(query: Query, ride: Ride) -> Explanation:

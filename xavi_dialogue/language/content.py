@@ -9,7 +9,7 @@ from typing import Literal
 
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
-from xavi_dialogue.language.contrast import constraint, contrast, effect_points
+from xavi_dialogue.language.contrast import constraint, contrast, effect_points, suspect_point
 from xavi_dialogue.language.hindrance import in_the_way
 from xavi_dialogue.language.insight import insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
@@ -92,6 +92,7 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
         chance=None if probability is None else Quantity(probability, "probability"),
         more=budget.more,
         held=held,
+        suspect=suspect_point(found),
         waits=standing and query.tense == "present" and (not deed or "stop" in deed),
         ahead=query.tense == "future" or (bool(deed) and found.moment is None),
     )

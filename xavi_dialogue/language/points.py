@@ -1,7 +1,6 @@
 """Points: what an answer says, before it is put into words, and how much of it.
 
-These dataclasses are the vocabulary of `grammars/answer_passenger.rules`: a path such as
-`x.because.vehicle` there is an attribute here.
+These dataclasses are the vocabulary of `grammars/answer_passenger.rules`: `x.because` is one.
 """
 
 from collections.abc import Iterable
@@ -168,6 +167,7 @@ class Motive:
     held: InTheWay | None = None
     waits: bool = False  # it stands, and what is asked about is going on
     ahead: bool = False  # what is asked about is yet to come
+    suspect: SuspectPoint | None = None
 
 
 @dataclass(frozen=True, slots=True)

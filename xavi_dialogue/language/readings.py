@@ -249,7 +249,10 @@ def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 
 
 def _avoidance(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
-    return {"event": "crash"} if "CRASH" in terminals(tree) else {}
+    """Who should have avoided it; "that" is what happened, and no vehicle."""
+    who = {} if first(tree, "incident") else _actor_of(tree)
+    named = {} if who.get("actor") in (None, "ego", "vehicle:that", "vehicle:it") else who
+    return named | ({"event": "crash"} if "CRASH" in terminals(tree) else {})
 
 
 def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
