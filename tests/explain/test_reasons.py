@@ -421,6 +421,28 @@ def test_why_not_another_way_is_asked_of_the_turn_and_not_of_what_came_later() -
     assert reply.text.startswith("I turned right")
 
 
+def test_a_plan_that_was_given_up_is_not_spoken_of_as_done() -> None:
+    world = s1_world()
+    plans = {2.0: "continue", 4.0: "exit-right"}
+    free = [
+        trace_of(replace(world, plan=(action,)), draws=60, time=time, decision=int(time))
+        for time, action in plans.items()
+    ]
+    hemmed_in = trace_of(
+        World(world.aims, (("continue",),), world.simulate), draws=60, time=6.0, decision=6
+    )
+    events = (
+        Event("action-started", 0.0, "continue", 0),
+        Event("action-started", 4.0, "exit-right", 4),
+        Event("action-ended", 6.0, "exit-right", 5),
+        Event("action-started", 6.0, "continue", 6),
+    )
+    reply = talk(Ride(7.0, (*free, hemmed_in), events)).ask("Why did you not change lanes?", 7.0)
+    assert reply.explanation is not None
+    assert reply.explanation.sim_time == 2.0
+    assert reply.explanation.factual == ("continue",)
+
+
 # Suggestions -----------------------------------------------------------------------------------
 
 PROVOKING = (

@@ -1,12 +1,13 @@
 """Refusals, small talk, help and clarification: what is wrong, and what can be asked."""
 
+from dataclasses import replace
 from typing import get_args
 
 import pytest
 
 from xavi_dialogue.explain.explanation import Facts, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.context import SpeechContext
+from xavi_dialogue.language.context import SpeechContext, VehicleWords
 from xavi_dialogue.language.questions import question
 from xavi_dialogue.language.realise import MAX_WORDS, realise
 from xavi_dialogue.language.refusals import (
@@ -113,6 +114,79 @@ def test_unknown_vehicles_and_those_known() -> None:
     assert refuse(query, "unknown-vehicle", known=("1", "2")) == (
         "I know of no vehicle 9. I have seen vehicle 1 and vehicle 2."
     )
+
+
+def test_of_many_vehicles_those_in_view_are_named() -> None:
+    known = tuple(str(number) for number in range(1, 31))
+    refusal = NoExplanation(reason="unknown-vehicle", facts={"vehicle": 99, "known": known})
+    near = SpeechContext(vehicles={number: VehicleWords() for number in (7, 8, 9, 20, 30)})
+    said = realise(Query(type="what", actor="vehicle:99"), refusal, near).text
+    assert "I have seen 30 vehicles, among them vehicle 7, vehicle 8, vehicle 9" in said
+    assert "vehicle 1," not in said
+
+
+@pytest.mark.parametrize(
+    ("query", "why", "facts", "text"),
+    [
+        (
+            Query(type="why", factual=("change-left",), underspecified="direction"),
+            "did-not-happen",
+            {"asked": ("change-left",), "happened": ("exit-right",), "time": 5.0},
+            "I did not change lanes. I turned right at 0:05.",
+        ),
+        (
+            Query(type="why", factual=("exit-left",), underspecified="direction"),
+            "did-not-happen",
+            {"asked": ("exit-left",), "happened": ("continue",)},
+            "I did not turn; so far I have only gone straight on.",
+        ),
+        (
+            Query(type="why", factual=("exit-left",), tense="future"),
+            "did-not-happen",
+            {"asked": ("exit-left",), "happened": ("exit-right",), "time": 5.0},
+            "I do not plan to turn left.",
+        ),
+        (
+            Query(type="what_if", actor="vehicle:1", counterfactual=("stop",)),
+            "too-little-evidence",
+            {"asked": ("exit-right",), "distinct": 0, "needed": 11, "coverage": 0.0},
+            "I have not tried what would come of vehicle 1 stopping, so I will not guess.",
+        ),
+        (
+            Query(type="why_not", counterfactual=("stop",)),
+            "too-little-evidence",
+            {"asked": ("stop",), "distinct": 9, "needed": 11, "coverage": 0.31},
+            "I have tried that in only 9 different situations (about 30 % of what might happen) "
+            "and would need 11 to be sure, so I will not guess.",
+        ),
+        (
+            Query(type="why", hypothesised_cause="vehicle:3"),
+            "no-influence",
+            {"vehicle": 3, "bits": 0.0, "seen": True},
+            "Vehicle 3 had nothing to do with that: I expected no delay from it, and would have "
+            "chosen the same whatever it did.",
+        ),
+        (
+            Query(type="what_if", counterfactual=("give-way",), negated=True),
+            "not-applicable",
+            {"asked": ("give-way",), "undone": True, "reason": "it follows from the road"},
+            "I could not have done without giving way: it follows from the road.",
+        ),
+    ],
+)
+def test_refusals_are_exact(query: Query, why: Reason, facts: Facts, text: str) -> None:
+    said = realise(query, NoExplanation(reason=why, facts=facts), QUIET).text
+    assert said.partition(" You could ask:")[0] == text
+
+
+def test_what_would_be_declined_is_not_suggested() -> None:
+    first = Query(type="why", factual=("change-left",))
+    closed = replace(AFTER_A_CHANGE, closed=(first,))
+    said = realise_help(closed)
+    assert "Why did you move to the left lane?" not in said.suggestions
+    given = NoExplanation(reason="out-of-scope", suggestions=(first,))
+    query = Query(type="out_of_scope", reason="off-topic")
+    assert "Why did you move to the left lane?" not in realise(query, given, closed).suggestions
 
 
 def test_what_is_not_an_action() -> None:

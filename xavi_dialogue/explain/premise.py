@@ -7,7 +7,7 @@ from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.actions import STRAIGHT, means, same, to_macros
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened, was_done
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.ride import Deed, Ride, chose, planned
+from xavi_dialogue.explain.ride import ROUNDING, Deed, Ride, chose, planned
 from xavi_dialogue.explain.slowing import decision_of
 
 TURNS: tuple[QueryAction, ...] = ("exit-left", "exit-right", "continue-next-exit")
@@ -42,7 +42,8 @@ def about_foil(ride: Ride, query: Query) -> Premise:
     """The decision at which a foil was an alternative.
 
     That is the one of the premise; where the question names no deed and the foil did not apply
-    there, the last one at which it did. Which way to go is asked of the last turn, though.
+    there, the last one at which it did, of those that came to what they chose. Which way to go
+    is asked of the last turn, though.
 
     Raises:
         Unanswered: as for the premise, or the foil is what was done or is yet to be done.
@@ -62,7 +63,11 @@ def about_foil(ride: Ride, query: Query) -> Premise:
         raise did_not_happen(ride, foil)
     if _open(ride, found.trace, foil):
         return found
-    others = [t for t in ride.traces if _open(ride, t, foil) and not _begins(t, foil)]
+    others = [
+        trace
+        for trace in ride.traces
+        if _done(ride, trace) and _open(ride, trace, foil) and not _begins(trace, foil)
+    ]
     return Premise(others[-1], None) if others else found
 
 
@@ -98,6 +103,16 @@ def _open(ride: Ride, trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:
         return False
     model = ride.model(trace)
     return to_macros(model, foil[:1])[0] in model.options()
+
+
+def _done(ride: Ride, trace: PlanTrace) -> bool:
+    """Whether what a decision chose was carried out; plans may be given up."""
+    first, time = planned(trace)[:1], trace.sim_time
+    return any(
+        (deed.action,) == first
+        and deed.started - ROUNDING <= time <= (ride.now if deed.ended is None else deed.ended)
+        for deed in ride.deeds
+    )
 
 
 def _begins(trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:

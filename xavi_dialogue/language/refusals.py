@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from xavi_dialogue.explain.explanation import NoExplanation
@@ -18,6 +18,7 @@ from xavi_dialogue.language.suggestions import about_vehicle, answerable, fresh,
 from xavi_dialogue.language.wording import lexicon, rewrite
 
 MAX_CHOICES = 4
+MAX_KNOWN = 5  # vehicles that are listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +48,8 @@ class Refusal:
     probability: float | None = None  # ... and how probably
     at: Quantity | None = None  # when that was
     clause: str | None = None  # the planner's reason
-    known: tuple[Vehicle, ...] = ()
+    known: tuple[Vehicle, ...] = ()  # some of them, where they are many ...
+    many: Quantity | None = None  # ... and then how many there are
     seen: bool = True  # the decision reckoned with the vehicle
     close: bool = False  # the times of arrival that were compared are the same to half a second
     tried: float | None = None  # distinct situations behind the evidence there is ...
@@ -71,7 +73,8 @@ def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utte
     about = (*refusal.suggestions, *about_vehicle(query, context))
     invited = (*answerable(about, context), *from_situation(context))
     offered = questions(fresh(invited, (query,)))
-    return _speak(_content(query, refusal, offered[:1]), context, offered)
+    content = _content(query, refusal, offered[:1])
+    return _speak(_shortened(content, context), context, offered)
 
 
 def realise_not_understood(
@@ -117,6 +120,15 @@ def _speak(content: Refusal, context: SpeechContext, suggestions: tuple[str, ...
     words, mentioned = inflect(tokens, context)
     text = capitalise(rewrite(join(words), "passenger"))
     return Utterance(text, mentioned, suggestions)
+
+
+def _shortened(content: Refusal, context: SpeechContext) -> Refusal:
+    """With no more vehicles than are worth a list, those in view first."""
+    if len(content.known) <= MAX_KNOWN:
+        return content
+    near = sorted(content.known, key=lambda v: (v.number not in context.vehicles, v.number))
+    known = tuple(sorted(near[:MAX_KNOWN], key=lambda v: v.number))
+    return replace(content, known=known, many=Quantity(len(content.known), "count"))
 
 
 def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
