@@ -88,7 +88,8 @@ def _find(
             found += [(Sighting(action, e.sim_time, e.sim_time), e) for e in waits[-1:]]
         elif (sighting := motion.last(action)) is not None:
             near = [e for e in waits if sighting.start - 3.0 <= e.sim_time <= sighting.end]
-            found.append((sighting, near[-1] if near else None))
+            waited = bool(near) and action != "speed-up"
+            found.append((sighting, near[-1] if waited else None))
     if tense != "past":
         found = [pair for pair in found if pair[0].end >= ride.now - RECENT]
     if not found:
