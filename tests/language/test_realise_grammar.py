@@ -37,6 +37,7 @@ STARTS = {
         "EVASION",
         "FACTOR",
         "UNMOVED",
+        "COMPARISON",
     },
     "answer_refusals": {"REFUSAL", "CHOOSE"},
     "answer_questions": {"QUESTION"},

@@ -78,6 +78,16 @@ class Pivot(msgspec.Struct, frozen=True):
     probability: float | None = None
 
 
+class Ranking(msgspec.Struct, frozen=True):
+    """By which measure a fact and its foil are compared, and the probabilities that it takes."""
+
+    by: Literal["safer", "smoother"]
+    collision: float | None = None  # under what was done or is planned
+    foil_collision: float | None = None
+    hard_brake: float | None = None  # None where the record has no speeds
+    foil_hard_brake: float | None = None
+
+
 class Suspect(msgspec.Struct, frozen=True):
     """A vehicle that the question takes for the cause, and whether it is."""
 

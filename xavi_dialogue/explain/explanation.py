@@ -8,7 +8,15 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from planner.trace import Action, Component, HoldUp, Outcome
-from xavi_dialogue.explain.details import Avoidance, Certainty, Grounds, Pivot, Step, Suspect
+from xavi_dialogue.explain.details import (
+    Avoidance,
+    Certainty,
+    Grounds,
+    Pivot,
+    Ranking,
+    Step,
+    Suspect,
+)
 from xavi_dialogue.explain.query import Query, QueryAction
 
 Reason = Literal[
@@ -131,6 +139,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     - How sure: `activity` of another vehicle with its probability, or `certainty`.
     - How about another vehicle: `grounds`. How about the ego: `options` with the best of them
       as a contrast, or the `steps` that are still to come.
+    - Which is safer or smoother: as for a foil, with a `ranking` by that measure.
     - How to avoid, what matters: `avoidance` or `pivot`, with the alternative as a contrast.
 
     A question that names a suspect has `suspect`; one about a vehicle that is out of view, `seen`.
@@ -157,6 +166,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     certainty: Certainty | None = None
     avoidance: Avoidance | None = None
     pivot: Pivot | None = None
+    ranking: Ranking | None = None
     suspect: Suspect | None = None
     cleared: int | None = None  # a vehicle in our way without which all would have been the same
 

@@ -25,11 +25,12 @@ from xavi_dialogue.language.points import (
     plain,
     vehicle_of,
 )
+from xavi_dialogue.language.ranking import Comparison, comparison
 
 SPREAD = 2.0  # [s] a range of times worth giving
 
 
-def select(query: Query, found: Explanation, budget: Budget, now: float) -> Content:
+def select(query: Query, found: Explanation, budget: Budget, now: float) -> Content | Comparison:
     """What to say at time `now` [s] in answer to `query`, within `budget`."""
     actor = vehicle_of(query.actor)
     watched = found.activity or found.destination
@@ -46,6 +47,9 @@ def select(query: Query, found: Explanation, budget: Budget, now: float) -> Cont
         return _motive(query, found, actor, budget)
     if actor is not None and query.type == "what_if":
         return _supposition(query, found, actor, budget)
+    ranked = comparison(query, found, found.ranking) if found.ranking is not None else None
+    if ranked is not None:
+        return ranked
     if found.counterfactual and found.outcome is not None:
         return contrast(query, found, budget)
     if actor is None and query.type == "why" and query.factual:

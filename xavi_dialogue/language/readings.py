@@ -31,6 +31,12 @@ from xavi_dialogue.language.tokens import AUXILIARIES, WEAK, Token
 
 #: `Query.event` where it is asked what a vehicle had to do with it, rather than whether.
 INFLUENCE = "influence"
+#: `Query.event` of comparisons that name a measure, by the words for it.
+MEASURES: dict[str, frozenset[str]] = {
+    "safer": frozenset({"safer", "safest", "safe", "riskier", "risky", "dangerous"}),
+    "smoother": frozenset({"smoother", "comfortable", "comfy", "jerky", "pleasant"}),
+    "quicker": frozenset({"faster", "quicker", "slower", "sooner", "earlier", "longer", "time"}),
+}
 #: What the clauses of a question are, by start rule and clause rule.
 _ROLES: dict[str, dict[str, str]] = {
     "why": {"said": "factual", "contrast": "counterfactual", "own": "factual"},
@@ -233,6 +239,9 @@ def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     mine, theirs = settle(said, against, at_junction), settle(against, said, at_junction)
     who = _actor_of(tree).get("actor", "")
     fields: dict[str, Any] = {"actor": who} if who[-1:].isdigit() else {}
+    said_of = {word for t in whole if t.terminal == "BETTER" for word in t.text.split()}
+    if measures := [name for name, words in MEASURES.items() if words & said_of]:
+        fields["event"] = measures[0]
     if "would" in aux or "could" in aux:
         return fields | {"counterfactual": mine or None, "factual": theirs or None}
     return fields | {"factual": mine or None, "counterfactual": theirs or None}

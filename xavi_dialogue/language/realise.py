@@ -37,6 +37,7 @@ from xavi_dialogue.language.points import (
     Unmoved,
 )
 from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.ranking import Comparison
 from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.suggestions import follow_ups
@@ -55,6 +56,7 @@ RULES: dict[type, str] = {
     Evasion: "EVASION",
     Factor: "FACTOR",
     Unmoved: "UNMOVED",
+    Comparison: "COMPARISON",
 }
 MAX_WORDS = 45
 MAX_SENTENCES = 3
@@ -65,7 +67,7 @@ MAX_WORDS_MORE = 110
 class Stages:
     """One answer in every stage of its making."""
 
-    content: Content | PaperContent
+    content: Content | Comparison | PaperContent
     tokens: tuple[Token, ...]
     words: tuple[str, ...]
     text: str
@@ -129,7 +131,7 @@ def _passenger(query: Query, found: Explanation, context: SpeechContext, budget:
     return Stages(content, tokens, words, text, mentioned)
 
 
-def _rule(content: Content) -> str:
+def _rule(content: Content | Comparison) -> str:
     if isinstance(content, Contrast | ActivityPoint):
         return content.rule
     return RULES[type(content)]
