@@ -191,3 +191,11 @@ def test_a_suspect_is_confirmed_or_cleared(suspect: str, part: str, answer: str)
     assert found.suspect is not None
     assert found.suspect.part == part
     assert realise(query, found, SpeechContext()).text.startswith(answer)
+
+
+def test_what_goes_on_or_is_to_come_is_not_told_as_done() -> None:
+    slowing = tuple(12.0 - 0.6 * k for k in range(16))
+    _, text = ask(decision(3.0, [], speeds=slowing), asked=("slow-down",), tense="present")
+    assert text == "Vehicle 1 is most likely slowing down in order to turn left."
+    _, text = ask(decision(3.0, [], speeds=(8.0,) * 20), asked=("slow-down",), tense="present")
+    assert text == "I expect vehicle 1 to slow down, most likely in order to turn left."

@@ -98,7 +98,8 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
         held=held,
         suspect=suspect_point(found),
         waits=standing and query.tense == "present" and (not deed or "stop" in deed),
-        ahead=query.tense == "future" or (bool(deed) and found.moment is None),
+        ahead=query.tense == "future" or (query.tense == "present" and found.moment is None),
+        going=query.tense == "present" and found.moment is not None and "stop" not in deed,
     )
 
 

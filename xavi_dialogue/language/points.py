@@ -167,6 +167,7 @@ class Motive:
     held: InTheWay | None = None
     waits: bool = False  # it stands, and what is asked about is going on
     ahead: bool = False  # what is asked about is yet to come
+    going: bool = False  # or is going on
     suspect: SuspectPoint | None = None
 
 
