@@ -8,7 +8,7 @@ import pytest
 from scipy.special import betaincinv
 
 from planner.events import Event
-from planner.trace import EgoGoal, PlanTrace
+from planner.trace import EgoGoal, PlanTrace, WhatIf
 from tests.explain.asking import told
 from tests.traces import (
     Aim,
@@ -423,3 +423,20 @@ def test_a_vehicle_that_left_is_told_with_when_it_was_seen_last():
     hidden = msgspec.structs.replace(S1.traces[-1], unseen={1: 6.2})
     ride = Ride(7.0, (*S1.traces[:-1], hidden), S1.events)
     assert ask(ride, type="where_goal", actor="vehicle:1", tense="present").seen == 6.2
+
+
+def test_what_no_record_provides_for_is_planned_again_with_the_vehicle_acting_so():
+    query = Query(type="what_if", actor="vehicle:1", counterfactual=("change-left",))
+    found = explain(query, record(S1))
+    assert isinstance(found, NeedRollout)
+    assert (found.vehicle, found.vehicle_actions) == (1, ("change-left",))
+    trace = next(t for t in S1.traces if t.trace_id == found.trace_id)
+    supposed = WhatIf(vehicle=1, vehicle_actions=("change-left",))
+    again = msgspec.structs.replace(trace, plan=trace.plan[1:], what_if=supposed)
+    answer = explain(query, Record(S1.now, S1.traces, S1.events, extra=(again,)))
+    assert isinstance(answer, Explanation)
+    assert answer.causes[0].vehicle == 1
+    assert answer.causes[0].decision_changes is True
+    refused = explain(query, Record(S1.now, S1.traces, S1.events, refused=(found,)))
+    assert isinstance(refused, NoExplanation)
+    assert refused.reason == "too-little-evidence"

@@ -177,6 +177,24 @@ class Ride:
             raise Unanswered(need)
         return again[-1] if again else None
 
+    def supposed(self, trace: PlanTrace, vehicle: int, steps: Actions) -> PlanTrace | None:
+        """The plan made again from a decision with a vehicle that acts as supposed, if any."""
+        moment = (trace.sim_time, trace.decision)
+        return next(
+            (
+                extra
+                for extra in self._extra
+                if extra.what_if is not None
+                and (extra.sim_time, extra.decision) == moment
+                and (extra.what_if.vehicle, extra.what_if.vehicle_actions) == (vehicle, steps)
+            ),
+            None,
+        )
+
+    def cannot_have(self, need: NeedRollout) -> bool:
+        """Whether the planner was asked for something and could not give it."""
+        return need in self._refused
+
     def original(self, trace: PlanTrace) -> PlanTrace:
         """The decision of the ride from which a plan was made again, or the decision itself."""
         moment = (trace.sim_time, trace.decision)

@@ -3,6 +3,7 @@
 from planner.trace import PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
+from xavi_dialogue.explain.actions import is_macro
 from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome, to_effects
 from xavi_dialogue.explain.explanation import Cause, Evidence, Explanation, NeedRollout
@@ -54,7 +55,39 @@ def _otherwise(
                 return _supposing(ride, model, vehicle, supposed, deed)
             except Unanswered as unanswered:
                 refused = unanswered
-    raise refused
+    steps = tuple(action for action in asked if is_macro(action))
+    if query.negated or len(steps) < len(asked):
+        raise refused
+    return _acting(ride, vehicle, steps, moment, refused)
+
+
+def _acting(
+    ride: Ride, vehicle: int, steps: Actions, moment: float, refused: Unanswered
+) -> Explanation:
+    """The plan made again with a vehicle that does what nothing in the record provides for.
+
+    Raises:
+        Unanswered: it must be planned again first; or that was not possible.
+    """
+    known = known_to(ride, vehicle, moment)
+    if not known:
+        raise refused
+    again = ride.supposed(known[-1], vehicle, steps)
+    if again is not None:
+        return compared(ride, vehicle, known[-1], again)
+    need = NeedRollout(trace_id=known[-1].trace_id, vehicle=vehicle, vehicle_actions=steps)
+    raise refused if ride.cannot_have(need) else Unanswered(need)
+
+
+def known_to(ride: Ride, vehicle: int, moment: float) -> list[PlanTrace]:
+    """The decisions up to a time [s] that had a choice and reckoned with a vehicle."""
+    return [
+        trace
+        for trace in ride.traces
+        if trace.sim_time <= moment + ROUNDING
+        and trace.under_way is None
+        and prediction(trace, vehicle) is not None
+    ]
 
 
 def moment_of(ride: Ride, tense: Tense, vehicle: int | None = None) -> float:
@@ -134,13 +167,7 @@ def replanned(ride: Ride, vehicle: int, moment: float) -> tuple[PlanTrace, PlanT
     Raises:
         Unanswered: there is none, or it must be planned again first.
     """
-    known = [
-        trace
-        for trace in ride.traces
-        if trace.sim_time <= moment + ROUNDING
-        and trace.under_way is None
-        and prediction(trace, vehicle) is not None
-    ]
+    known = known_to(ride, vehicle, moment)
     if not known:
         raise decline("outside-record", vehicle=vehicle, time=moment)
     again = ride.variants(known[-1], removed=vehicle)
@@ -156,7 +183,7 @@ def _without(ride: Ride, vehicle: int, moment: float) -> Explanation:
 
 
 def compared(ride: Ride, vehicle: int, trace: PlanTrace, again: PlanTrace) -> Explanation:
-    """The plan of a decision made again without a vehicle, against the plan as it was."""
+    """The plan of a decision made again with a vehicle gone or acting otherwise, against it."""
     model, other = ride.model(trace), ride.model(again)
     here, there = factual(model, trace), factual(other, again)
     choices = model.choices(vehicle)
