@@ -8,6 +8,7 @@ and none is where the foil leaves the way to the goal: that is nobody's doing.
 
 from collections.abc import Iterable, Sequence
 
+from planner.trace import HoldUp
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import ComponentEffect
 from xavi_dialogue.causal.holdups import VehicleHoldUp, colliding_choice, hold_ups
@@ -130,9 +131,18 @@ def _by_hold_up(model: CausalModel, held: VehicleHoldUp, measured: Influence | N
     actions, probability = expected_actions(model, held.vehicle, held.choice)
     present = held.began <= model.trace.sim_time + AT_ONCE and held.at_once >= SURELY
     mechanism = Mechanism(
-        held.how, held.speed_from, held.speed_to, held.duration, held.share, present
+        _how(held, actions), held.speed_from, held.speed_to, held.duration, held.share, present
     )
     return Cause(held.vehicle, actions, probability, mechanism, _bits(measured), None)
+
+
+def _how(held: VehicleHoldUp, actions: Actions) -> HoldUp:
+    """How it holds up, as one would say it: who goes straight on does not cut in.
+
+    In rollouts it does as well where the ego moves in behind it.
+    """
+    straight = bool(actions) and set(actions) <= {"continue", "exit-straight"}
+    return "leader" if held.how == "cut-in" and straight else held.how
 
 
 def _bits(measured: Influence | None) -> float | None:

@@ -168,6 +168,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     pivot: Pivot | None = None
     ranking: Ranking | None = None
     suspect: Suspect | None = None
+    done: tuple[QueryAction, ...] = ()  # what the ego did, where the question calls it otherwise
     cleared: int | None = None  # a vehicle in our way without which all would have been the same
 
 

@@ -3,6 +3,7 @@
 Whether it stands under a condition, what would have to change for another, what mattered most.
 """
 
+import math
 from collections.abc import Mapping
 
 from msgspec.structs import replace
@@ -32,6 +33,7 @@ from xavi_dialogue.explain.explanation import Cause, Explanation, NoExplanation
 from xavi_dialogue.explain.premise import about_foil, premise
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, Unanswered, decline, enough, planned, prediction, thin
+from xavi_dialogue.explain.slowing import began
 from xavi_dialogue.explain.vehicles import check_known, matching
 
 LIKELY = 0.5  # share of the rollouts from which the ego is said to do something
@@ -75,7 +77,8 @@ def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
             tense=query.tense,
         )
         return _judged(ride, suppositions.what_if(asked, ride), supposed.vehicle, deed)
-    trace, again = suppositions.replanned(ride, supposed.vehicle, _moment(query, ride, deed))
+    moment = _moment(query, ride, supposed.vehicle, deed)
+    trace, again = suppositions.replanned(ride, supposed.vehicle, moment)
     found = suppositions.compared(ride, supposed.vehicle, trace, again)
     if not driving:
         return _judged(ride, found, supposed.vehicle, deed)
@@ -85,18 +88,24 @@ def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
     return _with_change(found, supposed.vehicle, changes=share < LIKELY)
 
 
-def _moment(query: Query, ride: Ride, deed: tuple[QueryAction, ...]) -> float:
+def _moment(query: Query, ride: Ride, vehicle: int, deed: tuple[QueryAction, ...]) -> float:
     """The time [s] of the decision for a deed; one that was not done was up for decision too.
+
+    Of a way of driving it is the one under which it began, or, where the vehicle was not known
+    then, the first that reckons with it.
 
     Raises:
         Unanswered: it is a way of driving, and was not.
     """
+    driving = tuple(action for action in deed if action in DRIVING)
+    if driving:
+        start = began(ride, driving, query.tense)
+        known = suppositions.known_to(ride, vehicle, math.inf)
+        return max(start, known[0].sim_time) if known else start
     try:
         return premise(ride, replace(query, factual=deed or None)).trace.sim_time
     except Unanswered:
-        if any(action in DRIVING for action in deed):
-            raise
-    return suppositions.moment_of(ride, query.tense)
+        return suppositions.moment_of(ride, query.tense, vehicle)
 
 
 def _given(

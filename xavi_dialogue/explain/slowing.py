@@ -1,5 +1,7 @@
 """Why the ego slowed down, stopped, gave way or sped up: who held it up under its own plan."""
 
+from contextlib import suppress
+
 from msgspec.structs import replace
 
 from planner.events import Event
@@ -40,6 +42,8 @@ def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) ->
     given_way_to = None if wait is None else wait.vehicle
     causes = proven(ride, model, _first(model, causes, given_way_to), plan)
     found = _explanation(ride, model, plan, causes, motion, seen)
+    if seen.action not in asked:
+        found = replace(found, done=(seen.action,))
     if wait is None and causes and causes[0].necessary is False:
         return replace(found, causes=(), cleared=causes[0].vehicle)
     return found
@@ -52,6 +56,15 @@ def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> Pla
         Unanswered: it did not, or the record lacks the decision.
     """
     return _decision(ride, *_find(ride, ride.motion(EGO), asked, tense))
+
+
+def began(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> float:
+    """When [s] the ego last began to drive as described.
+
+    Raises:
+        Unanswered: it did not.
+    """
+    return _find(ride, ride.motion(EGO), asked, tense)[0].start
 
 
 def _explanation(
@@ -92,6 +105,9 @@ def _find(
             found.append((sighting, near[-1] if waited else None))
     if tense != "past":
         found = [pair for pair in found if pair[0].end >= ride.now - RECENT]
+    if not found and "stop" in asked:  # who says brake may mean either
+        with suppress(Unanswered):
+            return _find(ride, motion, ("slow-down",), tense)
     if not found:
         raise did_not_happen(ride, asked)
     return max(found, key=lambda pair: pair[0].end)

@@ -155,12 +155,15 @@ def constraint(
 ) -> Constraint:
     """Who was in our way when we slowed down, stopped or gave way."""
     points = tuple(cause_point(c, query.tense, budget) for c in found.causes[: budget.causes])
+    asked = Doing(EGO, plain(deed), query.tense)
     return Constraint(
-        deed=Doing(EGO, plain(deed), query.tense),
+        deed=Doing(EGO, found.done, query.tense) if found.done else asked,
+        denied=asked if found.done else None,
         past=query.tense == "past",
         gave_way=deed[-1] == "give-way",
         turning=any(action in ("exit-left", "exit-right") for action in found.factual[:1]),
         because=points[0] if points else None,
         also=points[1:],
         suspect=suspect_point(found),
+        cleared=None if found.cleared is None else Vehicle(found.cleared),
     )

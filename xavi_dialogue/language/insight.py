@@ -120,7 +120,7 @@ def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Surenes
         share=certainty.share,
         chance=_chance(certainty.share),
         low=certainty.low,
-        least=_chance(certainty.low),
+        least=_chance(math.floor(certainty.low * 20.0 + 1e-9) / 20.0),  # as it is said: to 5 %
         loose=certainty.share - certainty.low >= 0.05,
         all=certainty.good == certainty.situations,
         none=certainty.good == 0,

@@ -110,6 +110,7 @@ class Constraint:
     because: CausePoint | None
     also: tuple[CausePoint, ...]
     cleared: Vehicle | None = None  # in our way, but it made no difference
+    denied: Doing | None = None  # what the question calls it, and was not
     suspect: SuspectPoint | None = None
 
 
