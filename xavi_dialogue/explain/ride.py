@@ -177,16 +177,18 @@ class Ride:
             raise Unanswered(need)
         return again[-1] if again else None
 
-    def supposed(self, trace: PlanTrace, vehicle: int, steps: Actions) -> PlanTrace | None:
-        """The plan made again from a decision with a vehicle that acts as supposed, if any."""
+    def supposed(self, trace: PlanTrace, need: NeedRollout) -> PlanTrace | None:
+        """The plan made again from a decision with what was supposed of a vehicle, if any."""
         moment = (trace.sim_time, trace.decision)
+        wanted = (need.vehicle, need.goal or None, need.vehicle_actions or ())
         return next(
             (
                 extra
                 for extra in self._extra
                 if extra.what_if is not None
                 and (extra.sim_time, extra.decision) == moment
-                and (extra.what_if.vehicle, extra.what_if.vehicle_actions) == (vehicle, steps)
+                and (extra.what_if.vehicle, extra.what_if.goal, extra.what_if.vehicle_actions)
+                == wanted
             ),
             None,
         )

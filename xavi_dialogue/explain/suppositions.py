@@ -5,12 +5,18 @@ from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.explain.actions import is_macro
 from xavi_dialogue.explain.causes import expected_actions
-from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome, to_effects
+from xavi_dialogue.explain.contrast import (
+    LANE_CHANGES,
+    arrival,
+    evidence,
+    factual,
+    outcome,
+    to_effects,
+)
 from xavi_dialogue.explain.explanation import Cause, Evidence, Explanation, NeedRollout
 from xavi_dialogue.explain.query import Query, QueryAction, Tense
 from xavi_dialogue.explain.ride import (
     ROUNDING,
-    Deed,
     Ride,
     Unanswered,
     decline,
@@ -35,26 +41,25 @@ def what_if(query: Query, ride: Ride) -> Explanation:
 def _otherwise(
     query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...], moment: float
 ) -> Explanation:
-    """What the ego would do if a vehicle did, or had not done, something."""
-    past = query.tense == "past"
-    if past:
+    """What the ego would do if a vehicle did, or had not done, something.
+
+    That is told from the samples of the decision itself; where they are too few, it is planned
+    again with the vehicle acting so.
+    """
+    if query.tense == "past":
         check_contrary(ride, vehicle, asked, done=query.negated)
-    deed = ride.manoeuvre if past else None
-    if deed is not None and moment > ride.choice_of(deed).sim_time + ROUNDING:
-        deed = None  # which was done before that vehicle came into view
+    known = known_to(ride, vehicle, moment)
+    if not known:
+        raise decline("outside-record", vehicle=vehicle, time=moment)
+    model = ride.model(known[-1])
+    every, matched = frozenset(model.choices(vehicle)), matching(model, vehicle, asked)
+    supposed = every - matched if query.negated else matched
     refused: Unanswered = thin(asked, None)
-    for trace in reversed(ride.traces):
-        if trace.sim_time > moment + ROUNDING or prediction(trace, vehicle) is None:
-            continue
-        model = ride.model(trace)
-        every = frozenset(model.choices(vehicle))
-        matched = matching(model, vehicle, asked)
-        if matched and (matched != every or not query.negated):
-            supposed = every - matched if query.negated else matched
-            try:
-                return _supposing(ride, model, vehicle, supposed, deed)
-            except Unanswered as unanswered:
-                refused = unanswered
+    if supposed and matched:
+        try:
+            return _supposing(ride, model, vehicle, supposed)
+        except Unanswered as unanswered:
+            refused = unanswered
     steps = tuple(action for action in asked if is_macro(action))
     if query.negated or len(steps) < len(asked):
         raise refused
@@ -72,10 +77,12 @@ def _acting(
     known = known_to(ride, vehicle, moment)
     if not known:
         raise refused
-    again = ride.supposed(known[-1], vehicle, steps)
+    need = NeedRollout(trace_id=known[-1].trace_id, vehicle=vehicle, vehicle_actions=steps)
+    if len(steps) == 1 and steps[0] not in LANE_CHANGES:  # where it goes, however it gets there
+        need = NeedRollout(trace_id=known[-1].trace_id, vehicle=vehicle, goal=steps[0])
+    again = ride.supposed(known[-1], need)
     if again is not None:
         return compared(ride, vehicle, known[-1], again)
-    need = NeedRollout(trace_id=known[-1].trace_id, vehicle=vehicle, vehicle_actions=steps)
     raise refused if ride.cannot_have(need) else Unanswered(need)
 
 
@@ -106,43 +113,27 @@ def moment_of(ride: Ride, tense: Tense, vehicle: int | None = None) -> float:
 
 
 def _supposing(
-    ride: Ride,
-    model: CausalModel,
-    vehicle: int,
-    supposed: frozenset[Choice],
-    deed: Deed | None,
+    ride: Ride, model: CausalModel, vehicle: int, supposed: frozenset[Choice]
 ) -> Explanation:
-    """The ego's best plan given what is supposed of a vehicle, against what it did or plans.
-
-    About the past, the latter is its best plan given that the vehicle does the contrary. Where
-    the deed was decided on later than in this trace, it is the plan of that later decision, and
-    there are no effects, since the two are not seen from the same moment.
+    """The ego's best plan given what is supposed of a vehicle, against what was decided.
 
     Raises:
         Unanswered: there is too little evidence.
     """
     trace, chances = model.trace, model.choices(vehicle)
-    contrary = frozenset(chances) - supposed
     there = _best(CausalModel(trace, {vehicle: supposed}), planned(trace))
-    later = deed is not None and planned(trace)[0] != deed.action
-    if deed is not None and later:
-        chosen = ride.choice_of(deed)
-        here = factual(ride.model(chosen), chosen)
-    elif deed is not None and contrary:
-        here = _best(CausalModel(trace, {vehicle: contrary}), planned(trace))
-    else:
-        here = factual(model, trace)
+    here = factual(model, trace)
     likeliest = max(supposed, key=lambda choice: (chances[choice], choice))
     actions, _ = expected_actions(model, vehicle, likeliest)
     chance = min(sum(chances[choice] for choice in supposed), 1.0)
-    cause = Cause(vehicle, actions, chance, None, None, there.plan != here.plan)
+    cause = Cause(vehicle, actions, chance, None, None, there.plan[:1] != here.plan[:1])
     return Explanation(
         factual=here.plan,
         counterfactual=there.plan,
         outcome=outcome(there),
-        effects=() if later else to_effects(effects(there, here)),
+        effects=to_effects(effects(there, here)),
         causes=(cause,),
-        evidence=evidence(model, ride, there, *(() if later else (here,))),
+        evidence=evidence(model, ride, there, here),
         sim_time=trace.sim_time,
         arrival=arrival(trace, here),
     )
@@ -188,7 +179,7 @@ def compared(ride: Ride, vehicle: int, trace: PlanTrace, again: PlanTrace) -> Ex
     here, there = factual(model, trace), factual(other, again)
     choices = model.choices(vehicle)
     actions, chance = expected_actions(model, vehicle, max(choices, key=lambda c: choices[c]))
-    cause = Cause(vehicle, actions, chance, None, None, there.plan != here.plan)
+    cause = Cause(vehicle, actions, chance, None, None, there.plan[:1] != here.plan[:1])
     there_rests, here_rests = evidence(other, ride, there), evidence(model, ride, here)
     return Explanation(
         factual=here.plan,
