@@ -11,7 +11,7 @@ from typing import Literal
 
 import msgspec
 
-from sim.scene import Point, VehicleState
+from sim.scene import EGO, Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/1"
 MAX_BYTES = 256 * 1024
@@ -288,4 +288,30 @@ def decode(data: bytes) -> PlanTrace:
         raise TraceError(f"not a plan trace: {error}") from error
     if trace.schema != SCHEMA:
         raise TraceError(f"trace schema is {trace.schema!r}; this version reads {SCHEMA!r}")
+    fault = _fault(trace)
+    if fault is not None:
+        raise TraceError(f"not a plan trace: {fault}")
     return trace
+
+
+def _fault(trace: PlanTrace) -> str | None:
+    """What in a trace does not fit together, if anything."""
+    if EGO not in trace.scene:
+        return "the ego is not in its scene"
+    for vehicle, track in trace.history.items():
+        if not len(track.position) == len(track.heading) == len(track.speed) > 0:
+            return f"the history of vehicle {vehicle} has lists of different lengths, or is empty"
+    if missing := trace.scene.keys() - trace.history.keys():
+        return f"vehicle {min(missing)} has no history"
+    ways = {
+        known.vehicle: [len(g.trajectories) for g in known.goals] for known in trace.predictions
+    }
+    for vehicle, counts in ways.items():
+        if not counts or min(counts) == 0:
+            return f"vehicle {vehicle} has no goal, or one with no trajectory"
+    for rollout in trace.rollouts:
+        for s in rollout.samples:
+            counts = ways.get(s.vehicle, [])
+            if not (0 <= s.goal < len(counts) and 0 <= s.trajectory < counts[s.goal]):
+                return f"rollout {rollout.index} samples what is not predicted"
+    return None

@@ -138,7 +138,7 @@ def test_how_we_will_go_about_it():
             Certainty("plan", 1.0, 0.88, 21, 21, 16),
             "I was quite sure: my plan worked out in all 21 situations that I tried, though it "
             "took longer than I looked ahead in 16. As far as I can foresee, that makes the "
-            "chance at least 90 %.",
+            "chance at least 85 %.",
         ),
         (
             Certainty("plan", 0.0, 0.0, 0, 5),

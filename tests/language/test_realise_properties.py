@@ -91,6 +91,8 @@ def numbers(found: Explanation, now: float) -> Iterator[str]:
         yield bare(Quantity(value or 0.0, "s"))
     for value in speeds:
         yield from re.findall(r"\d+", quantity(Quantity(value or 0.0, "km/h")))
+    if found.certainty is not None:
+        yield str(5 * math.floor(found.certainty.low * 20.0 + 1e-9))  # a bound is rounded down
     for chance in chances:
         yield from re.findall(r"\d+", quantity(Quantity(chance, "probability")))
 

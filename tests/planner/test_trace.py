@@ -2,7 +2,9 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -67,7 +69,7 @@ def test_who_holds_a_predicted_vehicle_up_is_written_where_somebody_does(trace: 
     held = msgspec.structs.replace(ways[0], held_up=trace.rollouts[0].held_up[:1])
     goal = msgspec.structs.replace(trace.predictions[0].goals[0], trajectories=(held,))
     known = msgspec.structs.replace(trace.predictions[0], goals=(goal,))
-    other = msgspec.structs.replace(trace, predictions=(known,))
+    other = msgspec.structs.replace(trace, predictions=(known,), rollouts=())
     assert held.held_up
     assert decode(encode(other)) == other
 
@@ -172,3 +174,28 @@ def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -
         )
         found.add(done.stdout)
     assert found == {trace.trace_id}
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        (lambda t: {"scene": {1: t["scene"]["1"]}}, "the ego is not in its scene"),
+        (lambda t: {"history": {"0": t["history"]["0"]}}, "vehicle 1 has no history"),
+        (
+            lambda t: {"history": {**t["history"], "1": {**t["history"]["1"], "speed": []}}},
+            "the history of vehicle 1 has lists of different lengths, or is empty",
+        ),
+        (
+            lambda t: {"predictions": [{**t["predictions"][0], "goals": []}]},
+            "vehicle 1 has no goal, or one with no trajectory",
+        ),
+        (lambda t: {"predictions": []}, "samples what is not predicted"),
+    ],
+)
+def test_a_trace_that_does_not_fit_together_is_refused(
+    trace: PlanTrace, change: Callable[[dict[str, Any]], dict[str, Any]], fault: str
+) -> None:
+    known = json.loads(encode(trace))
+    damaged = msgspec.json.encode({**known, **change(known)})
+    with pytest.raises(TraceError, match=fault):
+        decode(damaged)

@@ -6,6 +6,7 @@ from typing import TypeAlias
 from msgspec.structs import replace
 
 from sim.scene import EGO as OURSELVES
+from xavi_dialogue.causal.model import CausalError
 from xavi_dialogue.explain import (
     avoidance,
     certainty,
@@ -66,6 +67,8 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
         return _checked(query, ride, _explainer(query)(query, ride))
     except Unanswered as unanswered:
         return unanswered.result
+    except CausalError:  # a record that contradicts itself explains nothing
+        return NoExplanation(reason="trace-gap", facts={"time": record.now})
 
 
 def settled(query: Query, record: Record) -> Query:

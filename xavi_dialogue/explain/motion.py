@@ -22,6 +22,7 @@ TREND_TIME = 1.0  # [s] over which a trend is judged
 TREND = 0.4  # [m/s2] from which it is one
 TURNED = math.radians(50.0)
 ALONG = math.radians(10.0)  # difference of heading that still counts as the same way
+SLANT = math.radians(30.0)  # difference of heading within a lane change at most
 LANE_SHIFT = (2.2, 5.5)  # [m] sideways in one lane change
 LANE_TIME = 6.0  # [s] that a lane change takes at most
 TURN_TIME = 8.0  # [s]
@@ -144,6 +145,8 @@ class Motion:
         """
         if abs(angle_between(self.heading[b], self.heading[a])) > ALONG:
             return 0.0
+        if any(abs(angle_between(h, self.heading[a])) > SLANT for h in self.heading[a:b]):
+            return 0.0  # a bend and its counterpart, round a corner or a roundabout
         dx = self.position[b][0] - self.position[a][0]
         dy = self.position[b][1] - self.position[a][1]
         first, last = (

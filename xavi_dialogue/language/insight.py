@@ -27,6 +27,7 @@ from xavi_dialogue.language.points import (
     plain,
 )
 
+OVER = 0.975  # probability that is said as "over 95 %"
 EVEN = 0.5  # probability from which something is more probable than not
 NEVER, ALWAYS = 0.01, 0.99  # what was simulated is neither impossible nor certain
 SELDOM = 0.25  # probability up to which an option is said to avoid something
@@ -120,7 +121,7 @@ def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Surenes
         share=certainty.share,
         chance=_chance(certainty.share),
         low=certainty.low,
-        least=_chance(math.floor(certainty.low * 20.0 + 1e-9) / 20.0),  # as it is said: to 5 %
+        least=_at_least(certainty.low),
         loose=certainty.share - certainty.low >= 0.05,
         all=certainty.good == certainty.situations,
         none=certainty.good == 0,
@@ -199,6 +200,11 @@ def _factor(
         crash=_chance(held.share) if held is not None and crash else None,
         contrast=None,
     )
+
+
+def _at_least(bound: float) -> Quantity:
+    """A lower bound, as it is said: rounded down to 5 %, or "over 95 %"."""
+    return _chance(bound if bound >= OVER else math.floor(bound * 20.0 + 1e-9) / 20.0)
 
 
 def _plan(found: Explanation, now: float) -> Plan:

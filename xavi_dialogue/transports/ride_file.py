@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -78,7 +79,7 @@ def load(data: bytes) -> RecordedRide:
     try:
         lines = gzip.decompress(data).splitlines()
         first, *rest = (msgspec.json.decode(line, type=_Line) for line in lines)
-    except (OSError, EOFError, ValueError, msgspec.MsgspecError) as error:
+    except (OSError, EOFError, ValueError, zlib.error, msgspec.MsgspecError) as error:
         raise RideFileError(f"not a recorded ride: {error}") from error
     if first.scenario is None or first.seed is None or first.halt is None:
         raise RideFileError("not a recorded ride: its first line names no scenario")

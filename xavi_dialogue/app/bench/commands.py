@@ -18,8 +18,13 @@ Scenarios = Annotated[
     list[str] | None, typer.Option("--scenario", help="A name, or a folder; may be repeated.")
 ]
 Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one per processor.")]
-Rides = Annotated[Path, typer.Option(help="Folder of recorded rides.")]
-Page = Annotated[Path | None, typer.Option(help="Put the paper's figures into this page.")]
+Rides = Annotated[
+    Path, typer.Option(exists=True, file_okay=False, help="Folder of recorded rides.")
+]
+Page = Annotated[
+    Path | None,
+    typer.Option(exists=True, dir_okay=False, help="Put the paper's figures into this page."),
+]
 
 
 def commands(show: Show) -> typer.Typer:

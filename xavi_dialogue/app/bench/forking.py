@@ -4,11 +4,16 @@ A state saved by SUMO is wrong while a lane is being changed; a fork is exact. O
 that never opened Zenoh may be forked: its child would hang.
 """
 
+import ctypes
 import os
+import signal
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TypeVar
 
 import msgspec
+
+END_WITH_PARENT = 1  # PR_SET_PDEATHSIG of prctl
 
 Found = TypeVar("Found")
 
@@ -40,9 +45,14 @@ def in_fork(work: Callable[[], Found], kind: type[Found]) -> Found:
         os.close(read)
         _tell(write, work)
     os.close(write)
-    with os.fdopen(read, "rb") as pipe:
-        data = pipe.read()
-    os.waitpid(child, 0)
+    try:
+        with os.fdopen(read, "rb") as pipe:
+            data = pipe.read()
+    except BaseException:
+        os.kill(child, signal.SIGKILL)
+        raise
+    finally:
+        os.waitpid(child, 0)
     if not data:
         raise ChildFailed("its process died")
     told = msgspec.json.decode(data, type=_Told)
@@ -53,10 +63,15 @@ def in_fork(work: Callable[[], Found], kind: type[Found]) -> Found:
 
 def _tell(write: int, work: Callable[[], Found]) -> None:  # pragma: no cover - another process
     """Do the work, tell what it came to, and end without any of the parent's clean-up."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends it at once, with nothing told
+    with suppress(AttributeError, OSError):  # where there is such a call, it ends with its parent
+        ctypes.CDLL(None).prctl(END_WITH_PARENT, signal.SIGKILL)
     try:
         told = _Told(msgspec.Raw(msgspec.json.encode(work())))
     except BaseException as error:
         told = _Told(error=f"{type(error).__name__}: {error}")
-    with os.fdopen(write, "wb") as pipe:
-        pipe.write(msgspec.json.encode(told))
-    os._exit(0)
+    try:
+        with os.fdopen(write, "wb") as pipe:
+            pipe.write(msgspec.json.encode(told))
+    finally:  # even where the parent is gone, this copy must not go on in its place
+        os._exit(0)

@@ -6,7 +6,7 @@ from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from functools import cache
-from multiprocessing import get_context
+from multiprocessing import active_children, get_context
 from typing import TypeVar
 
 import msgspec
@@ -150,6 +150,10 @@ def _pooled(
             futures += [pool.submit(function, task) for task in tasks]
             for future in futures:
                 yield future.result()
+        except (KeyboardInterrupt, GeneratorExit):
+            for child in active_children():  # they would carry on with what they have begun
+                child.terminate()
+            raise
         finally:
             for future in futures:
                 future.cancel()
