@@ -10,21 +10,11 @@ from typing import Literal
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points, suspect_point
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, vehicle_of
 from xavi_dialogue.language.hindrance import in_the_way
 from xavi_dialogue.language.insight import insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
-from xavi_dialogue.language.points import (
-    LANE_CHANGES,
-    ActivityPoint,
-    Budget,
-    Content,
-    Motive,
-    Supposition,
-    Time,
-    doing,
-    plain,
-    vehicle_of,
-)
+from xavi_dialogue.language.points import ActivityPoint, Budget, Content, Motive, Supposition, Time
 from xavi_dialogue.language.ranking import Comparison, comparison
 
 SPREAD = 2.0  # [s] a range of times worth giving

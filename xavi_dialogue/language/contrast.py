@@ -4,9 +4,9 @@ from typing import Literal
 
 from xavi_dialogue.explain.explanation import Cause, Effect, Evidence, Explanation
 from xavi_dialogue.explain.query import Query, Tense
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain
 from xavi_dialogue.language.morphology import EGO, KMH, Doing, Quantity, Vehicle
 from xavi_dialogue.language.points import (
-    LANE_CHANGES,
     Budget,
     CausePoint,
     Constraint,
@@ -14,8 +14,6 @@ from xavi_dialogue.language.points import (
     EffectPoint,
     EvidencePoint,
     SuspectPoint,
-    doing,
-    plain,
 )
 from xavi_dialogue.language.wording import lexicon
 

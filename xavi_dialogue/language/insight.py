@@ -9,9 +9,9 @@ from xavi_dialogue.explain.details import Avoidance, Certainty, Grounds, Pivot
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import cause_point, contrast, effect_points
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, quantity
 from xavi_dialogue.language.points import (
-    LANE_CHANGES,
     Budget,
     Contrast,
     Evasion,
@@ -23,8 +23,6 @@ from xavi_dialogue.language.points import (
     Supposition,
     Sureness,
     Unmoved,
-    doing,
-    plain,
 )
 
 OVER = 0.975  # probability that is said as "over 95 %"

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from xavi_dialogue.explain.explanation import Explanation
+from xavi_dialogue.language.doings import plain
 from xavi_dialogue.language.morphology import Term, Vehicle
-from xavi_dialogue.language.points import plain
 
 
 @dataclass(frozen=True, slots=True)

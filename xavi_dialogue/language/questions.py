@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.context import SpeechContext
+from xavi_dialogue.language.doings import doing
 from xavi_dialogue.language.generator import expand
 from xavi_dialogue.language.morphology import YOU, Doing, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join
-from xavi_dialogue.language.points import doing
 from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.wording import lexicon
 
