@@ -28,6 +28,24 @@ class Boundary(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     end_before: frozenset[str]
 
 
+class Loose(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What it costs to read past words where only the clauses are read."""
+
+    skip: dict[str, float]  # by terminal
+    other: float  # of any other terminal
+    limit: float  # no reading may cost more
+    base: float  # what such a reading costs beside one by the grammar of questions
+
+
+class Weighing(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """How the grammar and the judge are weighed against one another."""
+
+    judge: float  # cost of a unit of negative log probability
+    kinds: int  # how many of the likeliest kinds are read loosely
+    talk: float  # cost of a kind that is no question, where the grammar has no reading of it
+    unclear: float  # cost of asking back
+
+
 class Limits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """When a reading is believed."""
 
@@ -35,6 +53,11 @@ class Limits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     decline: float  # nor more than this, where the words show a topic that is declined
     margin: float  # readings that lie closer together are rivals
     readings: int  # rivals shown
+    shorter: float  # a phrase that is not the longest at its place
+    sense: float  # each likelier sense that a phrase has
+    width: int  # hypotheses followed at each word
+    found: int  # readings looked at, the cheapest
+    steps: int  # taken for one text
 
 
 class Costs(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -45,6 +68,8 @@ class Costs(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     boundary: Boundary
     base: dict[str, float]  # by start rule
     limits: Limits
+    loose: Loose
+    weighing: Weighing
 
 
 @cache

@@ -1,25 +1,21 @@
-"""Grammar: tokens -> parse trees, reading past words that carry no meaning.
+"""Grammar: the tables that lark makes of the question grammar, and what they accept.
 
 The grammar is LALR(1) over whole tokens with one start rule for each query type, so that one
-type is deterministic and linear, while several types can still read the same words. Where a
-token does not fit and the cost table allows it, the token is read past at its cost.
+type is deterministic and linear, while several types can still read the same words. A stack of
+the automaton is a value here: a search can go on from one in several ways.
 
 Errors::
 
     GrammarFileError   a grammar file cannot be built; names the file set and lark's reason
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Iterable, Iterator
+from functools import cache, lru_cache
 from importlib import resources
 
 import lark
 from lark.parsers.lalr_analysis import Shift
-from lark.parsers.lalr_interactive_parser import InteractiveParser
 
-from xavi_dialogue.language.costs import costs
-from xavi_dialogue.language.tokens import Token
 from xavi_dialogue.language.wordlists import vocabulary
 
 GRAMMAR_FILES = ("question.lark", "actors.lark", "actions.lark")
@@ -44,26 +40,15 @@ STARTS = (
     "replace",
     "correction",
 )
+CLAUSES = "clauses"  # reads what is said, and not what kind of question it is
 _BUILTIN_TERMINALS = frozenset({"BREAK", "NUMBER", "UNKNOWN"})
 _END = "$END"
-_MAX_ENDS = 3  # parses kept of one rule from one beginning: the longest
 
 Tree = lark.Tree[lark.Token]
 
 
 class GrammarFileError(ValueError):
     """A grammar file cannot be built."""
-
-
-@dataclass(frozen=True, slots=True)
-class Parse:
-    """One way to read the tokens `begin:end` as a question."""
-
-    rule: str  # the start rule
-    tree: Tree
-    begin: int
-    end: int
-    cost: float  # of the words read past inside it
 
 
 @cache
@@ -82,7 +67,7 @@ def grammar() -> lark.Lark:
             "\n".join([*source, declared]),
             parser="lalr",
             lexer=_Tokens,
-            start=list(STARTS),
+            start=[*STARTS, CLAUSES],
             maybe_placeholders=False,
         )
     except lark.exceptions.LarkError as error:
@@ -98,72 +83,74 @@ class _Tokens(lark.lexer.Lexer):
         return iter(())
 
 
-def parses(rule: str, tokens: tuple[Token, ...], begin: int, ends: frozenset[int]) -> list[Parse]:
-    """All parses by one start rule from `begin` to one of `ends` or to the end of the tokens."""
-    skip = costs().skip
-    limit = costs().limits.cost
-    parser = grammar().parse_interactive(start=rule)
-    fed: list[lark.Token] = []
-    found: list[tuple[int, int, float]] = []  # (end, tokens fed, cost)
-    cost = 0.0
-    for position in range(begin, len(tokens)):
-        if position in ends and fed and _fits(parser, _END):
-            found.append((position, len(fed), cost))
-        token = tokens[position]
-        shifted = _shift(parser, token, position)
-        if shifted is not None:
-            fed.append(shifted)
-            continue
-        price = min((skip[t] for t in token.terminals if t in skip), default=None)
-        if price is None or cost + price > limit:
-            break
-        cost += price
-    else:
-        if fed and _fits(parser, _END):
-            found.append((len(tokens), len(fed), cost))
-    return [
-        Parse(rule, _tree(rule, fed[:count]), begin, end, price)
-        for end, count, price in found[-_MAX_ENDS:]
-    ]
+Stack = tuple[int, ...]
 
 
-def _shift(parser: InteractiveParser, token: Token, position: int) -> lark.Token | None:
-    """Shift the token in the first sense that fits; None, and no change, where none does."""
-    for terminal, value in token.senses:
-        if _fits(parser, terminal):
-            shifted = lark.Token(terminal, value, start_pos=position)
-            parser.feed_token(shifted)
-            return shifted
-    return None
+@cache
+def _actions() -> dict[int, dict[str, tuple[int, int, str]]]:
+    """The LALR table: by state and terminal (0, state to shift to, "") or (1, length, rule)."""
+    table = grammar().parse_interactive(start=STARTS[0]).parser_state.parse_conf.states
+    return {
+        state: {
+            terminal: (0, argument, "")
+            if action is Shift
+            else (1, len(argument.expansion), argument.origin.name)
+            for terminal, (action, argument) in row.items()
+        }
+        for state, row in table.items()
+    }
 
 
-def _fits(parser: InteractiveParser, terminal: str) -> bool:
-    """Whether the terminal can be shifted, after the reductions it calls for.
+@cache
+def beginning(rule: str) -> Stack:
+    """The stack of a start rule before the first token."""
+    return tuple(grammar().parse_interactive(start=rule).parser_state.state_stack)
 
-    `InteractiveParser.accepts` says the same of every terminal at once, at a hundred times the
-    price; feeding a copy is no way either, as copies share the lists that lark appends to.
-    """
-    state = parser.parser_state
-    end = state.parse_conf.end_state
-    table = state.parse_conf.states
-    stack = list(state.state_stack)
-    while not (terminal == _END and stack[-1] == end):
-        entry = table[stack[-1]].get(terminal)
-        if entry is None:
+
+@cache
+def _end_state(rule: str) -> int:
+    state = grammar().parse_interactive(start=rule).parser_state
+    end: int = state.parse_conf.end_state
+    return end
+
+
+@lru_cache(maxsize=1 << 15)
+def shift(stack: Stack, terminal: str) -> Stack | None:
+    """The stack after the reductions that a terminal calls for and its shift; None: no fit."""
+    actions = _actions()
+    states = list(stack)
+    while True:
+        found = actions[states[-1]].get(terminal)
+        if found is None:
+            return None
+        kind, argument, name = found
+        if kind == 0:
+            return (*states, argument)
+        if argument:
+            del states[-argument:]
+        states.append(actions[states[-1]][name][1])
+
+
+@lru_cache(maxsize=1 << 12)
+def is_sentence(rule: str, stack: Stack) -> bool:
+    """Whether the tokens on the stack are all of a sentence of the rule."""
+    actions = _actions()
+    states = list(stack)
+    while states[-1] != _end_state(rule):
+        found = actions[states[-1]].get(_END)
+        if found is None:
             return False
-        action, argument = entry
-        if action is Shift:
-            return True
-        if argument.expansion:
-            del stack[-len(argument.expansion) :]
-        stack.append(table[stack[-1]][argument.origin.name][1])
+        _, length, name = found
+        if length:
+            del states[-length:]
+        states.append(actions[states[-1]][name][1])
     return True
 
 
-def _tree(rule: str, fed: list[lark.Token]) -> Tree:
+def tree_of(rule: str, tokens: Iterable[lark.Token]) -> Tree:
     """The tree of tokens that are known to be a sentence of the rule."""
     parser = grammar().parse_interactive(start=rule)
-    for token in fed:
+    for token in tokens:
         parser.feed_token(token)
     tree: Tree = parser.feed_eof()  # type: ignore[no-untyped-call]
     return tree

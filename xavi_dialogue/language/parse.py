@@ -1,29 +1,33 @@
 """Parse: text -> Query | NotUnderstood.
 
-Normalise, tokenise, let every start rule of the grammar read the tokens, rank the readings by
-what they had to leave out, resolve the best against the conversation. Where two readings that
-mean different things lie within the margin, or none makes sense, the text is not understood;
-the parser rather asks than guesses. Pure and deterministic.
+Normalise, correct the spelling, cut the words into phrases in every way. Then two opinions: what
+the grammar makes of them, and of which kind the judge thinks them. The query that is cheapest
+by both wins. Where two that mean different things lie within the margin, or none makes sense,
+the text is not understood; the parser rather asks than guesses. Pure and deterministic.
 """
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language import topics
+from xavi_dialogue.language.beam import Budget
+from xavi_dialogue.language.candidates import loosely, strict
 from xavi_dialogue.language.costs import costs
-from xavi_dialogue.language.followup import answerable, resolve
-from xavi_dialogue.language.grammar import STARTS, Parse, parses
-from xavi_dialogue.language.normalise import MAX_INPUT, Normalised, normalise
-from xavi_dialogue.language.readings import Reading, is_compound, read
-from xavi_dialogue.language.tokens import Token, Tokenised, tokenise
+from xavi_dialogue.language.features import features
+from xavi_dialogue.language.followup import answerable
+from xavi_dialogue.language.judge import Judge, judge
+from xavi_dialogue.language.kinds import reason_in
+from xavi_dialogue.language.lattice import Lattice, build
+from xavi_dialogue.language.normalise import MAX_INPUT, normalise
+from xavi_dialogue.language.tokens import Token
+from xavi_dialogue.language.words import hear
 
 MAX_CONTEXT = 6  # earlier turns looked at
-_MAX_BEGINNINGS = 5
-_WEIGHTLESS = frozenset({"BREAK", "CONJ", "AND", "TIME", "SMALL", "THAT", "IT", "RUDE", "JUNCTION"})
-
-_HELD = frozenset({"NOT", "IF"})
+_UNCLEAR = "ambiguous"
+_TALK = frozenset({"smalltalk", "help"})
 
 Cause = Literal["empty", "too-long", "gibberish", "ambiguous", "no-question"]
 
@@ -43,7 +47,9 @@ class Scored:
 
     rule: str
     query: Query
-    score: float  # cost: 0 is a perfect fit
+    score: float  # cost by grammar and judge together: the lower, the likelier
+    cost: float = 0.0  # by the grammar: 0 is a perfect fit
+    loose: bool = False  # only its clauses were read by the grammar
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +66,10 @@ class ParseReport:
 class Parser:
     """Understands passengers. Stateless: the conversation comes with each call."""
 
-    def __init__(self) -> None:
-        _explain("why did yuo stop?", None, frozenset())  # build all tables before the first answer
+    def __init__(self, opinion: Judge | None = None) -> None:
+        """With another judge than the one that ships with the grammar, to try it."""
+        self._opinion = opinion
+        self.explain("why did yuo stop?")  # build all tables before the first answer
 
     def parse(
         self,
@@ -88,7 +96,19 @@ class Parser:
         context: tuple[str, ...] = (),
     ) -> ParseReport:
         """The same, with tokens, corrections and the readings behind the result."""
-        return _explain(text, _last_question(context[-MAX_CONTEXT:], vehicles), vehicles)
+        previous = self.question_before(context, vehicles)
+        return _explain(text, previous, vehicles, self._opinion)
+
+    def question_before(
+        self, context: tuple[str, ...], vehicles: frozenset[int] = frozenset(range(6))
+    ) -> Query | None:
+        """The last answerable query among the earlier turns, each resolved against those before."""
+        previous: Query | None = None
+        for turn in context[-MAX_CONTEXT:]:
+            result = _explain(turn, previous, vehicles, self._opinion).result
+            if isinstance(result, Query) and answerable(result):
+                previous = result
+        return previous
 
 
 def as_query(result: Query | NotUnderstood) -> Query:
@@ -96,108 +116,84 @@ def as_query(result: Query | NotUnderstood) -> Query:
     return result if isinstance(result, Query) else Query(type="ambiguous", tense="present")
 
 
-def _last_question(context: tuple[str, ...], vehicles: frozenset[int]) -> Query | None:
-    """The last answerable query among the earlier turns, each resolved against those before."""
-    previous: Query | None = None
-    for turn in context:
-        result = _explain(turn, previous, vehicles).result
-        if isinstance(result, Query) and answerable(result):
-            previous = result
-    return previous
-
-
 @lru_cache(maxsize=512)  # the turns of a conversation are read again with each new one
-def _explain(text: str, previous: Query | None, vehicles: frozenset[int]) -> ParseReport:
+def _explain(
+    text: str, previous: Query | None, vehicles: frozenset[int], opinion: Judge | None = None
+) -> ParseReport:
     if len(text) > MAX_INPUT:
         return ParseReport((), (), True, (), NotUnderstood("too-long"))
     normalised = normalise(text)
-    tokenised = tokenise(normalised, vehicles)
     if not normalised.words:
         return ParseReport((), (), False, (), NotUnderstood("empty"))
-    readings = _readings(tokenised.heard, previous)
-    result = _decide(readings, normalised, tokenised)
-    return ParseReport(
-        tokenised.tokens, tokenised.corrections, normalised.shortened, readings, result
-    )
+    heard = hear(normalised, vehicles)
+    lattice = build(heard.words)
+    tokens = tuple(edge.token for _, edge in lattice.main())
+    reason = topics.reason_for(tokens, normalised.words)
+    seen = features(lattice, heard.words, previous is not None)
+    likely = opinion or judge()
+    judged = likely.log_probabilities(seen)
+    readings = _readings(lattice, judged, previous)
+    result = _decide(readings, judged, reason, tokens)
+    return ParseReport(tokens, heard.corrections, normalised.shortened, readings, result)
 
 
-def _readings(tokens: tuple[Token, ...], previous: Query | None) -> tuple[Scored, ...]:
-    """All readings within the cost limit, likeliest first."""
-    scored: dict[tuple[str, Query], Scored] = {}
-    limit, base = costs().limits.cost, costs().base
-    for begin in _beginnings(tokens):
-        ends = frozenset(_ends(tokens, begin))
-        for rule in STARTS:
-            for found in parses(rule, tokens, begin, ends):
-                reading = read(found, tokens)
-                query = resolve(reading, previous) if reading else None
-                if reading is None or query is None:
-                    continue
-                cost = reading.cost + base.get(rule, 0.0) + _outside(found, tokens)
-                cost += _doubt(reading)
-                known = scored.get((rule, query))
-                if cost <= limit and (known is None or cost < known.score):
-                    scored[rule, query] = Scored(rule, query, round(cost, 4))
-    order = {rule: index for index, rule in enumerate(STARTS)}
-    return tuple(sorted(scored.values(), key=lambda s: (s.score, order[s.rule])))
-
-
-def _doubt(reading: Reading) -> float:
-    """Readings that say little need more to be believed."""
-    return 0.3 if reading.query.actor == "vehicle:that" and not reading.named_actor else 0.0
-
-
-def _beginnings(tokens: tuple[Token, ...]) -> list[int]:
-    after, at = costs().boundary.begin_after, costs().boundary.begin_at
-    found = [
-        index
-        for index, token in enumerate(tokens)
-        if index == 0 or tokens[index - 1].terminal in after or token.terminal in at
+def _readings(
+    lattice: Lattice, judged: dict[str, float], previous: Query | None
+) -> tuple[Scored, ...]:
+    """All readings, likeliest first: the grammar's, and loose ones of the likeliest kinds."""
+    budget = Budget(costs().limits.steps)
+    likely = sorted(judged, key=lambda kind: (-judged[kind], kind))[: costs().weighing.kinds]
+    candidates = [
+        *strict(lattice, previous, budget),
+        *loosely(lattice, tuple(likely), previous, budget),
     ]
-    return found if len(found) <= _MAX_BEGINNINGS else [0, *found[1 - _MAX_BEGINNINGS :]]
+    scored: dict[Query, Scored] = {}
+    for one in candidates:
+        score = one.cost + _against(one.kind, judged)
+        known = scored.get(one.query)
+        if known is None or score < known.score:
+            scored[one.query] = Scored(one.rule, one.query, round(score, 4), one.cost, one.loose)
+    return tuple(sorted(scored.values(), key=lambda s: (s.score, s.rule)))
 
 
-def _ends(tokens: tuple[Token, ...], begin: int) -> list[int]:
-    before = costs().boundary.end_before
-    return [i for i in range(begin + 1, len(tokens)) if tokens[i].terminal in before]
-
-
-def _outside(found: Parse, tokens: tuple[Token, ...]) -> float:
-    """What the words before and behind the question cost."""
-    prices = costs().outside
-    before = sum(t.terminal not in _WEIGHTLESS for t in tokens[: found.begin])
-    after = sum(t.terminal not in _WEIGHTLESS for t in tokens[found.end :])
-    behind = min(after * prices.after, prices.after_limit)
-    if found.end < len(tokens) and "SUBORD" in tokens[found.end].terminals:
-        behind = prices.subordinate
-    if is_compound(found.end, tokens):
-        behind = prices.compound
-    else:
-        behind += prices.held * sum(t.terminal in _HELD for t in tokens[found.end :])
-    follows = costs().boundary.begin_after
-    midway = found.begin > 0 and not follows & set(tokens[found.begin - 1].terminals)
-    return (
-        min(before * prices.before, prices.before_limit)
-        + behind
-        + (prices.midway if midway else 0.0)
-    )
+def _against(kind: str, judged: dict[str, float]) -> float:
+    """What the judge has against a kind."""
+    return -costs().weighing.judge * judged.get(kind, min(judged.values()))
 
 
 def _decide(
-    readings: tuple[Scored, ...], normalised: Normalised, tokenised: Tokenised
+    readings: tuple[Scored, ...],
+    judged: dict[str, float],
+    reason: str | None,
+    tokens: tuple[Token, ...],
 ) -> Query | NotUnderstood:
-    reason = topics.reason_for(tokenised.tokens, normalised.words)
     if reason == "non-english":
         return Query(type="out_of_scope", reason=reason, tense="present")
+    weighing = costs().weighing
     best = readings[0] if readings else None
-    if best is None or (reason is not None and best.score > costs().limits.decline):
-        return _decline(reason, tokenised)
+    price = best.score if best else math.inf
+    out, likeliest = _declining(judged)
+    declined = weighing.judge * -out + (0.0 if reason else weighing.talk)
+    unclear = weighing.unclear + _against(_UNCLEAR, judged)
+    if best is None or min(declined, unclear) < price:
+        if declined <= unclear:
+            return _declined(reason or likeliest, tokens)
+        return _unclear(tokens)
     close = [r for r in readings if r.score - best.score <= costs().limits.margin]
     rivals = _distinct(close)
     if len(rivals) > 1:
         shown = rivals[: costs().limits.readings]
         return NotUnderstood("ambiguous", tuple(r.query for r in shown))
     return best.query
+
+
+def _declining(judged: dict[str, float]) -> tuple[float, str]:
+    """The log probability that there is no answer, and the likeliest reason."""
+    reasons = {reason: log for kind, log in judged.items() if (reason := reason_in(kind))}
+    if not reasons:
+        return -math.inf, "off-topic"
+    total = math.log(sum(math.exp(log) for log in reasons.values()))
+    return total, min(reasons, key=lambda reason: (-reasons[reason], reason))
 
 
 def _distinct(close: list[Scored]) -> list[Scored]:
@@ -214,19 +210,17 @@ def _distinct(close: list[Scored]) -> list[Scored]:
     return [close[0], *different]
 
 
-def _deed(tokenised: Tokenised) -> str | None:
+def _deed(tokens: tuple[Token, ...]) -> str | None:
     """What the car cannot do, as "I cannot ..." takes it."""
-    deeds = (t for t in tokenised.tokens if t.terminal == "NOTACTION" and t.form == "base")
+    deeds = (t for t in tokens if t.terminal == "NOTACTION" and t.form == "base")
     return next((t.text for t in deeds), None)
 
 
-def _decline(reason: str | None, tokenised: Tokenised) -> Query | NotUnderstood:
-    if reason is not None:
-        deed = _deed(tokenised) if reason == "not-an-action" else None
-        return Query(type="out_of_scope", reason=reason, tense="present", event=deed)
-    unknown = tuple(t.text for t in tokenised.tokens if t.terminal == "UNKNOWN")
-    if topics.is_gibberish(tokenised.tokens):
-        return NotUnderstood("gibberish", hints=unknown)
-    if topics.is_elsewhere(tokenised.tokens):
-        return Query(type="out_of_scope", reason="off-topic", tense="present")
-    return NotUnderstood("no-question", hints=unknown)
+def _declined(reason: str, tokens: tuple[Token, ...]) -> Query:
+    deed = _deed(tokens) if reason == "not-an-action" else None
+    return Query(type="out_of_scope", reason=reason, tense="present", event=deed)
+
+
+def _unclear(tokens: tuple[Token, ...]) -> NotUnderstood:
+    unknown = tuple(t.text for t in tokens if t.terminal == "UNKNOWN")
+    return NotUnderstood("gibberish" if topics.is_gibberish(tokens) else "no-question", (), unknown)

@@ -80,19 +80,26 @@ class Automaton:
         self._phrases += 1
         return frozenset().union(*self.accepts[start:])
 
-    def longest(self, words: tuple[str, ...], start: int) -> tuple[int, tuple[Sense, ...]] | None:
-        """The longest phrase that begins at `start`: (where it ends, its senses in order)."""
+    def all_from(
+        self, words: tuple[str, ...], start: int
+    ) -> list[tuple[int, tuple[Sense, ...]]]:
+        """Every phrase that begins at `start`, the shortest first: (where it ends, its senses)."""
         state = frozenset(self.first.get(words[start], ()))
-        best = None
+        found: list[tuple[int, tuple[Sense, ...]]] = []
         position = start + 1
         while state:
             if senses := self._senses_at(state):
-                best = (position, senses)
+                found.append((position, senses))
             if position == len(words):
                 break
             state = self._step(state, words[position])
             position += 1
-        return best
+        return found
+
+    def longest(self, words: tuple[str, ...], start: int) -> tuple[int, tuple[Sense, ...]] | None:
+        """The longest phrase that begins at `start`: (where it ends, its senses in order)."""
+        found = self.all_from(words, start)
+        return found[-1] if found else None
 
     def _step(self, state: _State, word: str) -> _State:
         key = (state, word)

@@ -12,7 +12,8 @@ import lark
 
 from xavi_dialogue.explain.query import Query, QueryType
 from xavi_dialogue.language.costs import costs
-from xavi_dialogue.language.grammar import Parse, Tree
+from xavi_dialogue.language.beam import Parse
+from xavi_dialogue.language.grammar import Tree
 from xavi_dialogue.language.rejections import rejected
 from xavi_dialogue.language.slots import (
     ANAPHOR,
@@ -85,31 +86,37 @@ class Reading:
     heading: str | None = None  # "and left?": a direction alone
 
 
-def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
-    """What a parse means, or None where it makes no sense."""
+def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Reading | None:
+    """What a parse means; None where it makes no sense.
+
+    Args:
+        parse: of a question, by the grammar or put together from clauses.
+        after: the tokens behind it.
+        checked: whether what the grammar allows and nobody means is rejected.
+    """
     rule = parse.rule
-    whole = tokens[parse.begin : parse.end]
+    whole = parse.tokens
     clauses = _clauses(parse.tree)
-    if rejected(rule, parse.tree, whole):
+    if checked and rejected(rule, parse.tree, whole):
         return None
     fields = _slots_of(rule, clauses, whole)
     if rule in _EXTRA:
         fields |= _EXTRA[rule](parse.tree, whole)
     focus = next((c for c in clauses if c.role not in ("contrast", "own", "incident")), None)
-    scope = tokens[focus.span[0] : focus.span[1] + 1] if focus else whole
+    scope = whole[focus.span[0] : focus.span[1] + 1] if focus else whole
     if rule in ("confidence", "how") and focus is None:
         scope = whole if any(c.role == "own" for c in clauses) else ()
     tense = tense_for(rule, scope, whole)
     fields["tense"] = tense or _DEFAULT_TENSE.get(rule, "past")
     when = " ".join(t.text for t in whole if t.terminal == "TIME")
     named = "actor" in fields
-    if is_compound(parse.end, tokens):
+    if is_compound(after):
         fields["compound"] = True
     query = Query(type=_type(rule), time=when or None, **fields)
     return Reading(
         rule=rule,
         query=query,
-        cost=parse.cost + sum(_subject_lost(c, tokens) for c in clauses),
+        cost=parse.cost + sum(_subject_lost(c, whole) for c in clauses),
         tensed=tense is not None,
         anaphoric=any(ANAPHOR in c.actions for c in clauses),
         elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
@@ -118,12 +125,12 @@ def read(parse: Parse, tokens: tuple[Token, ...]) -> Reading | None:
     )
 
 
-def is_compound(end: int, tokens: tuple[Token, ...]) -> bool:
-    """Whether a second question begins behind the first, which ends at `end`."""
+def is_compound(after: tuple[Token, ...]) -> bool:
+    """Whether a second question begins with the tokens behind the first."""
     heads = costs().boundary.begin_at | AUXILIARIES
-    joined = [t.terminal in ("AND", "CONJ", "BREAK") for t in tokens[end : end + 2]]
-    start = end + sum(joined[: 1 if joined[:2] != [True, True] else 2])
-    return start > end and start < len(tokens) and tokens[start].terminal in heads
+    joined = [t.terminal in ("AND", "CONJ", "BREAK") for t in after[:2]]
+    start = sum(joined[: 1 if joined != [True, True] else 2])
+    return 0 < start < len(after) and after[start].terminal in heads
 
 
 def _subject_lost(one: Clause, tokens: tuple[Token, ...]) -> float:
@@ -268,15 +275,10 @@ def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     condition = first(tree, "cond")
     if condition is None:
         return {}
-    inside, all_in = (
-        [t.start_pos for t in tokens_in(part) if t.start_pos is not None]
-        for part in (condition, tree)
-    )
+    inside = [t.start_pos for t in tokens_in(condition) if t.start_pos is not None]
     if not inside:
         return {"condition": None}
-    words = [t.text for t in whole]
-    first_word, last_word = min(inside) - min(all_in), max(inside) - min(all_in)
-    return {"condition": " ".join(words[first_word : last_word + 1])}
+    return {"condition": " ".join(t.text for t in whole[min(inside) : max(inside) + 1])}
 
 
 def _detail(kind: str) -> Callable[[Tree, tuple[Token, ...]], dict[str, Any]]:

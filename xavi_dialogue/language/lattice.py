@@ -1,0 +1,75 @@
+"""Lattice: every way to cut a text into words and phrases.
+
+The longest phrase at a place is the likeliest; shorter ones are kept beside it at a price, so
+that "what is stopping" may be a question word, or a question about stopping.
+"""
+
+from dataclasses import dataclass
+
+from xavi_dialogue.language.normalise import BREAK
+from xavi_dialogue.language.tokens import WEAK, Token
+from xavi_dialogue.language.wordlists import vocabulary
+from xavi_dialogue.language.words import vehicle_nouns
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A word or phrase at its place."""
+
+    end: int  # position of the word behind it
+    token: Token
+    longest: bool  # no phrase that begins here is likelier
+
+    @property
+    def is_noise(self) -> bool:
+        """Whether it means nothing and may be dropped for nothing."""
+        return self.token.terminal == "NOISE" and not self.token.others
+
+
+@dataclass(frozen=True, slots=True)
+class Lattice:
+    """All words and phrases of a text, by the position of their first word."""
+
+    edges: tuple[tuple[Edge, ...], ...]  # the longest first; none is empty
+
+    def main(self) -> tuple[tuple[int, Edge], ...]:
+        """The likeliest cut: the longest phrases from the left, each with its position."""
+        path: list[tuple[int, Edge]] = []
+        position = 0
+        while position < len(self.edges):
+            edge = self.edges[position][0]
+            path.append((position, edge))
+            position = edge.end
+        return tuple(path)
+
+
+def build(words: tuple[str, ...]) -> Lattice:
+    """The lattice of a text whose spelling is corrected."""
+    return Lattice(tuple(_edges(words, start) for start in range(len(words))))
+
+
+def _edges(words: tuple[str, ...], start: int) -> tuple[Edge, ...]:
+    word = words[start]
+    if word == BREAK:
+        return (Edge(start + 1, Token("BREAK", word, word), True),)
+    found = vocabulary().phrases.all_from(words, start)
+    found.sort(key=lambda match: (_splits_a_name(words, start, match[0]), -match[0]))
+    if not found:
+        kind = "NUMBER" if word.isdigit() else "UNKNOWN"
+        return (Edge(start + 1, Token(kind, word, word), True),)
+    edges: list[Edge] = []
+    forms = vocabulary().forms
+    for end, (sense, *others) in found:
+        text = words[start:end]
+        form = next((forms[w] for w in text if w in forms), "")
+        kept = tuple(o for o in others if o.terminal not in WEAK)
+        edges.append(Edge(end, Token(*sense, " ".join(text), form, kept), not edges))
+    return tuple(edges)
+
+
+def _splits_a_name(words: tuple[str, ...], start: int, end: int) -> bool:
+    """Whether a phrase parts a vehicle from its number: "what vehicle | 3 did"."""
+    follows = words[end : end + 1]
+    return end - start > 1 and words[end - 1] in vehicle_nouns() and follows[:1] != () and (
+        follows[0].isdigit()
+    )

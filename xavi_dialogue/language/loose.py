@@ -1,0 +1,81 @@
+"""Loose reading: who did what in a text, whatever words frame the question.
+
+Where the grammar of questions does not fit, the judge may still know what kind of question it
+is. Then only the clauses are parsed, reading past everything else, and put where that kind of
+question has them.
+"""
+
+import lark
+
+from xavi_dialogue.language.beam import Budget, Parse, Prices, search
+from xavi_dialogue.language.costs import costs
+from xavi_dialogue.language.grammar import CLAUSES, Tree
+from xavi_dialogue.language.lattice import Lattice
+from xavi_dialogue.language.tokens import Token
+
+_ABOUT_GIVEN = frozenset({"what_if"})  # asks about the condition, where there is one
+_WHO = frozenset({"what", "where_goal", "when", "how", "confidence"})  # may ask about a vehicle alone
+_SAYS_NOTHING = frozenset({"smalltalk", "help", "more", "less"})  # whatever else is said
+_COMPARED = {"said": "first", "denied": "first", "contrast": "second"}
+
+
+def clauses(lattice: Lattice, budget: Budget) -> Parse | None:
+    """The clauses of a text, parsed as `clauses` of the grammar; None where there is none."""
+    loose = costs().loose
+    end = len(lattice.edges)
+    prices = Prices(loose.skip, loose.other, loose.limit)
+    found = search(CLAUSES, lattice, 0, frozenset({end}), prices, budget)
+    return min(found, key=lambda f: f.cost).parse() if found else None
+
+
+def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Parse:
+    """The clauses as a parse by a start rule.
+
+    Args:
+        rule: the start rule.
+        parse: the clauses; None: the question has none.
+        tokens: all tokens of the text.
+    """
+    if parse is None or rule in _SAYS_NOTHING:
+        return Parse(rule, lark.Tree(rule, []), tokens, 0, 0, 0.0)
+    given = _first(parse.tree, "given")
+    parts = list(parse.tree.children)
+    if given is not None and rule in _ABOUT_GIVEN:
+        kept = [c for c in parts if isinstance(c, lark.Tree) and c.data == "contrast"]
+        parts = [*given.children, *kept]
+    elif given is not None:
+        parts = [c for c in parts if c is not given]
+        if rule == "sensitivity":
+            parts.append(lark.Tree("cond", given.children))
+    shaped = [piece for part in parts for piece in _shape(rule, part)]
+    return Parse(rule, lark.Tree(rule, shaped), parse.tokens, 0, parse.end, parse.cost)
+
+
+def _shape(rule: str, part: lark.Token | Tree) -> list[lark.Token | Tree]:
+    """A clause in the shape that the rule gives it."""
+    if not isinstance(part, lark.Tree):
+        return [part]
+    if part.data == "lone":
+        return _alone(rule, part)
+    if rule == "compare" and part.data in _COMPARED:
+        return [lark.Tree(_COMPARED[part.data], part.children)]
+    if rule == "replace":
+        inner = _first(part, "bare") or part
+        return [c for c in inner.children if isinstance(c, lark.Tree)]
+    return [part]
+
+
+def _alone(rule: str, part: Tree) -> list[lark.Token | Tree]:
+    """An actor without an action."""
+    if rule == "what_if":
+        negated = any(isinstance(c, lark.Token) and c.type == "NOT" for c in part.children)
+        auxiliary = any(isinstance(c, lark.Token) and c.type != "NOT" for c in part.children)
+        if negated or auxiliary:
+            return [lark.Tree("elided_not" if negated else "elided", part.children)]
+    if rule in _WHO or rule == "replace":
+        return [c for c in part.children if isinstance(c, lark.Tree)]
+    return [lark.Tree("said", part.children)]
+
+
+def _first(tree: Tree, rule: str) -> Tree | None:
+    return next((c for c in tree.children if isinstance(c, lark.Tree) and c.data == rule), None)

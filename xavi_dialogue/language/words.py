@@ -1,0 +1,89 @@
+"""Words: what was typed, with its spelling corrected and its numbers read."""
+
+from dataclasses import dataclass
+from functools import cache
+
+from xavi_dialogue.language.normalise import BREAK, Normalised
+from xavi_dialogue.language.spelling import correct
+from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """The words of a text as they are read."""
+
+    words: tuple[str, ...]  # clause marks are BREAK
+    corrections: tuple[tuple[str, str], ...] = ()  # (as typed, as read)
+
+
+@cache
+def _numbers() -> dict[str, int]:
+    table: dict[str, int] = english()["numbers"]
+    return table
+
+
+@cache
+def vehicle_nouns() -> frozenset[str]:
+    """Nouns that a vehicle's number follows."""
+    return frozenset({"vehicle", "car", "number", "truck"})
+
+
+def hear(normalised: Normalised, vehicles: frozenset[int]) -> Heard:
+    """Correct the spelling and read numbers; vehicles are those that "vehicle to" may name."""
+    words: list[str] = []
+    corrections: list[tuple[str, str]] = []
+    for word in normalised.words:
+        fixed = _known(word)
+        if fixed != (word,):
+            corrections.append((word, " ".join(fixed)))
+        words.extend(fixed)
+    return Heard(tuple(_read_numbers(words, vehicles)), tuple(corrections))
+
+
+_SUFFIXES = ("s", "es", "ed", "d", "ing", "ly", "er", "ers", "est", "ness", "ful", "ment")
+
+
+def _is_word(word: str) -> bool:
+    """Whether the word, or what it is derived from, stands in a word list."""
+    known = vocabulary().words
+    if word in known or word in _numbers():
+        return True
+    stems = (word.removesuffix(suffix) for suffix in _SUFFIXES if word.endswith(suffix))
+    return any(len(stem) > 3 and known.get(stem) == PLAIN_RANK for stem in stems)
+
+
+def _known(word: str) -> tuple[str, ...]:
+    if word == BREAK or word.isdigit() or _is_word(word):
+        return (word,)
+    parts = tuple(part for part in word.split("-") if part)
+    if len(parts) > 1:
+        return tuple(fixed for part in parts for fixed in _known(part))
+    return correct(word) or (word,)
+
+
+def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
+    """Number words after a vehicle noun or another number become digits."""
+    read: list[str] = []
+    homophones = english()["homophones"]
+    for index, word in enumerate(words):
+        before = read[-1] if read else ""
+        value = _numbers().get(word)
+        tens = int(before) if before.isdigit() else 0
+        if value is not None and (word != "one" or before in vehicle_nouns() or tens):
+            if tens >= 20 and tens % 10 == 0 and value < 10:
+                read[-1] = str(tens + value)
+            else:
+                read.append(str(value))
+        elif (
+            before == "vehicle" and homophones.get(word) in vehicles and _verb_follows(words, index)
+        ):
+            read.append(str(homophones[word]))
+        else:
+            read.append(word)
+    return read
+
+
+def _verb_follows(words: list[str], index: int) -> bool:
+    """Whether the next word can only follow a subject: "vehicle to turned left"."""
+    following = words[index + 1 : index + 2]
+    return bool(following) and vocabulary().forms.get(following[0]) is not None
