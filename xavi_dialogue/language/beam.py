@@ -5,7 +5,7 @@ them at the prices of `grammars/parse.toml`. At each word only the cheapest few 
 no more steps are taken for a text than its budget allows, whatever the text.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import lark
@@ -86,6 +86,7 @@ class Prices:
     by_terminal: dict[str, float]
     other: float | None  # of terminals not listed; None: they are never read past
     limit: float
+    take: dict[str, float] = field(default_factory=dict)  # extra, for not reading past it
 
     def of(self, token: Token) -> float | None:
         """The price of a token: of its cheapest sense, or of its dearest where all have one."""
@@ -172,7 +173,8 @@ def _steps(
     for index, sense in enumerate(token.senses):
         stack = shift(now.stack, sense[0])
         if stack is not None:
-            steps.append((cost + limits.sense * index, stack, _Chain(path, token, sense)))
+            taken = cost + limits.sense * index + prices.take.get(sense[0], 0.0)
+            steps.append((taken, stack, _Chain(path, token, sense)))
     if (price := prices.of(token)) is not None:
         steps.append((cost + max(price, limits.sense), now.stack, _Chain(path, token, None)))
     return steps

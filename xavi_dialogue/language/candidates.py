@@ -6,6 +6,8 @@ of question that the judge thinks likely.
 
 from dataclasses import dataclass
 
+import lark
+
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.beam import Budget, Found, Prices, search
 from xavi_dialogue.language.costs import costs
@@ -67,7 +69,9 @@ def loosely(
         rule = _RULES.get(kind, kind)
         if rule not in STARTS:
             continue
-        shaped = as_question(rule, parse, tokens)
+        shaped = as_question(rule, None if kind == WHICH else parse, tokens)
+        if kind == WHICH:
+            shaped.tree.children.append(lark.Token("WHICHCAR", "unknown"))
         reading = read(shaped, (), checked=False)
         query = resolve(reading, previous) if reading else None
         if query is None or (kind_of(query, previous) != kind and kind != LEAN):

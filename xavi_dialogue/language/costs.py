@@ -32,6 +32,7 @@ class Loose(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What it costs to read past words where only the clauses are read."""
 
     skip: dict[str, float]  # by terminal
+    take: dict[str, float]  # what it costs not to read past it, by terminal
     other: float  # of any other terminal
     limit: float  # no reading may cost more
     base: float  # what such a reading costs beside one by the grammar of questions

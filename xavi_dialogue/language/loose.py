@@ -23,7 +23,7 @@ def clauses(lattice: Lattice, budget: Budget) -> Parse | None:
     """The clauses of a text, parsed as `clauses` of the grammar; None where there is none."""
     loose = costs().loose
     end = len(lattice.edges)
-    prices = Prices(loose.skip, loose.other, loose.limit)
+    prices = Prices(loose.skip, loose.other, loose.limit, loose.take)
     found = search(CLAUSES, lattice, 0, frozenset({end}), prices, budget)
     return min(found, key=lambda f: f.cost).parse() if found else None
 
@@ -74,7 +74,9 @@ def _alone(rule: str, part: Tree) -> list[lark.Token | Tree]:
             return [lark.Tree("elided_not" if negated else "elided", part.children)]
     if rule in _WHO or rule == "replace":
         return [c for c in part.children if isinstance(c, lark.Tree)]
-    return [lark.Tree("said", part.children)]
+    (who,) = (c for c in part.children if isinstance(c, lark.Tree))
+    pointing = [t.type for t in who.children if isinstance(t, lark.Token)] == ["THAT"]
+    return [] if pointing else [lark.Tree("said", part.children)]
 
 
 def _first(tree: Tree, rule: str) -> Tree | None:

@@ -18,6 +18,7 @@ _ESCAPES = re.compile(r"\x1b(?:\[[0-9;:?<=>]*[a-zA-Z@-~]|\][^\x07\x1b]*(?:\x07|\
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "ʼ": "'", "“": " ", "”": " "})
 _PIECES = re.compile(r"[^\W\d_]+(?:['-][^\W\d_]+)*|\d+|[.,;:!?…–—()-]")
 _MARKS = frozenset(".,;:!?…–—()-")
+_MODALS = frozenset({"could", "would", "should", "might", "must"})
 BREAK = ","  # how every clause mark is written from here on
 
 
@@ -52,11 +53,20 @@ def normalise(text: str) -> Normalised:
                 words.append(BREAK)
         else:
             words.extend(expand(piece))
+            _mend(words)
     while words and words[-1] == BREAK:
         words.pop()
     if len(words) > MAX_WORDS:
         words, shortened = words[-MAX_WORDS:], True
     return Normalised(tuple(words), shortened, "".join(p for p in pieces if p in _MARKS))
+
+
+def _mend(words: list[str]) -> None:
+    """Put "could of" and "you had have" right, in which an "have" and a "would" were misheard."""
+    if words[-1] == "of" and words[-2:-1] and words[-2] in _MODALS:
+        words[-1] = "have"
+    if words[-2:] == ["had", "have"]:
+        words[-2] = "would"
 
 
 @cache

@@ -55,11 +55,22 @@ _ROLES: dict[str, dict[str, str]] = {
         "own": "counterfactual",
         "contrast": "factual",
     },
-    "how_avoid": {"bare": "factual", "undone": "factual", "wanted": "counterfactual"},
+    "how_avoid": {
+        "bare": "factual",
+        "said": "factual",
+        "denied": "factual",
+        "undone": "factual",
+        "wanted": "counterfactual",
+    },
+    "where_goal": {},
+    "smalltalk": {},
+    "help": {},
     "sensitivity": {"own": "factual", "said": "factual", "wanted": "counterfactual"},
     "compare": {"first": "factual", "second": "counterfactual"},
 }
 _ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
+#: Rules in which "not" turns what is asked about; in others it is a way to ask.
+_NEGATABLE = frozenset({"what_if", "confidence", "how", "when"})
 _CLAUSES = ("incident", "said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
 _DEFAULT_TENSE = {
     "what": "present",
@@ -177,7 +188,7 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
             fields[slot] = actions
         if one.actor and (one.role != "contrast" or "actor" not in fields):
             fields.setdefault("actor", one.actor)
-        if one.role == "denied" and rule != "why_not":
+        if one.role == "denied" and rule in _NEGATABLE:
             fields["negated"] = True
         if one.underspecified:
             fields["underspecified"] = "direction"
@@ -188,7 +199,7 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
 
 
 def _actor_of(tree: Tree) -> dict[str, Any]:
-    who = first(tree, "actor")
+    who = first(tree, "actor") or first(tree, "number")
     return {"actor": actor(who)} if who else {}
 
 

@@ -66,7 +66,7 @@ def clause(tree: Tree) -> Clause:
     inner = first(tree, "bare") or tree
     listed = first(inner, "actions")
     spoken = [action(a) for a in children(listed, "action")] if listed else []
-    who = first(tree, "actor")
+    who = first(tree, "actor") or first(tree, "number")
     positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
     pointing = who is not None and terminals(who) == ("THAT",)
     if pointing and not set(terminals(tree)) & AUXILIARIES:
@@ -129,7 +129,9 @@ def settle(
 ) -> tuple[QueryAction, ...]:
     """Decide what "straight" is: exit-straight at a junction, continue beside a lane change."""
     settled: list[QueryAction] = []
-    for name in actions:
+    for index, name in enumerate(actions):
+        if index and name == actions[index - 1]:
+            continue  # "stuck waiting"
         if name in (STRAIGHT, STRAIGHT_ON):
             beside_change = any(o.startswith("change-") for o in others)
             beside_turn = any(o.startswith("exit-") for o in others)

@@ -9,16 +9,18 @@ from functools import cache, lru_cache
 from rapidfuzz.distance import OSA
 from rapidfuzz.process import extract
 
-from xavi_dialogue.language.wordlists import vocabulary
+from xavi_dialogue.language.wordlists import english, vocabulary
 
 _CANDIDATES = 12
+_SHORT = 4  # contractions no longer than this are no correction of anything
 
 
 @cache
 def _choices() -> dict[int, tuple[str, ...]]:
     """Words by length: a correction differs by at most two letters in length."""
     by_length: dict[int, list[str]] = {}
-    for word in sorted(vocabulary().words):
+    contracted = english()["contractions"]["words"]
+    for word in sorted({*vocabulary().words, *(w for w in contracted if len(w) > _SHORT)}):
         if word.isascii() and word.isalpha() and len(word) > 1:
             for length in range(len(word) - 2, len(word) + 3):
                 by_length.setdefault(length, []).append(word)
@@ -60,7 +62,7 @@ def _rank(word: str, candidate: str, distance: int) -> tuple[int, bool, int, boo
     return (
         distance,
         sorted(word) != sorted(candidate),
-        vocabulary().words[candidate] // 3,
+        vocabulary().words.get(candidate, 0) // 3,
         word[0] != candidate[0],
         -len(candidate),
     )

@@ -6,7 +6,9 @@ from typing import cast
 from xavi_dialogue.explain.query import Tense
 from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
-_PRESENT_HEADS = frozenset({"is", "are", "makes", "causes"})
+_PRESENT_HEADS = frozenset(
+    {"is", "are", "makes", "causes", "keeps", "keeping", "prevents", "preventing", "stopping"}
+)
 _PAST_HEADS = frozenset({"was", "were", "did", "made", "caused", "taken", "been", "changed"})
 
 
@@ -81,12 +83,29 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
 
 
 def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
+    if any(_unreal_past(token) for token in whole):
+        return "past"
     if hypothetical(whole):
         return "future"
     words = {word for token in whole for word in token.text.split()}
     if tense_of(whole) == "past" or words & {"have", "happened"}:
         return "past"
-    return "future" if any(t.form or t.terminal in AUXILIARIES for t in whole) else None
+    if any(t.form in ("base", "third") or t.terminal in AUXILIARIES for t in whole):
+        return "future"
+    return None
+
+
+def _unreal_past(token: Token) -> bool:
+    """Whether it is a "would have" or the like."""
+    if token.terminal not in AUXILIARIES:
+        return False
+    return "have" in token.text.split() and bool({"would", "could"} & set(token.value.split()))
+
+
+def _after(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> tuple[Token, ...]:
+    """The auxiliaries behind a clause: "that stopping was right"."""
+    start = next((i for i, t in enumerate(whole) if t is clause[-1]), len(whole))
+    return tuple(t for t in whole[start + 1 :] if t.terminal in AUXILIARIES)
 
 
 def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
@@ -98,6 +117,6 @@ def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense
         return "past" if head_tense(whole) == "past" else None
     if "future" in values or "would" in values:
         return "future"
-    found = tense_of(clause) or tense_of(whole)
+    found = tense_of(clause) or tense_of(_after(clause, whole)) or tense_of(whole)
     third = any(t.form in ("third", "base") for t in clause) and "past" not in values
     return "future" if third and "present" not in values else found

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cache
 
-from xavi_dialogue.language.normalise import BREAK, Normalised
+from xavi_dialogue.language.normalise import BREAK, Normalised, expand
 from xavi_dialogue.language.spelling import correct
 from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
 
@@ -58,7 +58,7 @@ def _known(word: str) -> tuple[str, ...]:
     parts = tuple(part for part in word.split("-") if part)
     if len(parts) > 1:
         return tuple(fixed for part in parts for fixed in _known(part))
-    return correct(word) or (word,)
+    return tuple(full for fixed in correct(word) or (word,) for full in expand(fixed))
 
 
 def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
