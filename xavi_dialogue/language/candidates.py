@@ -4,9 +4,10 @@ Strict ones come from the grammar of questions; loose ones from the clauses alon
 of question that the judge thinks likely.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import lark
+import msgspec
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.beam import Budget, Found, Prices, search
@@ -23,6 +24,11 @@ _MAX_BEGINNINGS = 5
 _WEIGHTLESS = frozenset({"BREAK", "CONJ", "AND", "TIME", "SMALL", "THAT", "IT", "RUDE", "JUNCTION"})
 _HELD = frozenset({"NOT", "IF"})
 _RULES = {LEAN: "replace", WHICH: "what"}  # start rules of the kinds that are not named after one
+
+_LEADING = frozenset({"AND", "OR", "ABOUT", "CONJ", "SMALL"})
+_NOUNS = frozenset({"CAR", "KIND", "NUMBER", "OTHER"})
+_NAMING = _NOUNS | {"THAT", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT"}
+_PRONOUNS = frozenset({"vehicle:it", "vehicle:that"})
 
 Cuts = tuple[tuple[int, Edge], ...]
 
@@ -42,11 +48,12 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
     """What the grammar of questions makes of a text, within the cost limit."""
     base, limit = costs().base, costs().limits.cost
     cuts = tuple((at, edge) for at, edge in lattice.main() if not edge.is_noise)
+    topic = _topic(lattice, cuts)
     found: dict[tuple[str, Query], Candidate] = {}
     for extra, one in _found(lattice, cuts, budget):
         parse = one.parse()
         after = tuple(edge.token for at, edge in cuts if at >= parse.end)
-        reading = read(parse, after)
+        reading = _about(topic, read(parse, after))
         query = resolve(reading, previous) if reading else None
         if reading is None or query is None:
             continue
@@ -64,6 +71,7 @@ def loosely(
     """What the clauses of a text ask, if it is a question of one of these kinds."""
     tokens = tuple(edge.token for _, edge in lattice.main() if not edge.is_noise)
     parse = clauses(lattice, budget)
+    topic = _topic(lattice, tuple((at, e) for at, e in lattice.main() if not e.is_noise))
     found: list[Candidate] = []
     for kind in kinds:
         rule = _RULES.get(kind, kind)
@@ -72,13 +80,37 @@ def loosely(
         shaped = as_question(rule, None if kind == WHICH else parse, tokens)
         if kind == WHICH:
             shaped.tree.children.append(lark.Token("WHICHCAR", "unknown"))
-        reading = read(shaped, (), checked=False)
+        reading = _about(topic, read(shaped, (), checked=False))
         query = resolve(reading, previous) if reading else None
         if query is None or (kind_of(query, previous) != kind and kind != LEAN):
             continue
         cost = costs().loose.base + shaped.cost
         found.append(Candidate(rule, query, kind, cost, loose=True))
     return found
+
+
+def _topic(lattice: Lattice, cuts: Cuts) -> str | None:
+    """The vehicle named first and by itself: "the truck, where is that off to?"."""
+    marks = [index for index, (_, edge) in enumerate(cuts) if edge.token.terminal == "BREAK"]
+    if not marks:
+        return None
+    begin = next((i for i, (_, e) in enumerate(cuts) if e.token.terminal not in _LEADING), 0)
+    named = {edge.token.terminal for _, edge in cuts[begin : marks[0]]}
+    if not named & _NOUNS or not named <= _NAMING:
+        return None
+    prices = Prices({}, None, 0.5)
+    span = cuts[begin][0], cuts[marks[0]][0]
+    found = search("replace", lattice, span[0], frozenset(span[1:]), prices, Budget(100))
+    reading = read(found[0].parse(), ()) if found else None
+    return reading.query.actor if reading else None
+
+
+def _about(topic: str | None, reading: Reading | None) -> Reading | None:
+    """The reading with the vehicle named first in the place of a pronoun."""
+    if reading is None or topic is None or reading.query.actor not in _PRONOUNS:
+        return reading
+    query = msgspec.structs.replace(reading.query, actor=topic)
+    return replace(reading, query=query, named_actor=True)
 
 
 def _doubt(reading: Reading) -> float:

@@ -40,6 +40,8 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
         return Parse(rule, lark.Tree(rule, []), tokens, 0, 0, 0.0)
     given = _first(parse.tree, "given")
     parts = list(parse.tree.children)
+    if given is not None and parts == [given]:
+        parts, given = list(given.children), None
     if given is not None and rule in _ABOUT_GIVEN:
         kept = [c for c in parts if isinstance(c, lark.Tree) and c.data == "contrast"]
         parts = [*given.children, *kept]
@@ -72,11 +74,13 @@ def _alone(rule: str, part: Tree) -> list[lark.Token | Tree]:
         auxiliary = any(isinstance(c, lark.Token) and c.type != "NOT" for c in part.children)
         if negated or auxiliary:
             return [lark.Tree("elided_not" if negated else "elided", part.children)]
+    (who,) = (c for c in part.children if isinstance(c, lark.Tree))
+    said = [t.type for t in who.children if isinstance(t, lark.Token)]
+    if said == ["THAT"] and rule not in _WHO:
+        return []
     if rule in _WHO or rule == "replace":
         return [c for c in part.children if isinstance(c, lark.Tree)]
-    (who,) = (c for c in part.children if isinstance(c, lark.Tree))
-    pointing = [t.type for t in who.children if isinstance(t, lark.Token)] == ["THAT"]
-    return [] if pointing else [lark.Tree("said", part.children)]
+    return [lark.Tree("said", part.children)]
 
 
 def _first(tree: Tree, rule: str) -> Tree | None:

@@ -123,6 +123,8 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     named = "actor" in fields
     if is_compound(after):
         fields["compound"] = True
+    if rule == "how_avoid":
+        _drop_bystanders(fields)
     query = Query(type=_type(rule), time=when or None, **fields)
     return Reading(
         rule=rule,
@@ -134,6 +136,14 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
         named_actor=named,
         heading=_heading(parse.tree),
     )
+
+
+def _drop_bystanders(fields: dict[str, Any]) -> None:
+    """What was to be avoided is a crash or an action: "that" and "it" are neither."""
+    if fields.get("actor") in ("vehicle:it", "vehicle:that", "vehicle:other"):
+        del fields["actor"]
+    if fields.get("factual") == ("continue",):
+        del fields["factual"]
 
 
 def is_compound(after: tuple[Token, ...]) -> bool:
@@ -181,6 +191,8 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
         if one.role == "incident":
             fields |= {"event": "crash"} | ({"actor": one.actor} if one.actor else {})
         if slot is None:
+            if one.actor and one.role == "said":
+                fields.setdefault("actor", one.actor)
             continue
         others = tuple(a for c in clauses if c is not one for a in c.actions)
         actions = settle(one.actions, others, at_junction)
@@ -249,7 +261,8 @@ def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     """To ask "would X be better than Y" is to ask about X; "was X better" starts from X."""
     one, other = first(tree, "first"), first(tree, "second")
     at_junction = any(t.terminal == "JUNCTION" for t in whole)
-    aux = {v for t in whole if t.terminal in AUXILIARIES for v in t.value.split()}
+    auxiliaries = (t.value.split() for t in whole if t.terminal in AUXILIARIES)
+    aux = next(auxiliaries, [])
     said = clause(one).actions if one else ()
     against = clause(other).actions if other else ()
     if one and not other and len(said) == 2 and "COMPARE" in terminals(tree):

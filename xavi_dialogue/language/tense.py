@@ -114,9 +114,13 @@ def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense
     if whole and whole[0].terminal == "DECIDE":
         return "past" if head_tense(whole[:1]) == "past" else "present"
     if not clause:
-        return "past" if head_tense(whole) == "past" else None
+        could = any("could" in t.text.split() for t in whole)
+        return "past" if could or head_tense(whole) == "past" else None
     if "future" in values or "would" in values:
         return "future"
     found = tense_of(clause) or tense_of(_after(clause, whole)) or tense_of(whole)
+    named = any(t.terminal in ("CAR", "KIND", "NUMBER") for t in clause)
+    if found is None and named and any(t.form == "gerund" for t in clause):
+        return "future"  # "the odds of vehicle 3 turning"
     third = any(t.form in ("third", "base") for t in clause) and "past" not in values
     return "future" if third and "present" not in values else found
