@@ -11,7 +11,14 @@ from tests.language.score import judge
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.parse import NotUnderstood, Parser, as_query
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parent / "questions"
+LEARN = "learn"  # what the judge is learnt from
+BLIND = "blind"  # scored once before anything was changed for it, and never learnt from
+
+
+def names(folder: str) -> list[str]:
+    """The files of a folder, such as "learn/dev.jsonl"."""
+    return sorted(f"{folder}/{file.name}" for file in (HERE / folder).glob("*.jsonl"))
 
 
 @cache

@@ -7,7 +7,7 @@ import sys
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.language.questions import lines, parse, parser
+from tests.language.annotated import lines, parse, parser
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.normalise import MAX_WORDS, normalise
 from xavi_dialogue.language.parse import NotUnderstood, Parser
@@ -41,7 +41,7 @@ def test_no_more_than_the_caps_is_read(text: str) -> None:
 
 
 @settings(max_examples=100, deadline=None)
-@given(st.sampled_from([line["text"] for line in lines("dev.jsonl")]), st.data())
+@given(st.sampled_from([line["text"] for line in lines("learn/dev.jsonl")]), st.data())
 def test_mutated_questions_have_a_result(text: str, data: st.DataObject) -> None:
     cut = data.draw(st.integers(0, len(text)))
     paste = data.draw(st.text(max_size=3))
@@ -63,7 +63,7 @@ for line in sys.stdin:
 
 
 def test_the_hash_seed_changes_nothing() -> None:
-    asked = "\n".join(line["text"] for line in lines("dev.jsonl"))
+    asked = "\n".join(line["text"] for line in lines("learn/dev.jsonl"))
 
     def run(seed: str) -> str:
         return subprocess.run(
@@ -76,5 +76,5 @@ def test_the_hash_seed_changes_nothing() -> None:
         ).stdout
 
     first = run("1")
-    assert first.count("ParseReport") == len(lines("dev.jsonl"))
+    assert first.count("ParseReport") == len(lines("learn/dev.jsonl"))
     assert first == run("2")

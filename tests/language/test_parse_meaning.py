@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.language.questions import parse, parser, query
+from tests.language.annotated import parse, parser, query
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.followup import answerable
 from xavi_dialogue.language.parse import NotUnderstood

@@ -90,6 +90,8 @@ class Prices:
 
     def of(self, token: Token) -> float | None:
         """The price of a token: of its cheapest sense, or of its dearest where all have one."""
+        if self.other is None and token.terminal in costs().boundary.held:
+            return None
         listed = [self.by_terminal[t] for t in token.terminals if t in self.by_terminal]
         if self.other is None:
             return min(listed, default=None)

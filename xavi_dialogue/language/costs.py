@@ -26,6 +26,7 @@ class Boundary(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     begin_after: frozenset[str]
     begin_at: frozenset[str]
     end_before: frozenset[str]
+    held: frozenset[str]  # never read past, whatever other senses the word has
 
 
 class Loose(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -43,7 +44,8 @@ class Weighing(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     judge: float  # cost of a unit of negative log probability
     kinds: int  # how many of the likeliest kinds are read loosely
-    talk: float  # cost of a kind that is no question, where the grammar has no reading of it
+    topic: float  # cost of declining where a word shows a topic that is declined
+    talk: float  # and where none does
     unclear: float  # cost of asking back
 
 

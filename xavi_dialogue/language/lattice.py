@@ -70,6 +70,9 @@ def _edges(words: tuple[str, ...], start: int) -> tuple[Edge, ...]:
 def _splits_a_name(words: tuple[str, ...], start: int, end: int) -> bool:
     """Whether a phrase parts a vehicle from its number: "what vehicle | 3 did"."""
     follows = words[end : end + 1]
-    return end - start > 1 and words[end - 1] in vehicle_nouns() and follows[:1] != () and (
-        follows[0].isdigit()
+    return (
+        end - start > 1
+        and words[end - 1] in vehicle_nouns()
+        and follows[:1] != ()
+        and (follows[0].isdigit())
     )

@@ -14,8 +14,9 @@ from xavi_dialogue.language.lattice import Lattice
 from xavi_dialogue.language.tokens import Token
 
 _ABOUT_GIVEN = frozenset({"what_if"})  # asks about the condition, where there is one
-_WHO = frozenset({"what", "where_goal", "when", "how", "confidence"})  # may ask about a vehicle alone
+_WHO = frozenset({"what", "where_goal", "when", "how", "confidence"})  # of a vehicle alone
 _SAYS_NOTHING = frozenset({"smalltalk", "help", "more", "less"})  # whatever else is said
+_ALIKE = {"unsaid": "denied", "missing": "absent"}
 _COMPARED = {"said": "first", "denied": "first", "contrast": "second"}
 
 
@@ -40,23 +41,59 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
         return Parse(rule, lark.Tree(rule, []), tokens, 0, 0, 0.0)
     given = _first(parse.tree, "given")
     parts = list(parse.tree.children)
+    if given is not None and rule == "why" and _token(given, "BECAUSE"):
+        parts = [*(c for c in parts if c is not given), _because(given)]
+        given = None
     if given is not None and parts == [given]:
-        parts, given = list(given.children), None
+        parts, given = [_supposed(given)], None
     if given is not None and rule in _ABOUT_GIVEN:
         kept = [c for c in parts if isinstance(c, lark.Tree) and c.data == "contrast"]
-        parts = [*given.children, *kept]
+        parts = [_supposed(given), *kept]
     elif given is not None:
         parts = [c for c in parts if c is not given]
         if rule == "sensitivity":
             parts.append(lark.Tree("cond", given.children))
     shaped = [piece for part in parts for piece in _shape(rule, part)]
+    if rule == "sensitivity" and given is None and _asks_what_it_takes(tokens):
+        shaped = [lark.Tree("wanted", p.children) if _is(p, "said") else p for p in shaped]
     return Parse(rule, lark.Tree(rule, shaped), parse.tokens, 0, parse.end, parse.cost)
+
+
+def _supposed(given: Tree) -> Tree:
+    """The clause of a condition; "without" takes away a vehicle, or denies an action."""
+    (clause,) = (c for c in given.children if isinstance(c, lark.Tree))
+    if clause.data == "actor":
+        return lark.Tree("absent", [clause])
+    return lark.Tree("denied", clause.children) if clause.data == "bare" else clause
+
+
+def _because(given: Tree) -> Tree:
+    """What is laid to somebody: an actor, or what he did."""
+    inner = _supposed(given)
+    who = _first(inner, "actor")
+    return lark.Tree("because", [who] if who and _is(inner, "lone") else [inner])
+
+
+def _asks_what_it_takes(tokens: tuple[Token, ...]) -> bool:
+    """Whether it asks what would make the car do something, not whether it still would."""
+    seen = {t.terminal for t in tokens}
+    return "STILL" not in seen and bool({"REQUIRE", "WOULD"} & seen)
+
+
+def _is(part: lark.Token | Tree, rule: str) -> bool:
+    return isinstance(part, lark.Tree) and part.data == rule
+
+
+def _token(tree: Tree, terminal: str) -> bool:
+    return any(isinstance(c, lark.Token) and c.type == terminal for c in tree.children)
 
 
 def _shape(rule: str, part: lark.Token | Tree) -> list[lark.Token | Tree]:
     """A clause in the shape that the rule gives it."""
     if not isinstance(part, lark.Tree):
         return [part]
+    if part.data in _ALIKE:
+        part = lark.Tree(_ALIKE[part.data], part.children)
     if part.data == "lone":
         return _alone(rule, part)
     if rule == "compare" and part.data in _COMPARED:

@@ -173,7 +173,7 @@ def _decide(
     best = readings[0] if readings else None
     price = best.score if best else math.inf
     out, likeliest = _declining(judged)
-    declined = weighing.judge * -out + (0.0 if reason else weighing.talk)
+    declined = weighing.judge * -out + (weighing.topic if reason else weighing.talk)
     unclear = weighing.unclear + _against(_UNCLEAR, judged)
     if best is None or min(declined, unclear) < price:
         if declined <= unclear:

@@ -80,9 +80,7 @@ class Automaton:
         self._phrases += 1
         return frozenset().union(*self.accepts[start:])
 
-    def all_from(
-        self, words: tuple[str, ...], start: int
-    ) -> list[tuple[int, tuple[Sense, ...]]]:
+    def all_from(self, words: tuple[str, ...], start: int) -> list[tuple[int, tuple[Sense, ...]]]:
         """Every phrase that begins at `start`, the shortest first: (where it ends, its senses)."""
         state = frozenset(self.first.get(words[start], ()))
         found: list[tuple[int, tuple[Sense, ...]]] = []

@@ -11,8 +11,8 @@ from typing import Any, cast
 import lark
 
 from xavi_dialogue.explain.query import Query, QueryType
-from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.beam import Parse
+from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.grammar import Tree
 from xavi_dialogue.language.rejections import rejected
 from xavi_dialogue.language.slots import (
@@ -123,7 +123,7 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     named = "actor" in fields
     if is_compound(after):
         fields["compound"] = True
-    if rule == "how_avoid":
+    if rule in ("how_avoid", "compare"):
         _drop_bystanders(fields)
     query = Query(type=_type(rule), time=when or None, **fields)
     return Reading(
@@ -139,8 +139,8 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
 
 
 def _drop_bystanders(fields: dict[str, Any]) -> None:
-    """What was to be avoided is a crash or an action: "that" and "it" are neither."""
-    if fields.get("actor") in ("vehicle:it", "vehicle:that", "vehicle:other"):
+    """What is avoided or compared is a crash or an action: "that" and "it" are neither."""
+    if fields.get("actor") in _UNNAMED:
         del fields["actor"]
     if fields.get("factual") == ("continue",):
         del fields["factual"]
@@ -211,7 +211,7 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
 
 
 def _actor_of(tree: Tree) -> dict[str, Any]:
-    who = first(tree, "actor") or first(tree, "number")
+    who = first(tree, "actor") or first(tree, "number") or first(tree, "pair")
     return {"actor": actor(who)} if who else {}
 
 
@@ -251,10 +251,15 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
 
 
 def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
+    if place := [str(t) for t in tokens_in(tree) if t.type == "PLACE" and t in tree.children]:
+        return {"actor": f"vehicle:{place[0]}"}
     if "WHICHCAR" in terminals(tree):
         return {"actor": "vehicle:unknown"}
-    said = first(tree, "said")
-    return {} if said else _actor_of(tree)
+    return {} if first(tree, "said") else _actor_of(tree)
+
+
+#: Actors that a comparison does not speak of: our own car, and pronouns for what is compared.
+_UNNAMED = frozenset({"", "ego", "vehicle:it", "vehicle:that"})
 
 
 def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
@@ -269,7 +274,7 @@ def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
         said, against = said[:1], said[1:]
     mine, theirs = settle(said, against, at_junction), settle(against, said, at_junction)
     who = _actor_of(tree).get("actor", "")
-    fields: dict[str, Any] = {"actor": who} if who[-1:].isdigit() else {}
+    fields: dict[str, Any] = {} if who in _UNNAMED else {"actor": who}
     said_of = {word for t in whole if t.terminal == "BETTER" for word in t.text.split()}
     if measures := [name for name, words in MEASURES.items() if words & said_of]:
         fields["event"] = measures[0]
@@ -352,6 +357,6 @@ _EXTRA: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
 def _heading(tree: Tree) -> str | None:
     """The direction, where a question has no more of an action than that."""
     spoken = list(tree.find_data("action"))
-    if len(spoken) == 1 and first(spoken[0], "heading"):
-        return side(spoken[0])
+    if len(spoken) == 1 and (alone := first(spoken[0], "heading")):
+        return None if "LANE" in terminals(alone) else side(alone)
     return None

@@ -66,7 +66,7 @@ def clause(tree: Tree) -> Clause:
     inner = first(tree, "bare") or tree
     listed = first(inner, "actions")
     spoken = [action(a) for a in children(listed, "action")] if listed else []
-    who = first(tree, "actor") or first(tree, "number")
+    who = first(tree, "actor") or first(tree, "number") or first(tree, "pair")
     positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
     pointing = who is not None and terminals(who) == ("THAT",)
     if pointing and not set(terminals(tree)) & AUXILIARIES:
@@ -83,6 +83,8 @@ def clause(tree: Tree) -> Clause:
 def actor(tree: Tree) -> str:
     """Read the rule `actor`: "ego", "vehicle:3", "vehicle:front", ..."""
     by_type = {t.type: str(t) for t in tokens_in(tree)}
+    if tree.data == "pair":
+        return "vehicle:both"
     for terminal in _DESCRIBING:
         if terminal in by_type and not (terminal == "KIND" and by_type[terminal] == "any"):
             value = by_type[terminal]

@@ -6,7 +6,7 @@ neighbours is one error); ties are broken by rules, never by order in memory.
 
 from functools import cache, lru_cache
 
-from rapidfuzz.distance import OSA
+from rapidfuzz.distance import OSA, Prefix
 from rapidfuzz.process import extract
 
 from xavi_dialogue.language.wordlists import english, vocabulary
@@ -58,12 +58,12 @@ def _plausible(word: str, candidate: str) -> bool:
     return len(word) > 3 or sorted(word) == sorted(candidate)
 
 
-def _rank(word: str, candidate: str, distance: int) -> tuple[int, bool, int, bool, int]:
+def _rank(word: str, candidate: str, distance: int) -> tuple[int, bool, int, int, int]:
     return (
         distance,
         sorted(word) != sorted(candidate),
         vocabulary().words.get(candidate, 0) // 3,
-        word[0] != candidate[0],
+        -Prefix.similarity(word, candidate),
         -len(candidate),
     )
 

@@ -85,7 +85,7 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
 def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
     if any(_unreal_past(token) for token in whole):
         return "past"
-    if hypothetical(whole):
+    if hypothetical(whole) or any(_supposes(token) for token in whole):
         return "future"
     words = {word for token in whole for word in token.text.split()}
     if tense_of(whole) == "past" or words & {"have", "happened"}:
@@ -93,6 +93,12 @@ def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
     if any(t.form in ("base", "third") or t.terminal in AUXILIARIES for t in whole):
         return "future"
     return None
+
+
+def _supposes(token: Token) -> bool:
+    """Whether it is a "what would happen" or the like."""
+    words = token.text.split()
+    return token.terminal == "HAPPEN" and "would" in words and "have" not in words
 
 
 def _unreal_past(token: Token) -> bool:

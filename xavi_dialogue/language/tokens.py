@@ -34,6 +34,4 @@ class Token:
 
 def merged(one: Token, other: Token) -> Token:
     """Neighbouring auxiliaries as one token, named after the first."""
-    return Token(
-        one.terminal, f"{one.value} {other.value}", f"{one.text} {other.text}", other.form
-    )
+    return Token(one.terminal, f"{one.value} {other.value}", f"{one.text} {other.text}", other.form)
