@@ -37,7 +37,7 @@ VEHICLES = frozenset(range(6))
 SCALE = 100
 PENALTY = 0.02
 RAREST = 2  # features seen in fewer texts are not learnt
-SMALLEST = 0.12  # weights below are left out
+SMALLEST = 0.2  # weights below are left out
 ITERATIONS = 150
 
 
@@ -55,9 +55,9 @@ def examples(lines: Iterable[dict[str, Any]]) -> list[Example]:
     found: list[Example] = []
     for line in lines:
         previous = parser.question_before(tuple(line.get("context") or ()))
-        words = hear(normalise(line["text"]), VEHICLES).words
-        if words:
-            seen = features(build(words), words, previous is not None)
+        heard = hear(normalise(line["text"]), VEHICLES)
+        if heard.words:
+            seen = features(build(heard.words), heard, follows=previous is not None)
             query = msgspec.convert(line["query"], Query)
             found.append(Example(seen, kind_of(query, previous)))
     return found

@@ -6,6 +6,7 @@ elements, pairs and triples in a row are taken, and pairs with a gap of one.
 """
 
 from xavi_dialogue.language.lattice import Lattice
+from xavi_dialogue.language.words import Heard
 
 _EDGE = "#"  # the beginning and the end
 _ACTIONS = frozenset(
@@ -15,15 +16,22 @@ _ACTIONS = frozenset(
 _SIDES = frozenset({"LEFT", "RIGHT", "ONLEFT", "ONRIGHT"})
 _DROPPED = frozenset({"NOISE"})
 _SHOWN = frozenset({"PLAIN", "TOPIC", "THAT", "IT", "BETTER"})  # terminals seen with their words
+_LEADING = frozenset({",", "BREAK", "AND", "CONJ", "SMALL", "THINK"})
+_ASKING = frozenset(
+    {"WHY", "IF", "WHEN", "HOW", "HAPPEN", "WHEREGO", "SURE", "CHANCE", "BETTER", "KNOW", "AVOID",
+     "STILL", "INSTEAD", "THAN", "NOT", "BECAUSE", "WHAT", "HOWLONG", "FACTOR", "REQUIRE", "MORE",
+     "LESS"}
+)  # fmt: skip
+_STEM = 4  # letters
 _LONGEST = 6  # lengths beyond this many threes of words are alike
 
 
-def features(lattice: Lattice, words: tuple[str, ...], follows: bool) -> frozenset[str]:
+def features(lattice: Lattice, heard: Heard, *, follows: bool) -> frozenset[str]:
     """The features of a text.
 
     Args:
         lattice: the text, cut into phrases.
-        words: the same as words.
+        heard: its words.
         follows: whether a question was asked before it.
     """
     terminals = [_EDGE]
@@ -32,9 +40,19 @@ def features(lattice: Lattice, words: tuple[str, ...], follows: bool) -> frozens
         if shown is not None and not (shown == terminals[-1] and shown in ("ACT", "SIDE")):
             terminals.append(shown)
     terminals.append(_EDGE)
-    typed = [_EDGE, *("0" if w.isdigit() else w for w in words), _EDGE]
-    found = {f"length {min(len(words) // 3, _LONGEST)}", f"follows {int(follows)}"}
+    typed = [_EDGE, *("0" if w.isdigit() else w for w in heard.words), _EDGE]
+    length = min(len(heard.words) // 3, _LONGEST)
+    found = {f"length {length}", f"follows {int(follows)}", f"tagged {int(heard.tagged)}"}
+    found |= _frame([s for s in terminals if s.partition("=")[0] not in _LEADING])
+    found |= {f"stem {word[:_STEM]}" for word in heard.words if len(word) > _STEM}
     return frozenset(found | _in_rows("t", terminals) | _in_rows("w", typed))
+
+
+def _frame(seen: list[str]) -> set[str]:
+    """How the text begins and ends, and its words of questions in any order."""
+    first, last = seen[1:3], seen[-2:-1]
+    asks = " ".join(sorted(_ASKING & set(seen)))
+    return {f"begins {first[:1]}", f"begins {first}", f"ends {first[:1]} {last}", f"asks {asks}"}
 
 
 def _shown(terminal: str, text: str) -> str | None:

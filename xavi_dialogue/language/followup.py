@@ -112,8 +112,7 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if query.factual:
         return _with_actions(previous, query.factual)
     if query.time and not reading.named_actor:
-        shifted = reading.tensed and query.tense != "future"  # "after that" goes on from there
-        now = query.tense if shifted else previous.tense
+        now = query.tense if reading.tensed else previous.tense  # "after that" goes on from there
         return _refer(previous, time=query.time, tense=now)
     return _refer(previous, actor=query.actor)
 

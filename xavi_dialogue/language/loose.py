@@ -15,6 +15,8 @@ from xavi_dialogue.language.tokens import Token
 
 _ABOUT_GIVEN = frozenset({"what_if"})  # asks about the condition, where there is one
 _WHO = frozenset({"what", "where_goal", "when", "how", "confidence"})  # of a vehicle alone
+_SEEN = frozenset({"what", "where_goal"})  # of a vehicle that may be pointed at: "that"
+_ASKED = frozenset({"WHAT", "PLAN", "HAPPENED"})  # what was done is asked, not said
 _SAYS_NOTHING = frozenset({"smalltalk", "help", "more", "less"})  # whatever else is said
 _ALIKE = {"unsaid": "denied", "missing": "absent"}
 _COMPARED = {"said": "first", "denied": "first", "contrast": "second"}
@@ -49,11 +51,15 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
     if given is not None and rule in _ABOUT_GIVEN:
         kept = [c for c in parts if isinstance(c, lark.Tree) and c.data == "contrast"]
         parts = [_supposed(given), *kept]
+    elif given is not None and rule == "compare":
+        parts = [lark.Tree("first", _supposed(given).children)]
     elif given is not None:
         parts = [c for c in parts if c is not given]
         if rule == "sensitivity":
             parts.append(lark.Tree("cond", given.children))
     shaped = [piece for part in parts for piece in _shape(rule, part)]
+    if rule == "what" and any(t.terminal in _ASKED for t in tokens):
+        shaped = [piece for p in shaped for piece in (_actor_only(p) if _is(p, "said") else [p])]
     if rule == "sensitivity" and given is None and _asks_what_it_takes(tokens):
         shaped = [lark.Tree("wanted", p.children) if _is(p, "said") else p for p in shaped]
     return Parse(rule, lark.Tree(rule, shaped), parse.tokens, 0, parse.end, parse.cost)
@@ -67,6 +73,11 @@ def _supposed(given: Tree) -> Tree:
     return lark.Tree("denied", clause.children) if clause.data == "bare" else clause
 
 
+def _actor_only(part: lark.Token | Tree) -> list[lark.Token | Tree]:
+    assert isinstance(part, lark.Tree)
+    return [c for c in part.children if isinstance(c, lark.Tree) and c.data == "actor"]
+
+
 def _because(given: Tree) -> Tree:
     """What is laid to somebody: an actor, or what he did."""
     inner = _supposed(given)
@@ -77,7 +88,8 @@ def _because(given: Tree) -> Tree:
 def _asks_what_it_takes(tokens: tuple[Token, ...]) -> bool:
     """Whether it asks what would make the car do something, not whether it still would."""
     seen = {t.terminal for t in tokens}
-    return "STILL" not in seen and bool({"REQUIRE", "WOULD"} & seen)
+    asked = bool({"WHAT", "WHEN", "HOW"} & seen) and "WOULD" in seen
+    return "STILL" not in seen and ("REQUIRE" in seen or asked)
 
 
 def _is(part: lark.Token | Tree, rule: str) -> bool:
@@ -113,7 +125,7 @@ def _alone(rule: str, part: Tree) -> list[lark.Token | Tree]:
             return [lark.Tree("elided_not" if negated else "elided", part.children)]
     (who,) = (c for c in part.children if isinstance(c, lark.Tree))
     said = [t.type for t in who.children if isinstance(t, lark.Token)]
-    if said == ["THAT"] and rule not in _WHO:
+    if (said == ["THAT"] and rule not in _SEEN) or rule == "sensitivity":
         return []
     if rule in _WHO or rule == "replace":
         return [c for c in part.children if isinstance(c, lark.Tree)]

@@ -129,7 +129,7 @@ def _explain(
     lattice = build(heard.words)
     tokens = tuple(edge.token for _, edge in lattice.main())
     reason = topics.reason_for(tokens, normalised.words)
-    seen = features(lattice, heard.words, previous is not None)
+    seen = features(lattice, heard, follows=previous is not None)
     likely = opinion or judge()
     judged = likely.log_probabilities(seen)
     readings = _readings(lattice, judged, previous)

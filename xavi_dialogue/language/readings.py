@@ -123,6 +123,8 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     named = "actor" in fields
     if is_compound(after):
         fields["compound"] = True
+    if rule == "what" and fields.get("actor") == "vehicle:that" and fields.get("factual"):
+        del fields["actor"]  # "was that a lane change?"
     if rule in ("how_avoid", "compare"):
         _drop_bystanders(fields)
     query = Query(type=_type(rule), time=when or None, **fields)
@@ -278,7 +280,8 @@ def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     said_of = {word for t in whole if t.terminal == "BETTER" for word in t.text.split()}
     if measures := [name for name, words in MEASURES.items() if words & said_of]:
         fields["event"] = measures[0]
-    if "would" in aux or "could" in aux:
+    supposed = any("IF" in t.terminals for t in whole)
+    if "would" in aux or "could" in aux or supposed:
         return fields | {"counterfactual": mine or None, "factual": theirs or None}
     return fields | {"factual": mine or None, "counterfactual": theirs or None}
 

@@ -7,7 +7,7 @@ from xavi_dialogue.explain.query import Tense
 from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
 _PRESENT_HEADS = frozenset(
-    {"is", "are", "makes", "causes", "keeps", "keeping", "prevents", "preventing", "stopping"}
+    {"is", "are", "do", "does", "makes", "causes", "keeps", "keeping", "prevents", "stopping"}
 )
 _PAST_HEADS = frozenset({"was", "were", "did", "made", "caused", "taken", "been", "changed"})
 
@@ -32,7 +32,7 @@ def tense_of(tokens: tuple[Token, ...]) -> Tense | None:
         return "past"
     if "present" in values:
         return "present"
-    forms = {t.form for t in tokens if t.terminal not in AUXILIARIES}
+    forms = {t.form for t in tokens if t.terminal not in AUXILIARIES or t.terminal == "BEGIN"}
     if forms & {"past", "part"}:
         return "past"
     return "present" if "third" in forms else None
@@ -57,7 +57,10 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
     if rule == "what_if":
         return _of_what_if(whole)
     if rule in ("how", "confidence"):
-        return _of_complement(clause, whole)
+        return _of_complement(rule, clause, whole)
+    if rule == "replace":
+        times = [t.value for t in whole if t.terminal == "TIME"]
+        return cast(Tense, times[0]) if times and times[0] != "future" else None
     if rule == "where_goal":
         return tense_of(tuple(t for t in whole if t.terminal in AUXILIARIES))
     if named := [t.value for t in whole if t.terminal in ("HAPPENED", "PLAN")]:
@@ -114,16 +117,22 @@ def _after(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> tuple[Token, 
     return tuple(t for t in whole[start + 1 :] if t.terminal in AUXILIARIES)
 
 
-def _of_complement(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
+def _of_complement(
+    rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]
+) -> Tense | None:
     """What was known or believed: seen from then, "was going to" lies ahead."""
     values = {v for t in clause if t.terminal in AUXILIARIES for v in t.value.split()}
     if whole and whole[0].terminal == "DECIDE":
         return "past" if head_tense(whole[:1]) == "past" else "present"
     if not clause:
         could = any("could" in t.text.split() for t in whole)
-        return "past" if could or head_tense(whole) == "past" else None
+        head = head_tense(whole)
+        return "past" if could or head == "past" else head if rule == "how" else None
     if "future" in values or "would" in values:
         return "future"
+    bare = not any(t.terminal in AUXILIARIES or t.form in ("past", "third") for t in clause)
+    if rule == "how" and bare and (head := head_tense(whole)):
+        return head
     found = tense_of(clause) or tense_of(_after(clause, whole)) or tense_of(whole)
     named = any(t.terminal in ("CAR", "KIND", "NUMBER") for t in clause)
     if found is None and named and any(t.form == "gerund" for t in clause):

@@ -14,6 +14,10 @@ class Heard:
 
     words: tuple[str, ...]  # clause marks are BREAK
     corrections: tuple[tuple[str, str], ...] = ()  # (as typed, as read)
+    tagged: bool = False  # a tag such as "didn't you?" was taken off the end
+
+
+_STATEMENT = 3  # words that a tag follows, at least
 
 
 @cache
@@ -37,7 +41,25 @@ def hear(normalised: Normalised, vehicles: frozenset[int]) -> Heard:
         if fixed != (word,):
             corrections.append((word, " ".join(fixed)))
         words.extend(fixed)
-    return Heard(tuple(_read_numbers(words, vehicles)), tuple(corrections))
+    read = _read_numbers(words, vehicles)
+    begin = _tag(read)
+    return Heard(tuple(read[:begin]), tuple(corrections), begin < len(read))
+
+
+def _tag(words: list[str]) -> int:
+    """Where a tag begins: after the last clause mark, behind a statement."""
+    marks = [index for index, word in enumerate(words) if word == BREAK]
+    if not marks or marks[-1] < _STATEMENT:
+        return len(words)
+    tags = {name: frozenset(said.split()) for name, said in english()["tags"].items()}
+    match words[marks[-1] + 1 :]:
+        case [word] if word in tags["words"]:
+            return marks[-1]
+        case [auxiliary, "not", pronoun] | [auxiliary, pronoun, "not"] | [auxiliary, pronoun] if (
+            auxiliary in tags["auxiliaries"] and pronoun in tags["pronouns"]
+        ):
+            return marks[-1]
+    return len(words)
 
 
 _SUFFIXES = ("s", "es", "ed", "d", "ing", "ly", "er", "ers", "est", "ness", "ful", "ment")
