@@ -7,7 +7,8 @@ from typing import Any
 
 import msgspec
 
-from tests.language.score import judge
+from xavi_dialogue.app.bench.questions import read
+from xavi_dialogue.app.bench.scoring import agreement, verdict
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.parse import NotUnderstood, Parser, as_query
 
@@ -42,9 +43,7 @@ def lines(name: str) -> list[dict[str, Any]]:
 
 
 def figures(name: str) -> dict[str, float]:
-    """Percentages, as score.py prints them for all questions of a file."""
-    verdicts = [
-        judge(gold, msgspec.to_builtins(as_query(parse(gold["text"], *gold.get("context", ())))))
-        for gold in lines(name)
-    ]
-    return {key: 100 * sum(v[key] for v in verdicts) / len(verdicts) for key in verdicts[0]}
+    """The shares of the verdicts on all questions of a file [percent]."""
+    verdicts = [verdict(q, as_query(parse(q.text, *q.context))) for q in read(HERE / name)]
+    found = msgspec.structs.asdict(agreement(name, verdicts))
+    return {key: value for key, value in found.items() if isinstance(value, float)}

@@ -5,15 +5,17 @@ import pytest
 from tests.language.annotated import BLIND, LEARN, figures, lines, names
 
 # Files that were scored before the parser saw them; the first score stands in docs/language.md.
-FLOORS = {  # file: (exact, false_confident)
-    "learn/dev.jsonl": (99.0, 0.0),
-}
+FLOORS = {"learn/dev.jsonl": (99.0, 0.0)}  # file: (exact, false_confident)
+#: Files that hold many rare wordings of a few types each.
+RARE = ("foils", "why_how", "what_when")
 
 
 @pytest.mark.parametrize("name", names(LEARN) + names(BLIND))
 def test_agreement_does_not_fall(name: str) -> None:
     reached = figures(name)
-    exact, false_confident = FLOORS.get(name, (85.0, 5.0))
+    rare = any(part in name for part in RARE)
+    usual = (78.0, 10.0) if rare else (90.0, 4.0)
+    exact, false_confident = FLOORS.get(name, usual)
     assert reached["exact"] >= exact
     assert reached["false_confident"] <= false_confident
 
@@ -30,5 +32,7 @@ def test_every_question_names_its_source_and_has_a_name_of_its_own() -> None:
 
 def test_no_blind_question_is_learnt_from() -> None:
     learnt = {line["text"].casefold() for name in names(LEARN) for line in lines(name)}
-    blind = [line for name in names(BLIND) for line in lines(name) if not line.get("context")]
-    assert sum(line["text"].casefold() in learnt for line in blind) <= 0.02 * len(blind)
+    blind = [line["text"].casefold() for name in names(BLIND) for line in lines(name)]
+    long = [text for text in blind if len(text.split()) >= 6]  # "are you sure?" is anybody's
+    assert long
+    assert sum(text in learnt for text in long) <= 0.01 * len(long)

@@ -85,5 +85,10 @@ def _steps(report: ParseReport) -> str:
     for reading in report.readings:
         query = msgspec.structs.asdict(reading.query)
         said = ", ".join(f"{name}={_word(value)}" for name, value in query.items() if value)
-        lines.append(f"reading     {reading.score:6.2f}  {reading.rule}: {said}")
+        manner = "loose " if reading.loose else ""
+        lines.append(f"reading     {reading.score:6.2f}  {manner}{reading.rule}: {said}")
+    for kind in report.kinds:
+        lines.append(
+            f"judged      {kind.probability:6.2f}  {kind.name}: {'; '.join(kind.telling) or '-'}"
+        )
     return "\n".join((*lines, "result", _lines(report.result)))

@@ -57,6 +57,7 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
         query = resolve(reading, previous) if reading else None
         if reading is None or query is None:
             continue
+        query = _of_topic(query, reading, topic)
         cost = reading.cost + base.get(parse.rule, 0.0) + extra + _doubt(reading)
         known = found.get((parse.rule, query))
         if cost <= limit and (known is None or cost < known.cost):
@@ -70,7 +71,8 @@ def loosely(
 ) -> list[Candidate]:
     """What the clauses of a text ask, if it is a question of one of these kinds."""
     tokens = tuple(edge.token for _, edge in lattice.main() if not edge.is_noise)
-    parse = clauses(lattice, budget)
+    spoken_of = previous is not None and previous.actor != "ego"
+    parse = clauses(lattice, budget, spoken_of=spoken_of)
     topic = _topic(lattice, tuple((at, e) for at, e in lattice.main() if not e.is_noise))
     found: list[Candidate] = []
     for kind in kinds:
@@ -103,6 +105,13 @@ def _topic(lattice: Lattice, cuts: Cuts) -> str | None:
     found = search("replace", lattice, span[0], frozenset(span[1:]), prices, Budget(100))
     reading = read(found[0].parse(), ()) if found else None
     return reading.query.actor if reading else None
+
+
+def _of_topic(query: Query, reading: Reading, topic: str | None) -> Query:
+    """A bare "why not?" behind a vehicle named first asks about that vehicle."""
+    if topic is None or reading.rule != "again":
+        return query
+    return msgspec.structs.replace(query, actor=topic)
 
 
 def _about(topic: str | None, reading: Reading | None) -> Reading | None:

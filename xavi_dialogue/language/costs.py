@@ -34,6 +34,7 @@ class Loose(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
     skip: dict[str, float]  # by terminal
     take: dict[str, float]  # what it costs not to read past it, by terminal
+    expletive: float  # the same for an "it" where no vehicle was spoken of
     other: float  # of any other terminal
     limit: float  # no reading may cost more
     base: float  # what such a reading costs beside one by the grammar of questions
@@ -56,6 +57,7 @@ class Limits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     decline: float  # nor more than this, where the words show a topic that is declined
     margin: float  # readings that lie closer together are rivals
     readings: int  # rivals shown
+    offer: float  # readings that cost no more are offered where none is believed
     shorter: float  # a phrase that is not the longest at its place
     sense: float  # each likelier sense that a phrase has
     width: int  # hypotheses followed at each word

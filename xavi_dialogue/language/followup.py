@@ -7,7 +7,8 @@ the earlier turn does not supply what is missing.
 import msgspec
 
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.language.readings import INFLUENCE, Reading
+from xavi_dialogue.language.particulars import INFLUENCE
+from xavi_dialogue.language.readings import Reading
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 #: Types whose counterfactual is what they ask about.

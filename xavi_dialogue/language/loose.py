@@ -13,20 +13,26 @@ from xavi_dialogue.language.grammar import CLAUSES, Tree
 from xavi_dialogue.language.lattice import Lattice
 from xavi_dialogue.language.tokens import Token
 
-_ABOUT_GIVEN = frozenset({"what_if"})  # asks about the condition, where there is one
-_WHO = frozenset({"what", "where_goal", "when", "how", "confidence"})  # of a vehicle alone
+_WHO = frozenset({"what", "where_goal", "when", "how", "confidence", "replace"})  # or nobody
 _SEEN = frozenset({"what", "where_goal"})  # of a vehicle that may be pointed at: "that"
-_ASKED = frozenset({"WHAT", "PLAN", "HAPPENED"})  # what was done is asked, not said
 _SAYS_NOTHING = frozenset({"smalltalk", "help", "more", "less"})  # whatever else is said
+_ASKED = frozenset({"WHAT", "PLAN", "HAPPENED"})  # what was done is asked, not said
 _ALIKE = {"unsaid": "denied", "missing": "absent"}
 _COMPARED = {"said": "first", "denied": "first", "contrast": "second"}
 
 
-def clauses(lattice: Lattice, budget: Budget) -> Parse | None:
-    """The clauses of a text, parsed as `clauses` of the grammar; None where there is none."""
+def clauses(lattice: Lattice, budget: Budget, *, spoken_of: bool) -> Parse | None:
+    """The clauses of a text, parsed as `clauses` of the grammar; None where there is none.
+
+    Args:
+        lattice: the text.
+        budget: steps that are left for it.
+        spoken_of: a vehicle was spoken of before, so that "it" may be one.
+    """
     loose = costs().loose
     end = len(lattice.edges)
-    prices = Prices(loose.skip, loose.other, loose.limit, loose.take)
+    take = loose.take if spoken_of else {**loose.take, "IT": loose.expletive}
+    prices = Prices(loose.skip, loose.other, loose.limit, take)
     found = search(CLAUSES, lattice, 0, frozenset({end}), prices, budget)
     return min(found, key=lambda f: f.cost).parse() if found else None
 
@@ -41,96 +47,81 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
     """
     if parse is None or rule in _SAYS_NOTHING:
         return Parse(rule, lark.Tree(rule, []), tokens, 0, 0, 0.0)
-    given = _first(parse.tree, "given")
-    parts = list(parse.tree.children)
-    if given is not None and rule == "why" and _token(given, "BECAUSE"):
-        parts = [*(c for c in parts if c is not given), _because(given)]
-        given = None
-    if given is not None and parts == [given]:
-        parts, given = [_supposed(given)], None
-    if given is not None and rule in _ABOUT_GIVEN:
-        kept = [c for c in parts if isinstance(c, lark.Tree) and c.data == "contrast"]
-        parts = [_supposed(given), *kept]
-    elif given is not None and rule == "compare":
-        parts = [lark.Tree("first", _supposed(given).children)]
-    elif given is not None:
-        parts = [c for c in parts if c is not given]
-        if rule == "sensitivity":
-            parts.append(lark.Tree("cond", given.children))
-    shaped = [piece for part in parts for piece in _shape(rule, part)]
-    if rule == "what" and any(t.terminal in _ASKED for t in tokens):
-        shaped = [piece for p in shaped for piece in (_actor_only(p) if _is(p, "said") else [p])]
-    if rule == "sensitivity" and given is None and _asks_what_it_takes(tokens):
-        shaped = [lark.Tree("wanted", p.children) if _is(p, "said") else p for p in shaped]
-    return Parse(rule, lark.Tree(rule, shaped), parse.tokens, 0, parse.end, parse.cost)
+    seen = frozenset(t.terminal for t in tokens)
+    placed = _placed(rule, _trees(parse.tree), seen)
+    shaped = [piece for part in placed for piece in _shape(rule, part, seen)]
+    return Parse(rule, lark.Tree(rule, list(shaped)), parse.tokens, 0, parse.end, parse.cost)
+
+
+def _placed(rule: str, parts: list[Tree], seen: frozenset[str]) -> list[Tree]:
+    """The clauses that a question of that rule is about, a condition as it takes one."""
+    given = next((part for part in parts if part.data == "given"), None)
+    others = [part for part in parts if part is not given]
+    if given is None:
+        if rule == "why_not" and [part.data for part in parts] == ["contrast"]:
+            return [lark.Tree("said", parts[0].children)]  # "and not right?"
+        if rule == "sensitivity" and _asks_what_it_takes(seen):
+            return [lark.Tree("wanted", p.children) if p.data == "said" else p for p in parts]
+        return parts
+    if rule == "why" and any(t == "because" for t in given.children):
+        return [*others, _because(given)]
+    if all(part.data == "lone" for part in others):
+        return [_supposed(given)]  # "you must have had a reason when you stopped"
+    match rule:
+        case "what_if":
+            return [_supposed(given), *(p for p in others if p.data == "contrast")]
+        case "compare":
+            return [lark.Tree("first", _supposed(given).children)]
+        case "sensitivity":
+            return [*others, lark.Tree("cond", given.children)]
+    return others
+
+
+def _asks_what_it_takes(seen: frozenset[str]) -> bool:
+    """Whether it asks what would make the car do something, not whether it still would."""
+    asked = bool({"WHAT", "WHEN", "HOW"} & seen) and "WOULD" in seen
+    return "STILL" not in seen and ("REQUIRE" in seen or asked)
 
 
 def _supposed(given: Tree) -> Tree:
     """The clause of a condition; "without" takes away a vehicle, or denies an action."""
-    (clause,) = (c for c in given.children if isinstance(c, lark.Tree))
+    (clause,) = _trees(given)
     if clause.data == "actor":
         return lark.Tree("absent", [clause])
     return lark.Tree("denied", clause.children) if clause.data == "bare" else clause
 
 
-def _actor_only(part: lark.Token | Tree) -> list[lark.Token | Tree]:
-    assert isinstance(part, lark.Tree)
-    return [c for c in part.children if isinstance(c, lark.Tree) and c.data == "actor"]
-
-
 def _because(given: Tree) -> Tree:
     """What is laid to somebody: an actor, or what he did."""
-    inner = _supposed(given)
-    who = _first(inner, "actor")
-    return lark.Tree("because", [who] if who and _is(inner, "lone") else [inner])
+    (clause,) = _trees(given)
+    return lark.Tree("because", clause.children if clause.data == "lone" else [clause])
 
 
-def _asks_what_it_takes(tokens: tuple[Token, ...]) -> bool:
-    """Whether it asks what would make the car do something, not whether it still would."""
-    seen = {t.terminal for t in tokens}
-    asked = bool({"WHAT", "WHEN", "HOW"} & seen) and "WOULD" in seen
-    return "STILL" not in seen and ("REQUIRE" in seen or asked)
-
-
-def _is(part: lark.Token | Tree, rule: str) -> bool:
-    return isinstance(part, lark.Tree) and part.data == rule
-
-
-def _token(tree: Tree, terminal: str) -> bool:
-    return any(isinstance(c, lark.Token) and c.type == terminal for c in tree.children)
-
-
-def _shape(rule: str, part: lark.Token | Tree) -> list[lark.Token | Tree]:
+def _shape(rule: str, part: Tree, seen: frozenset[str]) -> list[Tree]:
     """A clause in the shape that the rule gives it."""
-    if not isinstance(part, lark.Tree):
-        return [part]
-    if part.data in _ALIKE:
-        part = lark.Tree(_ALIKE[part.data], part.children)
+    part = lark.Tree(_ALIKE.get(part.data, part.data), part.children)
     if part.data == "lone":
         return _alone(rule, part)
     if rule == "compare" and part.data in _COMPARED:
         return [lark.Tree(_COMPARED[part.data], part.children)]
     if rule == "replace":
-        inner = _first(part, "bare") or part
-        return [c for c in inner.children if isinstance(c, lark.Tree)]
+        return _trees(next((c for c in _trees(part) if c.data == "bare"), part))
+    if rule == "what" and part.data == "said" and _ASKED & seen:
+        return [c for c in _trees(part) if c.data == "actor"]
     return [part]
 
 
-def _alone(rule: str, part: Tree) -> list[lark.Token | Tree]:
+def _alone(rule: str, part: Tree) -> list[Tree]:
     """An actor without an action."""
-    if rule == "what_if":
-        negated = any(isinstance(c, lark.Token) and c.type == "NOT" for c in part.children)
-        auxiliary = any(isinstance(c, lark.Token) and c.type != "NOT" for c in part.children)
-        if negated or auxiliary:
-            return [lark.Tree("elided_not" if negated else "elided", part.children)]
-    (who,) = (c for c in part.children if isinstance(c, lark.Tree))
-    said = [t.type for t in who.children if isinstance(t, lark.Token)]
-    if (said == ["THAT"] and rule not in _SEEN) or rule == "sensitivity":
+    auxiliaries = [t.type for t in part.children if isinstance(t, lark.Token)]
+    if rule == "what_if" and auxiliaries:
+        return [lark.Tree("elided_not" if "NOT" in auxiliaries else "elided", part.children)]
+    (who,) = _trees(part)
+    pointing = [t.type for t in who.children if isinstance(t, lark.Token)] == ["THAT"]
+    if (pointing and rule not in _SEEN) or rule == "sensitivity":
         return []
-    if rule in _WHO or rule == "replace":
-        return [c for c in part.children if isinstance(c, lark.Tree)]
-    return [lark.Tree("said", part.children)]
+    return [who] if rule in _WHO else [lark.Tree("said", part.children)]
 
 
-def _first(tree: Tree, rule: str) -> Tree | None:
-    return next((c for c in tree.children if isinstance(c, lark.Tree) and c.data == rule), None)
+def _trees(tree: Tree) -> list[Tree]:
+    return [child for child in tree.children if isinstance(child, lark.Tree)]

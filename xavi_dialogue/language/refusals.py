@@ -82,7 +82,8 @@ def realise_not_understood(
 ) -> Utterance:
     """Ask back: which of the readings is meant, or for other words.
 
-    `cause` is empty, too-long, gibberish, ambiguous, or another that gets the general wording.
+    `cause` is empty, too-long, gibberish, ambiguous, what the text lacks (a key of
+    malformed.toml), or another that gets the general wording.
     """
     choices = questions(readings, MAX_CHOICES)
     if len(choices) > 1:

@@ -19,6 +19,7 @@ TOWARDS = "towards-"  # "right" alone: a lane change beside lane changes, else a
 _DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
 _PRONOUNS = {
     "EGO": "ego",
+    "ME": "ego",
     "IT": "vehicle:it",
     "BOTH": "vehicle:both",
     "WHICHCAR": "vehicle:unknown",

@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from rapidfuzz.distance import OSA, Prefix
 from rapidfuzz.process import extract
 
-from xavi_dialogue.language.wordlists import english, vocabulary
+from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
 
 _CANDIDATES = 12
 _SHORT = 4  # contractions no longer than this are no correction of anything
@@ -37,6 +37,10 @@ def allowance(length: int) -> int:
 @lru_cache(maxsize=4096)
 def correct(word: str) -> tuple[str, ...] | None:
     """What an unknown word was meant to be: one word, or two that ran together."""
+    if len(word) > _SHORT and word + "g" in vocabulary().words:
+        return (word + "g",)  # "stoppin"
+    if len(word) > _SHORT and (parts := _split(word)):
+        return parts
     allowed = allowance(len(word))
     if allowed == 0 or not word.isalpha():
         return None
@@ -48,9 +52,7 @@ def correct(word: str) -> tuple[str, ...] | None:
         (_rank(word, candidate, int(distance)), candidate) for candidate, distance, _ in found
     )
     ranked = [entry for entry in ranked if _plausible(word, entry[1])]
-    if ranked and ranked[0][0][0] <= 1:
-        return (ranked[0][1],)
-    return _split(word) or ((ranked[0][1],) if ranked else None)
+    return (ranked[0][1],) if ranked else None
 
 
 def _plausible(word: str, candidate: str) -> bool:
@@ -70,7 +72,8 @@ def _rank(word: str, candidate: str, distance: int) -> tuple[int, bool, int, int
 
 def _split(word: str) -> tuple[str, ...] | None:
     known = vocabulary().words
-    for cut in range(3, len(word) - 2):
-        if known.get(word[:cut], 9) < 5 and known.get(word[cut:], 9) < 5:
-            return (word[:cut], word[cut:])
+    for cut in range(2, len(word) - 1):
+        parts = (word[:cut], word[cut:])
+        if all(known.get(part, PLAIN_RANK) < PLAIN_RANK for part in parts):
+            return parts
     return None

@@ -7,7 +7,7 @@ from xavi_dialogue.explain.query import Tense
 from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
 _PRESENT_HEADS = frozenset(
-    {"is", "are", "do", "does", "makes", "causes", "keeps", "keeping", "prevents", "stopping"}
+    {"is", "are", "do", "does", "makes", "causes", "keeps", "keeping", "prevents"}
 )
 _PAST_HEADS = frozenset({"was", "were", "did", "made", "caused", "taken", "been", "changed"})
 
@@ -86,7 +86,7 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
 
 
 def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
-    if any(_unreal_past(token) for token in whole):
+    if any(_unreal_past(t) or (t.terminal == "HAVE" and "past" in t.value) for t in whole):
         return "past"
     if hypothetical(whole) or any(_supposes(token) for token in whole):
         return "future"
@@ -117,9 +117,7 @@ def _after(clause: tuple[Token, ...], whole: tuple[Token, ...]) -> tuple[Token, 
     return tuple(t for t in whole[start + 1 :] if t.terminal in AUXILIARIES)
 
 
-def _of_complement(
-    rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]
-) -> Tense | None:
+def _of_complement(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) -> Tense | None:
     """What was known or believed: seen from then, "was going to" lies ahead."""
     values = {v for t in clause if t.terminal in AUXILIARIES for v in t.value.split()}
     if whole and whole[0].terminal == "DECIDE":
