@@ -1,0 +1,119 @@
+"""Scoring: how well a predicted query agrees with an annotated question.
+
+A question has one annotated query and may have alternatives that are as good. Time phrases,
+reasons and the like are not compared: what counts is that the car answers the right question.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import msgspec
+
+from xavi_dialogue.explain.query import Query, QueryAction
+
+#: Types without an answer about the drive: small talk, help, declining and asking back.
+TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
+
+
+class Question(msgspec.Struct, frozen=True):
+    """A line of an annotated file."""
+
+    id: str
+    text: str
+    query: Query
+    style: str
+    alternatives: tuple[Query, ...] = ()
+    context: tuple[str, ...] = ()  # the passenger's earlier turns, oldest first
+    underspecified: str | None = None  # "direction": left or right may be taken for the other
+
+    @property
+    def accepted(self) -> tuple[Query, ...]:
+        """The annotated query, then its alternatives."""
+        return (self.query, *self.alternatives)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """How a prediction fares."""
+
+    type: bool  # the type is one of those accepted
+    exact: bool  # all that is compared is as in one of the accepted queries
+    exact_primary: bool  # as in the annotated query itself
+    false_confident: bool  # the car would answer what was not asked, and not notice
+
+
+class Agreement(msgspec.Struct, frozen=True):
+    """The verdicts on a group of questions [percent of them]."""
+
+    group: str
+    n: int
+    type: float
+    exact: float
+    exact_primary: float
+    false_confident: float
+
+
+def verdict(question: Question, predicted: Query) -> Verdict:
+    """Score a prediction.
+
+    It is falsely confident where it is answerable, not exact, and each accepted query either has
+    no answer or is answerable for another actor or with the opposite negation; where some have no
+    answer, the answerable ones alone decide.
+    """
+    blurred = question.underspecified == "direction"
+    wanted = [_essence(query, blurred) for query in question.accepted]
+    got = _essence(predicted, blurred)
+    exact = got in wanted
+    return Verdict(
+        type=any(predicted.type == query.type for query in question.accepted),
+        exact=exact,
+        exact_primary=got == wanted[0],
+        false_confident=not exact
+        and predicted.type not in TALK
+        and not any(_comparable(predicted, query) for query in question.accepted),
+    )
+
+
+def agreement(group: str, verdicts: Sequence[Verdict]) -> Agreement:
+    """The shares of verdicts in a group, at least one."""
+    return Agreement(
+        group,
+        len(verdicts),
+        _percent([one.type for one in verdicts]),
+        _percent([one.exact for one in verdicts]),
+        _percent([one.exact_primary for one in verdicts]),
+        _percent([one.false_confident for one in verdicts]),
+    )
+
+
+def _percent(held: Sequence[bool]) -> float:
+    return 100 * sum(held) / len(held)
+
+
+def _comparable(predicted: Query, accepted: Query) -> bool:
+    """Whether both are about the same vehicle's doing or not doing."""
+    return (
+        accepted.type not in TALK
+        and predicted.actor == accepted.actor
+        and predicted.negated == accepted.negated
+    )
+
+
+def _essence(query: Query, blurred: bool) -> tuple[object, ...]:
+    """What of a query is compared."""
+    if query.type in TALK:
+        return (query.type,)
+    return (
+        query.type,
+        query.actor,
+        _actions(query.factual, blurred),
+        _actions(query.counterfactual, blurred),
+        query.negated,
+        query.tense,
+        query.detail,
+    )
+
+
+def _actions(actions: tuple[QueryAction, ...] | None, blurred: bool) -> tuple[str, ...]:
+    """Actions as they are compared; blurred ones have one direction only."""
+    return tuple(a.replace("-right", "-left") if blurred else a for a in actions or ())
