@@ -34,7 +34,7 @@ from xavi_dialogue.language.parse import Parser
 from xavi_dialogue.language.words import hear
 
 VEHICLES = frozenset(range(6))
-SCALE = 100
+SCALE = 20
 PENALTY = 0.02
 RAREST = 2  # features seen in fewer texts are not learnt
 SMALLEST = 0.2  # weights below are left out
@@ -122,6 +122,17 @@ def digest_of(files: Iterable[Path]) -> str:
     return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:16]
 
 
+def _written(weights: Weights) -> str:
+    """As JSON with a line for each feature, so that a change can be read."""
+    fields = msgspec.to_builtins(weights)
+    said = {f: json.dumps(fields["features"][f], separators=(",", ":")) for f in weights.features}
+    lines = [f"{json.dumps(f)}: {line}" for f, line in said.items()]
+    head = {name: value for name, value in fields.items() if name != "features"}
+    return json.dumps({**head, "features": {}}, indent=0).replace(
+        '"features": {}', '"features": {\n' + ",\n".join(lines) + "\n}"
+    )
+
+
 def main() -> None:
     """Learn from the files named on the command line."""
     options = argparse.ArgumentParser(description=__doc__)
@@ -129,7 +140,7 @@ def main() -> None:
     files = sorted(options.parse_args().files)
     weights = learn(examples(read(files)), digest_of(files))
     target = Path(str(resources.files("grammars").joinpath(FILE)))
-    target.write_bytes(msgspec.json.format(msgspec.json.encode(weights), indent=0))
+    target.write_text(_written(weights), encoding="utf-8")
 
 
 if __name__ == "__main__":

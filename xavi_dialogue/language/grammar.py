@@ -9,12 +9,14 @@ Errors::
     GrammarFileError   a grammar file cannot be built; names the file set and lark's reason
 """
 
+import os
 from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 from importlib import resources
 
 import lark
 from lark.parsers.lalr_analysis import Shift
+from platformdirs import user_cache_path
 
 from xavi_dialogue.language.wordlists import vocabulary
 
@@ -69,9 +71,23 @@ def grammar() -> lark.Lark:
             lexer=_Tokens,
             start=[*STARTS, CLAUSES],
             maybe_placeholders=False,
+            cache=_cache(),
         )
     except lark.exceptions.LarkError as error:
         raise GrammarFileError(f"grammars/{', '.join(GRAMMAR_FILES)}: {error}") from error
+
+
+def _cache() -> str | bool:
+    """Where lark keeps its tables, which take a second to work out; False: nowhere.
+
+    Lark tells by a digest whether the tables are those of this grammar, and works them out anew
+    where they are not, or are damaged.
+    """
+    try:
+        folder = user_cache_path("xavi-dialogue", ensure_exists=True)
+    except OSError:
+        return False
+    return str(folder / "question.lark") if os.access(folder, os.W_OK) else False
 
 
 class _Tokens(lark.lexer.Lexer):
