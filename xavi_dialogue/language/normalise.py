@@ -56,9 +56,19 @@ def normalise(text: str) -> Normalised:
             _mend(words)
     while words and words[-1] == BREAK:
         words.pop()
+    if "if" in words:
+        words = _supposing(words, pieces)
     if len(words) > MAX_WORDS:
         words, shortened = words[-MAX_WORDS:], True
     return Normalised(tuple(words), shortened, "".join(p for p in pieces if p in _MARKS))
+
+
+def _supposing(words: list[str], pieces: list[str]) -> list[str]:
+    """Read "what'd you do if" as "what would you do if"."""
+    short = {piece for piece in pieces if piece in ("what'd", "how'd")}
+    heads = {piece.removesuffix("'d") for piece in short}
+    pairs = zip(["", *words], words, strict=False)
+    return ["would" if word == "did" and before in heads else word for before, word in pairs]
 
 
 def _mend(words: list[str]) -> None:

@@ -51,8 +51,10 @@ def _not_imperative(tree: Tree, whole: tuple[Token, ...]) -> bool:
 
 
 def _request(tree: Tree, whole: tuple[Token, ...]) -> bool:
-    """Whether it asks for something to be done: "could you turn left?"."""
+    """Whether it asks for something to be done: "could you turn left?", or which action it was."""
     own = first(tree, "actions") is not None
+    if own and any(t.terminal == "WHAT" for t in whole):
+        return True  # "what did you do": the action is asked, not said
     asks = whole[0].text.split()[0] in ("can", "could", "would", "should", "might")
     return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")
 

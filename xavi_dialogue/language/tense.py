@@ -26,6 +26,8 @@ def tense_of(tokens: tuple[Token, ...]) -> Tense | None:
     values = [v for t in tokens if t.terminal in AUXILIARIES for v in t.value.split()]
     if "future" in values:
         return "past" if "past" in values else "future"
+    if "past" not in values and any(_obliged(t) for t in tokens):
+        return "present"
     if "past" in values or any(t.terminal == "HAVE" for t in tokens):
         return "past"
     if any("have" in t.text.split() for t in tokens if t.terminal in AUXILIARIES):
@@ -36,6 +38,21 @@ def tense_of(tokens: tuple[Token, ...]) -> Tense | None:
     if forms & {"past", "part"}:
         return "past"
     return "present" if "third" in forms else None
+
+
+def _obliged(token: Token) -> bool:
+    """Whether it is a "have to" or "have got to"."""
+    words = token.text.split()
+    owes = "to" in words and bool({"have", "has"} & set(words)) and "had" not in words
+    return token.terminal in AUXILIARIES and owes
+
+
+def _dropped(clause: tuple[Token, ...]) -> bool:
+    """Whether an "are" or "is" was left out: "why we stopping"."""
+    forms = [t.form for t in clause if t.form]
+    named = any(t.terminal in ("EGO", "NUMBER", "CAR", "KIND", "IT") for t in clause)
+    auxiliary = any(t.terminal in AUXILIARIES for t in clause)
+    return named and not auxiliary and forms[:1] == ["gerund"]
 
 
 def head_tense(tokens: tuple[Token, ...]) -> Tense | None:
@@ -80,6 +97,9 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
     if hypothetical(clause):
         return "future" if rule == "what" else "past"
     found = tense_of(clause) or head_tense(tuple(t for t in whole if t.terminal not in AUXILIARIES))
+    prevented = any(t.terminal in ("PREVENT", "MADE") for t in whole)
+    if found is None and not prevented and rule in ("why", "why_not") and _dropped(clause):
+        return "present"
     if any(t.terminal == "TIME" and t.value == "future" for t in whole) and found != "past":
         return "future"
     return found
