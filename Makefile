@@ -3,12 +3,13 @@
 
 PYTHON ?= python3
 ARGS ?=
+RUNS ?= 200000
 BIN := .venv/bin
 
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat test lint format schema bench clean runtime develop
+.PHONY: help chat test lint format schema judge bench fuzz clean runtime develop
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
@@ -35,8 +36,14 @@ format: develop ## put the code in its standard form
 schema: develop ## write docs/plan_trace.schema.json anew
 	@$(BIN)/python -m xavi_dialogue.transports.schema docs/plan_trace.schema.json
 
+judge: develop ## learn anew of what kind questions are, from those annotated
+	@$(BIN)/python -m xavi_dialogue.app.learn tests/language/questions/learn/*.jsonl
+
 bench: runtime ## measure; ARGS="dialogue --json" chooses
 	@$(BIN)/xavi bench $(or $(ARGS),plan)
+
+fuzz: runtime ## try RUNS random texts on the parser
+	@$(BIN)/xavi bench fuzz --runs $(RUNS) $(ARGS)
 
 clean: ## remove the environment and every cache
 	rm -rf .venv .setup.lock build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -6,6 +6,8 @@ from planner.driver import DriverError
 from planner.trace import TraceError
 from sim.scenario import ScenarioError
 from sim.sumo import SimulationError
+from xavi_dialogue.app.bench.fuzz import FaultFound
+from xavi_dialogue.app.bench.questions import QuestionFileError
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError
@@ -19,11 +21,14 @@ from xavi_dialogue.transports.transcript import TranscriptError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
-        (ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError, TreeError),
+        (
+            *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
+            *(TreeError, QuestionFileError),
+        ),
         ExitStatus.USAGE,
     ),
     (
-        (SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
+        (SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost, FaultFound),
         ExitStatus.FAILED,
     ),
 )

@@ -21,6 +21,7 @@ Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one p
 Rides = Annotated[
     Path, typer.Option(exists=True, file_okay=False, help="Folder of recorded rides.")
 ]
+Questions = Annotated[Path, typer.Option(help="Folder of the folders learn and blind.")]
 Page = Annotated[
     Path | None,
     typer.Option(exists=True, dir_okay=False, help="Put the paper's figures into this page."),
@@ -65,6 +66,7 @@ def commands(show: Show) -> typer.Typer:
         show(lambda note: recognise(scenario, seeds, jobs, note), as_json)
 
     _of_answers(group, show)
+    _of_parsing(group, show)
     return group
 
 
@@ -108,6 +110,28 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
     def _dialogue(as_json: AsJson = False) -> None:
         """How long answers take."""
         show(lambda _: dialogue(), as_json)
+
+
+def _of_parsing(group: typer.Typer, show: Show) -> None:
+    """Add the commands that judge what is understood."""
+
+    @group.command("parse")
+    def _parse(
+        questions: Questions = Path("tests/language/questions"), as_json: AsJson = False
+    ) -> None:
+        """How often questions are understood, and how long that takes, hostile texts included."""
+        show(lambda note: parse(questions, note), as_json)
+
+    @group.command("fuzz")
+    def _fuzz(
+        runs: Annotated[int, typer.Option(min=1, help="Texts that are tried.")] = 200_000,
+        seed: Annotated[int, typer.Option(min=0, help="Of the texts.")] = 0,
+        jobs: Jobs = None,
+        questions: Questions = Path("tests/language/questions"),
+        as_json: AsJson = False,
+    ) -> None:
+        """Whether any text makes the parser fail or take long."""
+        show(lambda note: fuzz(questions, runs, seed, jobs, note), as_json)
 
 
 def plan(hours: float, plot: Path | None) -> "Report":
@@ -183,6 +207,22 @@ def dialogue() -> "Report":
     from xavi_dialogue.app.bench.dialogue import measure
 
     return measure()
+
+
+def parse(questions: Path, note: Callable[[str], None]) -> "Report":
+    """Measure parsing."""
+    from xavi_dialogue.app.bench.parse import measure
+
+    return measure(questions, note)
+
+
+def fuzz(
+    questions: Path, runs: int, seed: int, jobs: int | None, note: Callable[[str], None]
+) -> "Report":
+    """Try texts made at random."""
+    from xavi_dialogue.app.bench.fuzz import measure
+
+    return measure(questions, runs, seed, _processes(jobs), note)
 
 
 def _there(names: list[str]) -> list[str]:

@@ -30,8 +30,9 @@ def read_folder(folder: Path) -> tuple[Question, ...]:
     files = sorted(folder.glob("*.jsonl"))
     if not files:
         raise QuestionFileError(
-            f"{folder}: no .jsonl files there; --questions takes a folder that holds the folders"
-            f" {LEARN} and {BLIND} with annotated questions, as {FOLDER}"
+            f"{folder}: no .jsonl files there; put annotated questions there, or name with"
+            f" --questions a folder that holds such folders as {LEARN} and {BLIND}; by default it"
+            f" is {FOLDER}"
         )
     found = tuple(question for file in files for question in read(file))
     if not found:

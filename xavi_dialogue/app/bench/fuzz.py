@@ -1,0 +1,254 @@
+"""`xavi bench fuzz`: texts made at random, none of which may make the parser fail or take long.
+
+A third each is drawn from the grammar, from annotated questions changed at random, and from
+anything. Text k of a seed is always the same.
+
+Errors::
+
+    FaultFound   a text makes the parser fail; holds the text, and what went wrong
+"""
+
+import math
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from pathlib import Path
+from random import Random
+
+import msgspec
+
+from xavi_dialogue.app.bench.latency import parse_time
+from xavi_dialogue.app.bench.mutations import anything, mutated
+from xavi_dialogue.app.bench.questions import LEARN, read_folder
+from xavi_dialogue.app.bench.runs import in_processes
+from xavi_dialogue.app.bench.sentences import sentence
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.parse import NotUnderstood, Parser, explained
+
+LIMIT = 50.0  # [ms] no text may take longer twice in a row
+BATCH = 1000  # texts that a process does at once
+SOURCES = ("grammar", "mutations", "anything")
+_FOLLOWS = 0.3  # share of texts with turns before them
+_MOST_TURNS = 4
+_NOT_UNDERSTOOD = frozenset({"ambiguous", "out_of_scope"})
+
+
+class FaultFound(ValueError):
+    """A text makes the parser fail."""
+
+
+class Fault(msgspec.Struct, frozen=True):
+    """What went wrong with a text."""
+
+    text: str  # as a Python literal in ASCII
+    context: str  # the turns before it, likewise
+    what: str
+
+
+class Tried(msgspec.Struct, frozen=True):
+    """What came of a batch of texts."""
+
+    runs: dict[str, int]  # by source
+    understood: dict[str, int]  # those with a query that is neither declined nor asked back
+    slowest: float  # [ms] the faster of two times
+    worst: str  # the text that took so long, as a Python literal
+    faults: tuple[Fault, ...] = ()
+
+
+class FuzzReport(msgspec.Struct, frozen=True):
+    """What came of all texts."""
+
+    bench: str
+    seed: int
+    tried: Tried
+
+    def table(self) -> str:
+        """The report for people, on one line."""
+        runs, understood = self.tried.runs, self.tried.understood
+        shares = ", ".join(
+            f"{source} {100 * understood.get(source, 0) / runs[source]:.1f} %"
+            for source in SOURCES
+            if runs.get(source)
+        )
+        return (
+            f"{sum(runs.values())} texts of seed {self.seed}, none fails; understood: {shares};"
+            f" slowest {self.tried.slowest:.1f} ms: {self.tried.worst}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A text to try, and the turns before it."""
+
+    source: str
+    text: str
+    context: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Texts `begin` to `end` of a seed."""
+
+    questions: Path
+    seed: int
+    begin: int
+    end: int
+    limit: float | None = LIMIT  # [ms]; None: time does not matter
+
+
+def measure(
+    questions: Path, runs: int, seed: int, jobs: int, note: Callable[[str], None]
+) -> FuzzReport:
+    """Try so many texts.
+
+    Args:
+        questions: where the folder `learn` of annotated questions is.
+        runs: how many texts.
+        seed: of the texts.
+        jobs: how many processes work side by side.
+        note: is told how far it is.
+
+    Raises:
+        FaultFound: a text makes the parser fail.
+        QuestionFileError: the questions cannot be read.
+    """
+    asked(questions)
+    batches = [
+        Batch(questions, seed, begin, min(begin + BATCH, runs)) for begin in range(0, runs, BATCH)
+    ]
+    found: list[Tried] = []
+    for k, tried in enumerate(in_processes(attempt, batches, jobs, _died)):
+        if tried.faults:
+            raise FaultFound(told(tried.faults[0]))
+        found.append(tried)
+        if (k + 1) % max(1, len(batches) // 10) == 0:
+            note(f"{batches[k].end} texts")
+    return FuzzReport("fuzz", seed, together(found))
+
+
+def told(fault: Fault) -> str:
+    """A fault on one line."""
+    after = "" if fault.context == "()" else f" after {fault.context}"
+    return f"parsing {fault.text}{after}: {fault.what}"
+
+
+def together(found: Sequence[Tried]) -> Tried:
+    """What came of several batches, at least one."""
+    slowest = max(found, key=lambda one: one.slowest)
+    return Tried(
+        dict(sum((Counter(one.runs) for one in found), Counter())),
+        dict(sum((Counter(one.understood) for one in found), Counter())),
+        slowest.slowest,
+        slowest.worst,
+        tuple(fault for one in found for fault in one.faults),
+    )
+
+
+def attempt(batch: Batch) -> Tried:
+    """Try a batch of texts; stops at the first fault."""
+    known = asked(batch.questions)
+    runs: Counter[str] = Counter()
+    understood: Counter[str] = Counter()
+    slowest, worst = 0.0, ""
+    for number in range(batch.begin, batch.end):
+        one = case(batch.seed, number, known)
+        runs[one.source] += 1
+        try:
+            query, taken = parsed(one, slowest)
+        except Exception:
+            return Tried(dict(runs), dict(understood), slowest, worst, (_failing(one),))
+        understood[one.source] += query is not None and query.type not in _NOT_UNDERSTOOD
+        if taken > slowest:
+            slowest, worst = taken, ascii(one.text)
+        if batch.limit is not None and taken > batch.limit:
+            fault = _fault(one, f"takes {taken:.0f} ms, and no more than {batch.limit:.0f} is fine")
+            return Tried(dict(runs), dict(understood), slowest, worst, (fault,))
+    return Tried(dict(runs), dict(understood), slowest, worst)
+
+
+def parsed(one: Case, slowest: float) -> tuple[Query | None, float]:
+    """What a text means, and the time [ms] that it takes: where it seems the slowest, of two.
+
+    Raises:
+        FaultFound: the result is neither a valid query nor that nothing was understood.
+    """
+    previous = _parser().question_before(one.context)
+    began = time.perf_counter()
+    result = explained(one.text, previous).result
+    taken = 1000.0 * (time.perf_counter() - began)
+    if taken > slowest:
+        taken = min(taken, parse_time(one.text, previous))
+    if isinstance(result, NotUnderstood):
+        return None, taken
+    if not isinstance(result, Query):
+        raise FaultFound(f"its meaning is {result!r}")
+    if msgspec.json.decode(msgspec.json.encode(result), type=Query) != result:
+        raise FaultFound(f"{result!r} does not come back from JSON as it was")
+    return result, taken
+
+
+def case(seed: int, number: int, questions: Sequence[str]) -> Case:
+    """Text `number` of a seed."""
+    rng = Random(f"{seed} {number}")
+    source = SOURCES[number % len(SOURCES)]
+    turns = rng.randint(1, _MOST_TURNS) if rng.random() < _FOLLOWS else 0
+    context = tuple(_text(rng, rng.choice(SOURCES), questions) for _ in range(turns))
+    return Case(source, _text(rng, source, questions), context)
+
+
+def _text(rng: Random, source: str, questions: Sequence[str]) -> str:
+    make = {"grammar": sentence, "anything": anything}
+    return make.get(source, partial(mutated, questions=questions))(rng)
+
+
+@cache
+def asked(folder: Path) -> tuple[str, ...]:
+    """The texts of the annotated questions that are learnt from.
+
+    Raises:
+        QuestionFileError: they cannot be read.
+    """
+    return tuple(one.text for one in read_folder(folder / LEARN))
+
+
+@cache
+def _parser() -> Parser:
+    return Parser()
+
+
+def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
+    """A text that fails as another does, with what it fails without left out."""
+    turns = (Case(one.source, turn, ()) for turn in (*one.context, one.text))
+    one = next((turn for turn in turns if fails(turn)), one)
+    size = len(one.text)
+    while size:
+        for begin in range(len(one.text) - size, -1, -size):
+            less = replace(one, text=one.text[:begin] + one.text[begin + size :])
+            one = less if fails(less) else one
+        size //= 2
+    return one
+
+
+def _failing(one: Case) -> Fault:
+    """The fault of a text that fails, told of as short a text as possible."""
+    least = shorter(one, lambda case: _error(case) is not None)
+    return _fault(least, _error(least) or "it failed once, and no longer does")
+
+
+def _error(one: Case) -> str | None:
+    try:
+        parsed(one, math.inf)
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return None
+
+
+def _fault(one: Case, what: str) -> Fault:
+    return Fault(ascii(one.text), ascii(one.context), what)
+
+
+def _died(batch: Batch) -> Tried:
+    said = f"one of texts {batch.begin} to {batch.end - 1} of seed {batch.seed}"
+    return Tried({}, {}, 0.0, "", (Fault(said, "()", "the process died"),))
