@@ -28,6 +28,7 @@ _RULES = {LEAN: "replace", WHICH: "what"}  # start rules of the kinds that are n
 _LEADING = frozenset({"AND", "OR", "ABOUT", "CONJ", "SMALL"})
 _NOUNS = frozenset({"CAR", "KIND", "NUMBER", "OTHER"})
 _NAMING = _NOUNS | {"THAT", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT"}
+_BARE = frozenset({"why", "why_not"})
 _PRONOUNS = frozenset({"vehicle:it", "vehicle:that"})
 
 Cuts = tuple[tuple[int, Edge], ...]
@@ -83,12 +84,27 @@ def loosely(
         if kind == WHICH:
             shaped.tree.children.append(lark.Token("WHICHCAR", "unknown"))
         reading = _about(topic, read(shaped, (), checked=False))
+        if reading and previous and kind in _BARE and _says_nothing(reading):
+            reading = replace(reading, rule="again")  # "why?": leans on the question before
         query = resolve(reading, previous) if reading else None
-        if query is None or (kind_of(query, previous) != kind and kind != LEAN):
+        if query is None or not _fits(kind, query, reading, previous):
             continue
         cost = costs().loose.base + shaped.cost
         found.append(Candidate(rule, query, kind, cost, loose=True))
     return found
+
+
+def _says_nothing(reading: Reading) -> bool:
+    """Whether it names no vehicle, no action and no cause."""
+    query = reading.query
+    named = reading.named_actor or query.hypothesised_cause
+    return not (named or query.factual or query.counterfactual)
+
+
+def _fits(kind: str, query: Query, reading: Reading | None, previous: Query | None) -> bool:
+    """Whether a query is of the kind it was read as; what leans is of another one, too."""
+    leans = kind == LEAN or (reading is not None and reading.rule == "again")
+    return leans or kind_of(query, previous) == kind
 
 
 def _topic(lattice: Lattice, cuts: Cuts) -> str | None:

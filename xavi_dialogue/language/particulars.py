@@ -64,6 +64,8 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
             is_new = fields["actor"] in ("vehicle:other", "ego") or "THERE" in terminals(part)[:1]
             return fields | ({"actor": "vehicle:new"} if is_new else {}) | {"intervention": "add"}
         return fields | {"negated": rule == "elided_not"}
+    if any(t == "unless" for t in tree.children):
+        return {"negated": first(tree, "denied") is None}
     if {"WITHOUT", "NO"} & set(terminals(tree)):
         *_, missing = children(tree, "actor")
         return {"actor": actor(missing)} | {"negated": True, "intervention": "remove"}
@@ -75,7 +77,8 @@ def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
         return {"actor": f"vehicle:{place[0]}"}
     if "WHICHCAR" in terminals(tree):
         return {"actor": "vehicle:unknown"}
-    return {} if first(tree, "said") else _actor_of(tree)
+    known = first(tree, "said") is not None or "PASSIVE" in terminals(tree)
+    return {} if known else _actor_of(tree)
 
 
 def _comparison(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:

@@ -167,7 +167,7 @@ def _subtrees(tree: Tree) -> list[Tree]:
 def _clauses(tree: Tree) -> tuple[Clause, ...]:
     """Clauses of the question; actions directly under the start rule are a clause "own"."""
     found = [clause(c) for c in _subtrees(tree) if c.data in _CLAUSES]
-    if first(tree, "actions"):
+    if first(tree, "actions") or "PASSIVE" in terminals(tree):
         found.insert(0, replace(clause(tree), role="own"))
     return tuple(found)
 

@@ -64,6 +64,8 @@ def terminals(tree: Tree) -> tuple[str, ...]:
 
 def clause(tree: Tree) -> Clause:
     """Read a clause rule: its own actor and actions, at any depth short of another actor."""
+    if "PASSIVE" in terminals(tree):
+        return _passive(tree)
     inner = first(tree, "bare") or tree
     listed = first(inner, "actions")
     spoken = [action(a) for a in children(listed, "action")] if listed else []
@@ -77,6 +79,21 @@ def clause(tree: Tree) -> Clause:
         actor=actor(who) if who else None,
         actions=tuple(name for name, _ in spoken),
         underspecified=any(is_open for _, is_open in spoken),
+        span=(min(positions, default=0), max(positions, default=0)),
+    )
+
+
+def _passive(tree: Tree) -> Clause:
+    """Read "overtaken by vehicle 3": who acts comes last."""
+    *_, agent = children(tree, "actor")
+    (deed,) = (t for t in tree.children if isinstance(t, lark.Token) and t.type == "PASSIVE")
+    positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
+    open_side = str(deed) == "change"
+    return Clause(
+        role=tree.data,
+        actor=actor(agent),
+        actions=("change-left" if open_side else str(deed),),
+        underspecified=open_side,
         span=(min(positions, default=0), max(positions, default=0)),
     )
 
