@@ -24,26 +24,32 @@ MIRRORED: dict[QueryAction, QueryAction] = {
 }
 
 
+#: "Go left" may be either; which it was, is known from what was done.
+KINDRED: dict[QueryAction, QueryAction] = {"exit-left": "change-left", "exit-right": "change-right"}
+OPEN = {"direction": MIRRORED, "manoeuvre": KINDRED}  # by what a question leaves open
+
+
 def directed(query: Query, ride: Ride) -> Query:
-    """The query with the side on which it happened, and with the tense of what is under way.
+    """The query with the side and the manoeuvre that happened, in the tense of what is under way.
 
     A foil without a side is on the one that was taken; else, of the ego's, on the one on which it
     was possible.
     """
     query = _present(query, ride)
-    if query.underspecified != "direction":
+    others = OPEN.get(query.underspecified or "")
+    if others is None:
         return query
     known = _known(query, ride)
 
     def turned(actions: tuple[QueryAction, ...] | None) -> tuple[QueryAction, ...] | None:
-        return None if actions is None else tuple(_turn(action, known) for action in actions)
+        return None if actions is None else tuple(_turn(a, known, others) for a in actions)
 
     factual, foil = turned(query.factual), query.counterfactual
     if query.negated or query.factual is None:
         foil = turned(foil)
         if foil == query.counterfactual and foil and _ours(query) and not query.negated:
             possible = _possible(ride)
-            foil = tuple(_turn(a, possible) if not known(a) else a for a in foil)
+            foil = tuple(_turn(a, possible, others) if not known(a) else a for a in foil)
     return replace(query, factual=factual, counterfactual=foil)
 
 
@@ -70,8 +76,12 @@ def _possible(ride: Ride) -> Callable[[QueryAction], bool]:
     return lambda action: action in options
 
 
-def _turn(action: QueryAction, known: Callable[[QueryAction], bool]) -> QueryAction:
-    other = MIRRORED.get(action)
+def _turn(
+    action: QueryAction,
+    known: Callable[[QueryAction], bool],
+    others: dict[QueryAction, QueryAction],
+) -> QueryAction:
+    other = others.get(action)
     return other if other is not None and known(other) and not known(action) else action
 
 

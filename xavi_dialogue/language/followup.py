@@ -115,6 +115,9 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if query.time and not reading.named_actor:
         now = query.tense if reading.tensed else previous.tense  # "after that" goes on from there
         return _refer(previous, time=query.time, tense=now)
+    _, _, number = query.actor.partition(":")
+    if previous.type == "sensitivity" and number.isdecimal():
+        return _refer(previous, condition=f"without vehicle {number}")  # the decision is still ours
     return _refer(previous, actor=query.actor)
 
 

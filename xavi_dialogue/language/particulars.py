@@ -57,7 +57,7 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     for rule in ("absent", "added", "elided", "elided_not"):
         if (part := first(tree, rule)) is None:
             continue
-        fields = _actor_of(part)
+        fields = _actor_of(part) or {"actor": "vehicle:both"}  # "if there was nobody else"
         if rule == "absent":
             return fields | {"negated": True, "intervention": "remove"}
         if rule == "added":

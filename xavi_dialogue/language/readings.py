@@ -112,7 +112,13 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     named = "actor" in fields
     if is_compound(after):
         fields["compound"] = True
-    if rule == "what" and fields.get("actor") == "vehicle:that" and fields.get("factual"):
+    noun = any(t.terminal in ("CAR", "KIND") for t in whole)
+    if (
+        rule == "what"
+        and fields.get("actor") == "vehicle:that"
+        and fields.get("factual")
+        and (not noun)
+    ):
         del fields["actor"]  # "was that a lane change?"
     if rule in ("how_avoid", "compare"):
         _drop_bystanders(fields)
@@ -193,8 +199,8 @@ def _slots_of(rule: str, clauses: tuple[Clause, ...], whole: tuple[Token, ...]) 
             fields.setdefault("actor", one.actor)
         if one.role == "denied" and rule in _NEGATABLE:
             fields["negated"] = True
-        if one.underspecified:
-            fields["underspecified"] = "direction"
+        if one.underspecified and not (at_junction and one.underspecified == "manoeuvre"):
+            fields["underspecified"] = one.underspecified
     return fields
 
 

@@ -34,7 +34,7 @@ class Clause:
     role: str  # the grammar rule: said, denied, contrast, ...
     actor: str | None
     actions: tuple[str, ...]  # query actions, ANAPHOR or STRAIGHT
-    underspecified: bool  # a direction was left open
+    underspecified: str | None  # what was left open: "direction", or which "manoeuvre"
     span: tuple[int, int]  # positions of its first and last token
 
 
@@ -78,7 +78,7 @@ def clause(tree: Tree) -> Clause:
         role=tree.data,
         actor=actor(who) if who else None,
         actions=tuple(name for name, _ in spoken),
-        underspecified=any(is_open for _, is_open in spoken),
+        underspecified=next((left_open for _, left_open in spoken if left_open), None),
         span=(min(positions, default=0), max(positions, default=0)),
     )
 
@@ -88,7 +88,7 @@ def _passive(tree: Tree) -> Clause:
     *_, agent = children(tree, "actor")
     (deed,) = (t for t in tree.children if isinstance(t, lark.Token) and t.type == "PASSIVE")
     positions = [t.start_pos for t in tokens_in(tree) if t.start_pos is not None]
-    open_side = str(deed) == "change"
+    open_side = "direction" if str(deed) == "change" else None
     return Clause(
         role=tree.data,
         actor=actor(agent),
@@ -119,29 +119,29 @@ def side(tree: Tree) -> str | None:
     return found[-1] if found else None
 
 
-def action(tree: Tree) -> tuple[str, bool]:
-    """Read the rule `action`: (its name, whether a direction was left open)."""
+def action(tree: Tree) -> tuple[str, str | None]:
+    """Read the rule `action`: (its name, what it leaves open, if anything)."""
     (inner,) = (c for c in tree.children if isinstance(c, lark.Tree))
     kind = str(inner.data)
     where = side(inner)
     if kind == "heading":
-        return (f"change-{where}" if "LANE" in terminals(inner) else f"{TOWARDS}{where}"), False
+        return (f"change-{where}" if "LANE" in terminals(inner) else f"{TOWARDS}{where}"), None
+    undirected = None if where else "direction"
     if kind == "lane_change":
-        return f"change-{where or 'left'}", where is None
+        return f"change-{where or 'left'}", undirected
     if kind == "turn":
-        if terminals(inner) == ("EXITWAY",) or where or "TURN" in terminals(inner):
-            return f"exit-{where or 'left'}", where is None
-        return "exit-left", True
+        going = where is not None and "GO" in terminals(inner)  # at a junction, or to a lane
+        return f"exit-{where or 'left'}", "manoeuvre" if going else undirected
     if kind == "straight":
         going_on = {"CONTINUE", "STAY"} & set(terminals(inner))
-        return (STRAIGHT_ON if going_on else STRAIGHT), False
+        return (STRAIGHT_ON if going_on else STRAIGHT), None
     if kind == "keep":
-        return "continue", False
+        return "continue", None
     if kind == "let_pass":
-        return "give-way", False
+        return "give-way", None
     if kind == "anaphor":
-        return ANAPHOR, False
-    return str(next(t for t in inner.children if isinstance(t, lark.Token))), False
+        return ANAPHOR, None
+    return str(next(t for t in inner.children if isinstance(t, lark.Token))), None
 
 
 def settle(

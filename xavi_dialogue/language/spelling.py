@@ -9,8 +9,9 @@ from functools import cache, lru_cache
 from rapidfuzz.distance import OSA, Prefix
 from rapidfuzz.process import extract
 
-from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
+from xavi_dialogue.language.wordlists import PLAIN_RANK, WORD_FILES, english, vocabulary
 
+_TALK_RANK = WORD_FILES.index("words_talk.toml")
 _CANDIDATES = 12
 _SHORT = 4  # contractions no longer than this are no correction of anything
 
@@ -51,12 +52,17 @@ def correct(word: str) -> tuple[str, ...] | None:
     ranked = sorted(
         (_rank(word, candidate, int(distance)), candidate) for candidate, distance, _ in found
     )
-    ranked = [entry for entry in ranked if _plausible(word, entry[1])]
+    ranked = [entry for entry in ranked if _plausible(word, entry[1], entry[0][0])]
     return (ranked[0][1],) if ranked else None
 
 
-def _plausible(word: str, candidate: str) -> bool:
-    """Short words only by transposition: else every three letters are a typing error."""
+def _plausible(word: str, candidate: str, distance: int) -> bool:
+    """Short words only by transposition: else every three letters are a typing error.
+
+    Words of what the car does not do ask for a good reason: "hesitate" is not "levitate".
+    """
+    if distance > 1 and vocabulary().words.get(candidate) == _TALK_RANK:
+        return False
     return len(word) > 3 or sorted(word) == sorted(candidate)
 
 

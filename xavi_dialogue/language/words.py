@@ -48,6 +48,8 @@ def hear(normalised: Normalised, vehicles: frozenset[int]) -> Heard:
 
 def _tag(words: list[str]) -> int:
     """Where a tag begins: after the last clause mark, behind a statement."""
+    if words[-2:] in (["or", "what"], ["or", "not"]) and len(words) > _STATEMENT:
+        return len(words) - 2
     marks = [index for index, word in enumerate(words) if word == BREAK]
     if not marks or marks[-1] < _STATEMENT:
         return len(words)
