@@ -108,8 +108,8 @@ def parse(
     with _errors():
         names = parsing.vehicle_names(vehicles)
         if jsonl:
-            for line in _lines():
-                _write(parsing.parse_line(line, names))
+            for answer in parsing.parse_lines(_lines(), names, _note):
+                _write(answer)
             return
         if text is None:
             raise parsing.ParseUsageError("a question is missing; or read lines with --jsonl")

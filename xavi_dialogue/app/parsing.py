@@ -1,6 +1,6 @@
 """`xavi parse`: the query that a question means."""
 
-import json
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
@@ -42,25 +42,39 @@ def parse_text(
     return shown, understood
 
 
-def parse_line(line: str, vehicles: frozenset[int]) -> str:
-    """The answer line to a question line such as {"id": "q1", "text": "...", "context": []}.
+class Line(msgspec.Struct, frozen=True):
+    """A question line."""
+
+    text: str
+    id: str | int | float | None = None
+    context: tuple[str, ...] | None = None  # the passenger's earlier turns, oldest first
+
+
+def parse_lines(
+    lines: Iterable[str], vehicles: frozenset[int], note: Callable[[str], None]
+) -> Iterator[str]:
+    """The answer line to each question line such as {"id": "q1", "text": "...", "context": []}.
+
+    A line that is none is noted, and the others are answered all the same.
 
     Raises:
-        ParseUsageError: the line is no such object.
+        ParseUsageError: at the end, where some lines were none.
     """
-    try:
-        question = json.loads(line)
-        text, context = question["text"], tuple(question.get("context") or ())
-    except (ValueError, TypeError, KeyError, AttributeError):
-        shown = one_line(line)[:60]
-        raise ParseUsageError(
-            f'each line must hold {{"id": .., "text": ..}}; got: {shown}'
-        ) from None
-    if not all(isinstance(turn, str) for turn in (text, *context)):
-        raise ParseUsageError(f"text and context must be text in {one_line(line)[:60]}")
-    result = Parser().parse(text, vehicles=vehicles, context=context)
-    answer = {"id": question.get("id"), "query": as_query(result)}
-    return msgspec.json.encode(answer).decode()
+    parser = Parser()
+    broken = count = 0
+    for count, line in enumerate(lines, 1):
+        try:
+            question = msgspec.json.decode(line, type=Line)
+        except (msgspec.MsgspecError, RecursionError, UnicodeEncodeError) as error:
+            broken += 1
+            shown = one_line(line)[:60]
+            note(f'line {count} is not {{"id": .., "text": ..}} ({error}); it is: {shown}')
+            continue
+        context = question.context or ()
+        query = as_query(parser.parse(question.text, vehicles=vehicles, context=context))
+        yield msgspec.json.encode({"id": question.id, "query": query}).decode()
+    if broken:
+        raise ParseUsageError(f"{broken} of {count} lines hold no question")
 
 
 def _lines(result: Query | NotUnderstood) -> str:

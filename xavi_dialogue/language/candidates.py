@@ -81,6 +81,8 @@ def loosely(
         if rule not in STARTS:
             continue
         shaped = as_question(rule, None if kind == WHICH else parse, tokens)
+        if shaped is None:
+            continue
         if kind == WHICH:
             shaped.tree.children.append(lark.Token("WHICHCAR", "unknown"))
         reading = _about(topic, read(shaped, (), checked=False))
@@ -89,7 +91,7 @@ def loosely(
         query = resolve(reading, previous) if reading else None
         if query is None or not _fits(kind, query, reading, previous):
             continue
-        cost = costs().loose.base + shaped.cost
+        cost = costs().loose.base + (reading.cost if reading else 0.0)
         found.append(Candidate(rule, query, kind, cost, loose=True))
     return found
 

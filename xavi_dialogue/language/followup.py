@@ -30,7 +30,8 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
     query = reading.query
     if reading.rule in LEANING:
         return _lean(reading, previous) if previous is not None else _alone(reading)
-    if query.event == INFLUENCE and not query.factual:
+    blamed = query.type == "why" and query.hypothesised_cause and previous is not None
+    if (query.event == INFLUENCE or blamed) and not query.factual:
         return _laid_to(query, previous)
     if reading.anaphoric or reading.elided:
         if previous is None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from xavi_dialogue.language.normalise import BREAK
 from xavi_dialogue.language.tokens import WEAK, Token
 from xavi_dialogue.language.wordlists import vocabulary
-from xavi_dialogue.language.words import vehicle_nouns
+from xavi_dialogue.language.words import is_number, vehicle_nouns
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ def _edges(words: tuple[str, ...], start: int) -> tuple[Edge, ...]:
     found = vocabulary().phrases.all_from(words, start)
     found.sort(key=lambda match: (_splits_a_name(words, start, match[0]), -match[0]))
     if not found:
-        kind = "NUMBER" if word.isdigit() else "UNKNOWN"
+        kind = "NUMBER" if is_number(word) else "UNKNOWN"
         return (Edge(start + 1, Token(kind, word, word), True),)
     edges: list[Edge] = []
     forms = vocabulary().forms
@@ -74,5 +74,5 @@ def _splits_a_name(words: tuple[str, ...], start: int, end: int) -> bool:
         end - start > 1
         and words[end - 1] in vehicle_nouns()
         and follows[:1] != ()
-        and (follows[0].isdigit())
+        and (is_number(follows[0]))
     )

@@ -37,8 +37,8 @@ def clauses(lattice: Lattice, budget: Budget, *, spoken_of: bool) -> Parse | Non
     return min(found, key=lambda f: f.cost).parse() if found else None
 
 
-def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Parse:
-    """The clauses as a parse by a start rule.
+def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Parse | None:
+    """The clauses as a parse by a start rule; None where they cannot be meant so.
 
     Args:
         rule: the start rule.
@@ -47,10 +47,23 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
     """
     if parse is None or rule in _SAYS_NOTHING:
         return Parse(rule, lark.Tree(rule, []), tokens, 0, 0, 0.0)
+    if _misleads(rule, _trees(parse.tree)):
+        return None
     seen = frozenset(t.terminal for t in tokens)
     placed = _placed(rule, _trees(parse.tree), seen)
     shaped = [piece for part in placed for piece in _shape(rule, part, seen)]
     return Parse(rule, lark.Tree(rule, list(shaped)), parse.tokens, 0, parse.end, parse.cost)
+
+
+def _misleads(rule: str, parts: list[Tree]) -> bool:
+    """Whether a "not" stands where the question would lose it, or take it from a condition."""
+    kinds = {part.data for part in parts}
+    if rule == "compare":
+        return "unsaid" in kinds
+    if rule == "replace":
+        return any(part.data == "given" and "because" in part.children for part in parts)
+    given = [clause.data for part in parts if part.data == "given" for clause in _trees(part)]
+    return rule == "why_not" and "said" in kinds and bool({"denied", "unsaid"} & set(given))
 
 
 def _placed(rule: str, parts: list[Tree], seen: frozenset[str]) -> list[Tree]:

@@ -45,6 +45,9 @@ def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     if "INVOLVED" in terminals(tree):
         named = [name for c in children(tree, "actor") if (name := actor(c)) != "vehicle:it"]
         return {"event": INFLUENCE, "hypothesised_cause": named[-1] if named else "vehicle:it"}
+    pointed = list(children(tree, "actor"))
+    if because is None and len(pointed) == 2 and "MADE" not in terminals(tree):
+        return {"hypothesised_cause": actor(pointed[1])}  # "was it vehicle 2?"
     if "MADE" in terminals(tree):
         causes = [actor(c) for c in children(tree, "actor")]
         fields["hypothesised_cause"] = causes[-1]
@@ -64,6 +67,9 @@ def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
             is_new = fields["actor"] in ("vehicle:other", "ego") or "THERE" in terminals(part)[:1]
             return fields | ({"actor": "vehicle:new"} if is_new else {}) | {"intervention": "add"}
         return fields | {"negated": rule == "elided_not"}
+    contrast = first(tree, "contrast")
+    if contrast and contrast.children[0] == "without":
+        return {"factual": None}  # "turned left without stopping" is no contrast
     if any(t == "unless" for t in tree.children):
         return {"negated": first(tree, "denied") is None}
     if {"WITHOUT", "NO"} & set(terminals(tree)):

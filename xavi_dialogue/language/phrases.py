@@ -41,6 +41,7 @@ class _Part(NamedTuple):
 
 _EMPTY = _Part(True, frozenset(), frozenset())
 _State = frozenset[int]
+_NOWHERE: _State = frozenset()
 
 
 @dataclass(slots=True)
@@ -103,6 +104,8 @@ class Automaton:
         key = (state, word)
         if key not in self._steps:
             reached = {n for p in state for n in self.follow[p] if word in self.accepts[n]}
+            if not reached:
+                return _NOWHERE  # not kept: there are more unknown words than memory
             self._steps[key] = frozenset(reached)
         return self._steps[key]
 

@@ -17,7 +17,8 @@ class Heard:
     tagged: bool = False  # a tag such as "didn't you?" was taken off the end
 
 
-_STATEMENT = 3  # words that a tag follows, at least
+_HUNDRED = 100
+_STATEMENT = 2  # words that a tag follows, at least
 
 
 @cache
@@ -77,7 +78,7 @@ def _is_word(word: str) -> bool:
 
 
 def _known(word: str) -> tuple[str, ...]:
-    if word == BREAK or word.isdigit() or _is_word(word):
+    if word == BREAK or is_number(word) or _is_word(word):
         return (word,)
     parts = tuple(part for part in word.split("-") if part)
     if len(parts) > 1:
@@ -89,11 +90,14 @@ def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
     """Number words after a vehicle noun or another number become digits."""
     read: list[str] = []
     homophones = english()["homophones"]
-    for index, word in enumerate(words):
+    for index, said in enumerate(words):
+        word = str(int(said)) if is_number(said) else said
         before = read[-1] if read else ""
         value = _numbers().get(word)
-        tens = int(before) if before.isdigit() else 0
-        if value is not None and (word != "one" or before in vehicle_nouns() or tens):
+        tens = int(before) if is_number(before) else 0
+        if word == "hundred" and 0 < tens < _HUNDRED:
+            read[-1] = str(tens * _HUNDRED)
+        elif value is not None and (word != "one" or before in vehicle_nouns() or tens):
             if tens >= 20 and tens % 10 == 0 and value < 10:
                 read[-1] = str(tens + value)
             else:
@@ -105,6 +109,11 @@ def _read_numbers(words: list[str], vehicles: frozenset[int]) -> list[str]:
         else:
             read.append(word)
     return read
+
+
+def is_number(word: str) -> bool:
+    """Whether a word is written in digits, of any script that counts in tens."""
+    return word.isdecimal()
 
 
 def _verb_follows(words: list[str], index: int) -> bool:

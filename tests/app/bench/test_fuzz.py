@@ -19,10 +19,19 @@ from xavi_dialogue.language.parse import explained
 from xavi_dialogue.language.report import ParseReport
 from xavi_dialogue.language.wordlists import vocabulary
 
+RUNS = 2000
+
 
 @pytest.fixture
 def questions(root: Path) -> Path:
     return root / FOLDER
+
+
+def test_no_text_makes_the_parser_fail(questions: Path) -> None:
+    tried = attempt(Batch(questions, seed=7, begin=0, end=RUNS, limit=None))
+    assert tried.faults == ()
+    assert sum(tried.runs.values()) == RUNS
+    assert tried.understood["grammar"] > tried.understood["anything"]
 
 
 def test_texts_follow_from_seed_and_number(questions: Path) -> None:
