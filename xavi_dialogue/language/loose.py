@@ -81,6 +81,10 @@ def _placed(rule: str, parts: list[Tree], seen: frozenset[str]) -> list[Tree]:
     if all(part.data == "lone" for part in others):
         return [_supposed(given)]  # "you must have had a reason when you stopped"
     match rule:
+        case "where_goal":
+            return [_supposed(given)]  # "stop that and tell me where it is going"
+        case "when" if not any(part.data == "said" for part in others):
+            return [_supposed(given)]
         case "what_if":
             return [_supposed(given), *(p for p in others if p.data == "contrast")]
         case "compare":
