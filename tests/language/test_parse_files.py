@@ -23,8 +23,8 @@ def automaton(*phrases: str) -> Automaton:
 
 def matches(phrase: str, text: str) -> bool:
     words = tuple(text.split())
-    found = automaton(phrase).longest(words, 0)
-    return found is not None and found[0] == len(words)
+    found = automaton(phrase).all_from(words, 0)
+    return any(end == len(words) for end, _ in found)
 
 
 def test_every_file_of_the_parser_loads() -> None:
@@ -87,13 +87,14 @@ def test_a_broken_phrase_is_refused(phrase: str) -> None:
         automaton(phrase)
 
 
-def test_the_longest_phrase_wins_and_senses_keep_their_order() -> None:
+def test_every_phrase_is_found_and_senses_keep_their_order() -> None:
     built = Automaton(lambda verb: frozenset({verb}))
     for phrase, terminal in (("a", "ONE"), ("a b", "TWO"), ("a", "THREE")):
         built.add(phrase, Sense(terminal, ""))
-    assert built.longest(("a", "b"), 0) == (2, (Sense("TWO", ""),))
-    assert built.longest(("a", "c"), 0) == (1, (Sense("ONE", ""), Sense("THREE", "")))
-    assert built.longest(("c",), 0) is None
+    one = (1, (Sense("ONE", ""), Sense("THREE", "")))
+    assert built.all_from(("a", "b"), 0) == [one, (2, (Sense("TWO", ""),))]
+    assert built.all_from(("a", "c"), 0) == [one]
+    assert built.all_from(("c",), 0) == []
 
 
 @pytest.mark.parametrize(

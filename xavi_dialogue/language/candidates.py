@@ -7,7 +7,6 @@ of question that the judge thinks likely.
 from dataclasses import dataclass, replace
 
 import lark
-import msgspec
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.beam import Budget, Found, Prices, search
@@ -15,8 +14,9 @@ from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.followup import resolve
 from xavi_dialogue.language.grammar import STARTS
 from xavi_dialogue.language.kinds import LEAN, WHICH, kind_of
-from xavi_dialogue.language.lattice import Edge, Lattice
+from xavi_dialogue.language.lattice import Cuts, Lattice
 from xavi_dialogue.language.loose import as_question, clauses
+from xavi_dialogue.language.named import about_named, named_first, of_named
 from xavi_dialogue.language.readings import Reading, is_compound, read
 from xavi_dialogue.language.tokens import Token
 
@@ -25,13 +25,7 @@ _WEIGHTLESS = frozenset({"BREAK", "CONJ", "AND", "TIME", "SMALL", "THAT", "IT", 
 _HELD = frozenset({"NOT", "IF"})
 _RULES = {LEAN: "replace", WHICH: "what"}  # start rules of the kinds that are not named after one
 
-_LEADING = frozenset({"AND", "OR", "ABOUT", "CONJ", "SMALL"})
-_NOUNS = frozenset({"CAR", "KIND", "NUMBER", "OTHER"})
-_NAMING = _NOUNS | {"THAT", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT"}
 _BARE = frozenset({"why", "why_not"})
-_PRONOUNS = frozenset({"vehicle:it", "vehicle:that"})
-
-Cuts = tuple[tuple[int, Edge], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,17 +42,17 @@ class Candidate:
 def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Candidate]:
     """What the grammar of questions makes of a text, within the cost limit."""
     base, limit = costs().base, costs().limits.cost
-    cuts = tuple((at, edge) for at, edge in lattice.main() if not edge.is_noise)
-    topic = _topic(lattice, cuts)
+    cuts = lattice.cuts()
+    topic = named_first(lattice, cuts)
     found: dict[tuple[str, Query], Candidate] = {}
     for extra, one in _found(lattice, cuts, budget):
         parse = one.parse()
         after = tuple(edge.token for at, edge in cuts if at >= parse.end)
-        reading = _about(topic, read(parse, after))
+        reading = about_named(topic, read(parse, after))
         query = resolve(reading, previous) if reading else None
         if reading is None or query is None:
             continue
-        query = _of_topic(query, reading, topic)
+        query = of_named(query, reading, topic)
         cost = reading.cost + base.get(parse.rule, 0.0) + extra + _doubt(reading)
         known = found.get((parse.rule, query))
         if cost <= limit and (known is None or cost < known.cost):
@@ -71,10 +65,11 @@ def loosely(
     lattice: Lattice, kinds: tuple[str, ...], previous: Query | None, budget: Budget
 ) -> list[Candidate]:
     """What the clauses of a text ask, if it is a question of one of these kinds."""
-    tokens = tuple(edge.token for _, edge in lattice.main() if not edge.is_noise)
+    cuts = lattice.cuts()
+    tokens = tuple(edge.token for _, edge in cuts)
     spoken_of = previous is not None and previous.actor != "ego"
     parse = clauses(lattice, budget, spoken_of=spoken_of)
-    topic = _topic(lattice, tuple((at, e) for at, e in lattice.main() if not e.is_noise))
+    topic = named_first(lattice, cuts)
     found: list[Candidate] = []
     for kind in kinds:
         rule = _RULES.get(kind, kind)
@@ -85,14 +80,15 @@ def loosely(
             continue
         if kind == WHICH:
             shaped.tree.children.append(lark.Token("WHICHCAR", "unknown"))
-        reading = _about(topic, read(shaped, (), checked=False))
-        if reading and previous and kind in _BARE and _says_nothing(reading):
-            reading = replace(reading, rule="again")  # "why?": leans on the question before
-        query = resolve(reading, previous) if reading else None
-        if query is None or not _fits(kind, query, reading, previous):
+        reading = about_named(topic, read(shaped, (), checked=False))
+        if reading is None:
             continue
-        cost = costs().loose.base + (reading.cost if reading else 0.0)
-        found.append(Candidate(rule, query, kind, cost, loose=True))
+        if previous and kind in _BARE and _says_nothing(reading):
+            reading = replace(reading, rule="again")  # "why?": leans on the question before
+        query = resolve(reading, previous)
+        if query is not None and _fits(kind, query, reading, previous):
+            cost = costs().loose.base + reading.cost
+            found.append(Candidate(rule, query, kind, cost, loose=True))
     return found
 
 
@@ -103,41 +99,10 @@ def _says_nothing(reading: Reading) -> bool:
     return not (named or query.factual or query.counterfactual)
 
 
-def _fits(kind: str, query: Query, reading: Reading | None, previous: Query | None) -> bool:
+def _fits(kind: str, query: Query, reading: Reading, previous: Query | None) -> bool:
     """Whether a query is of the kind it was read as; what leans is of another one, too."""
-    leans = kind == LEAN or (reading is not None and reading.rule == "again")
+    leans = kind == LEAN or reading.rule == "again"
     return leans or kind_of(query, previous) == kind
-
-
-def _topic(lattice: Lattice, cuts: Cuts) -> str | None:
-    """The vehicle named first and by itself: "the truck, where is that off to?"."""
-    marks = [index for index, (_, edge) in enumerate(cuts) if edge.token.terminal == "BREAK"]
-    if not marks:
-        return None
-    begin = next((i for i, (_, e) in enumerate(cuts) if e.token.terminal not in _LEADING), 0)
-    named = {edge.token.terminal for _, edge in cuts[begin : marks[0]]}
-    if not named & _NOUNS or not named <= _NAMING:
-        return None
-    prices = Prices({}, None, 0.5)
-    span = cuts[begin][0], cuts[marks[0]][0]
-    found = search("replace", lattice, span[0], frozenset(span[1:]), prices, Budget(100))
-    reading = read(found[0].parse(), ()) if found else None
-    return reading.query.actor if reading else None
-
-
-def _of_topic(query: Query, reading: Reading, topic: str | None) -> Query:
-    """A bare "why not?" behind a vehicle named first asks about that vehicle."""
-    if topic is None or reading.rule != "again":
-        return query
-    return msgspec.structs.replace(query, actor=topic)
-
-
-def _about(topic: str | None, reading: Reading | None) -> Reading | None:
-    """The reading with the vehicle named first in the place of a pronoun."""
-    if reading is None or topic is None or reading.query.actor not in _PRONOUNS:
-        return reading
-    query = msgspec.structs.replace(reading.query, actor=topic)
-    return replace(reading, query=query, named_actor=True)
 
 
 def _doubt(reading: Reading) -> float:

@@ -54,7 +54,6 @@ class Limits(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """When a reading is believed."""
 
     cost: float  # no reading may cost more
-    decline: float  # nor more than this, where the words show a topic that is declined
     margin: float  # readings that lie closer together are rivals
     readings: int  # rivals shown
     offer: float  # readings that cost no more are offered where none is believed

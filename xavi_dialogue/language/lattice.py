@@ -26,13 +26,16 @@ class Edge:
         return self.token.terminal == "NOISE" and not self.token.others
 
 
+Cuts = tuple[tuple[int, Edge], ...]  # edges in a row, each with its position
+
+
 @dataclass(frozen=True, slots=True)
 class Lattice:
     """All words and phrases of a text, by the position of their first word."""
 
     edges: tuple[tuple[Edge, ...], ...]  # the longest first; none is empty
 
-    def main(self) -> tuple[tuple[int, Edge], ...]:
+    def main(self) -> Cuts:
         """The likeliest cut: the longest phrases from the left, each with its position."""
         path: list[tuple[int, Edge]] = []
         position = 0
@@ -41,6 +44,10 @@ class Lattice:
             path.append((position, edge))
             position = edge.end
         return tuple(path)
+
+    def cuts(self) -> Cuts:
+        """The likeliest cut without the noise."""
+        return tuple((at, edge) for at, edge in self.main() if not edge.is_noise)
 
 
 def build(words: tuple[str, ...]) -> Lattice:

@@ -46,7 +46,7 @@ _NOWHERE: _State = frozenset()
 
 @dataclass(slots=True)
 class Automaton:
-    """Finds the longest phrase that begins at a word; earlier phrases win ties."""
+    """Finds the phrases that begin at a word; earlier phrases win ties."""
 
     expand: Callable[[str], frozenset[str]]  # the forms of a word written ~word
     accepts: list[frozenset[str]] = field(default_factory=list)  # words by position
@@ -94,11 +94,6 @@ class Automaton:
             state = self._step(state, words[position])
             position += 1
         return found
-
-    def longest(self, words: tuple[str, ...], start: int) -> tuple[int, tuple[Sense, ...]] | None:
-        """The longest phrase that begins at `start`: (where it ends, its senses in order)."""
-        found = self.all_from(words, start)
-        return found[-1] if found else None
 
     def _step(self, state: _State, word: str) -> _State:
         key = (state, word)

@@ -19,7 +19,6 @@ PRECEDENCE = (
     "off-topic",
 )
 _FOREIGN_SHARE = 0.5
-_CONTENT = frozenset({"PLAIN", "UNKNOWN", "USER"})
 
 
 @cache
@@ -70,10 +69,3 @@ def is_gibberish(tokens: tuple[Token, ...]) -> bool:
     words = [t for t in tokens if t.terminal not in ("BREAK", "NUMBER")]
     unknown = sum(t.terminal == "UNKNOWN" for t in words)
     return unknown * 2 > len(words)
-
-
-def is_elsewhere(tokens: tuple[Token, ...]) -> bool:
-    """Whether an English text has content but nothing of driving in it."""
-    driving = {"EGO", "CAR", "IT", "THAT", "LEFT", "RIGHT", "STOP", "CHANGE", "TURN", "CRASH"}
-    content = sum(t.terminal in _CONTENT for t in tokens)
-    return content >= 1 and len(tokens) >= 3 and not any(t.terminal in driving for t in tokens)
