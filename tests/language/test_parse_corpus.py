@@ -7,7 +7,12 @@ import pytest
 from tests.language.annotated import BLIND, LEARN, figures, lines, names
 
 # Files that were scored before the parser saw them; the first score stands in docs/language.md.
-FLOORS = {"learn/dev.jsonl": (99.0, 0.0)}  # file: (exact, false_confident)
+FLOORS = {  # file: (exact, false_confident)
+    "learn/dev.jsonl": (100.0, 0.0),
+    "learn/paraphrases.jsonl": (100.0, 0.0),
+    "learn/paraphrases2.jsonl": (99.0, 0.0),
+    "learn/paraphrases3.jsonl": (99.0, 0.0),
+}
 #: Files of rare wordings, or of statements that only hint at a question.
 RARE = ("foils", "why_how", "what_when", "hinting")
 

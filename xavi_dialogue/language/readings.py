@@ -63,6 +63,7 @@ _NEGATABLE = frozenset({"what_if", "confidence", "how", "when"})
 _CLAUSES = ("incident", "said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
 _DEFAULT_TENSE = {
     "what": "present",
+    "how": "present",
     "where_goal": "present",
     "confidence": "present",
     "when": "future",

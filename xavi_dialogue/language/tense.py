@@ -144,8 +144,7 @@ def _of_complement(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...
         return "past" if head_tense(whole[:1]) == "past" else "present"
     if not clause:
         could = any("could" in t.text.split() for t in whole)
-        head = head_tense(whole)
-        return "past" if could or head == "past" else head if rule == "how" else None
+        return "past" if could or head_tense(whole) == "past" else None
     if "future" in values or "would" in values:
         return "future"
     bare = not any(t.terminal in AUXILIARIES or t.form in ("past", "third") for t in clause)
