@@ -30,10 +30,9 @@ from xavi_dialogue.language.judge import FILE, Weights
 from xavi_dialogue.language.kinds import kind_of
 from xavi_dialogue.language.lattice import build
 from xavi_dialogue.language.normalise import normalise
-from xavi_dialogue.language.parse import Parser
+from xavi_dialogue.language.parse import VEHICLES, Parser
 from xavi_dialogue.language.words import hear
 
-VEHICLES = frozenset(range(6))
 SCALE = 20
 PENALTY = 0.02
 RAREST = 2  # features seen in fewer texts are not learnt

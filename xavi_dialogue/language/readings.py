@@ -113,16 +113,7 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     named = "actor" in fields
     if is_compound(after):
         fields["compound"] = True
-    noun = any(t.terminal in ("CAR", "KIND") for t in whole)
-    if (
-        rule == "what"
-        and fields.get("actor") == "vehicle:that"
-        and fields.get("factual")
-        and (not noun)
-    ):
-        del fields["actor"]  # "was that a lane change?"
-    if rule in ("how_avoid", "compare"):
-        _drop_bystanders(fields)
+    _drop_bystanders(rule, fields, whole)
     query = Query(type=_type(rule), time=when or None, **fields)
     return Reading(
         rule=rule,
@@ -136,12 +127,20 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
     )
 
 
-def _drop_bystanders(fields: dict[str, Any]) -> None:
-    """What is avoided or compared is a crash or an action: "that" and "it" are neither."""
-    if fields.get("actor") in UNNAMED:
+def _drop_bystanders(rule: str, fields: dict[str, Any], whole: tuple[Token, ...]) -> None:
+    """Leave out a pronoun that stands for what happened and for no vehicle.
+
+    What is avoided or compared is a crash or an action, and "was that a lane change?" asks of one.
+    """
+    who = fields.get("actor")
+    noun = any(t.terminal in ("CAR", "KIND") for t in whole)
+    if rule in ("how_avoid", "compare"):
+        if who in UNNAMED:
+            del fields["actor"]
+        if fields.get("factual") == ("continue",):
+            del fields["factual"]
+    elif rule == "what" and who == "vehicle:that" and fields.get("factual") and not noun:
         del fields["actor"]
-    if fields.get("factual") == ("continue",):
-        del fields["factual"]
 
 
 def is_compound(after: tuple[Token, ...]) -> bool:
