@@ -45,7 +45,7 @@ def scripted_mind() -> Mind:
     These are "answer", "lack", "lack more", "suppose", "refuse" and "huh".
     """
 
-    def parse(text: str, _: frozenset[int], __: tuple[str, ...]) -> Query | NotUnderstood:
+    def parse(text: str, _: frozenset[int], __: Query | None) -> Query | NotUnderstood:
         if text == "huh":
             return NotUnderstood("gibberish")
         return Query(type="what", time=text, tense="present")

@@ -56,10 +56,8 @@ class Talk:
 def real_mind() -> Mind:
     parser = Parser()
 
-    def parse(
-        text: str, vehicles: frozenset[int], context: tuple[str, ...]
-    ) -> Query | NotUnderstood:
-        return parser.parse(text, vehicles=vehicles, context=context)
+    def parse(text: str, vehicles: frozenset[int], previous: Query | None) -> Query | NotUnderstood:
+        return parser.follow(text, previous, vehicles)
 
     return Mind(parse, explain)
 
@@ -216,7 +214,7 @@ def test_passengers_do_not_hear_one_another() -> None:
 def test_a_choice_can_be_picked_by_its_number() -> None:
     first, second = Query(type="why", time="first"), Query(type="what", time="second")
 
-    def parse(text: str, _: frozenset[int], __: tuple[str, ...]) -> Query | NotUnderstood:
+    def parse(text: str, _: frozenset[int], __: Query | None) -> Query | NotUnderstood:
         return NotUnderstood("ambiguous", readings=(first, second))
 
     talk = Talk(Mind(parse, SCRIPTED.explain))

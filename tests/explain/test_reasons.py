@@ -50,8 +50,8 @@ PARSER = Parser()
 Again = Callable[[NeedRollout], PlanTrace | Reason]
 
 
-def parse(text: str, vehicles: frozenset[int], context: tuple[str, ...]) -> Query | NotUnderstood:
-    return PARSER.parse(text, vehicles=vehicles, context=context)
+def parse(text: str, vehicles: frozenset[int], previous: Query | None) -> Query | NotUnderstood:
+    return PARSER.follow(text, previous, vehicles)
 
 
 @dataclass

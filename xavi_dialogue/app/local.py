@@ -40,9 +40,7 @@ def make_mind() -> Mind:
     """The mind with our parser and our explanations."""
     parser = Parser()
     return Mind(
-        parse=lambda text, vehicles, context: parser.parse(
-            text, vehicles=vehicles, context=context
-        ),
+        parse=lambda text, vehicles, previous: parser.follow(text, previous, vehicles),
         explain=explain,
     )
 

@@ -6,6 +6,7 @@ from typing import TypeAlias
 from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.language.context import Style
 
@@ -76,6 +77,21 @@ class Cancelled:
     session: str
 
 
+@dataclass(frozen=True, slots=True)
+class Resumed:
+    """A conversation of before goes on; to be told before its first question."""
+
+    session: str
+    turns: tuple[Turn, ...]  # oldest first
+
+
+@dataclass(frozen=True, slots=True)
+class Forgotten:
+    """The passenger wants the conversation forgotten."""
+
+    session: str
+
+
 Input: TypeAlias = (
     TraceRecorded
     | EventRecorded
@@ -85,16 +101,19 @@ Input: TypeAlias = (
     | RolloutsArrived
     | RolloutsFailed
     | Cancelled
+    | Resumed
+    | Forgotten
 )
 
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """The reply to a question."""
+    """The reply to a question, and the turn to be kept; None of one that was turned away."""
 
     request: str
     session: str
     reply: Reply
+    turn: Turn | None = None
 
 
 @dataclass(frozen=True, slots=True)

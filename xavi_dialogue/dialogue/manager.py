@@ -14,8 +14,10 @@ from xavi_dialogue.dialogue.events import (
     Asked,
     Cancelled,
     EventRecorded,
+    Forgotten,
     Input,
     Output,
+    Resumed,
     RideEnded,
     RolloutsArrived,
     RolloutsFailed,
@@ -23,8 +25,10 @@ from xavi_dialogue.dialogue.events import (
     TraceRecorded,
     TurnedAway,
 )
-from xavi_dialogue.dialogue.mind import Mind, Said, answer, refuse, turn_away, understand
-from xavi_dialogue.dialogue.state import Dialogue, Pending, Session, Turn
+from xavi_dialogue.dialogue.memory import remember
+from xavi_dialogue.dialogue.mind import Mind, Said, Situation, refuse, turn_away
+from xavi_dialogue.dialogue.quizzing import respond
+from xavi_dialogue.dialogue.state import Dialogue, Pending, Session
 from xavi_dialogue.dialogue.states import (
     PHASES,
     RIDE_PHASES,
@@ -34,6 +38,8 @@ from xavi_dialogue.dialogue.states import (
     RideMove,
     after,
 )
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
 
 MAX_ROUNDS = 5  # of planning again for one question
@@ -61,6 +67,11 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         case Cancelled(request, name):
             session, _ = _waiting(dialogue, request, name, Move.CANCELLED)
             return _with(dialogue, name, session), ()
+        case Resumed(name, turns):
+            return _with(dialogue, name, _resumed(dialogue, name, turns)), ()
+        case Forgotten(name):
+            phase = after(PHASES, dialogue.session(name).phase, Move.FORGOTTEN)
+            return _with(dialogue, name, Session(phase)), ()
 
 
 def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
@@ -76,7 +87,8 @@ def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded
     phase = after(RIDE_PHASES, dialogue.ride, move)
     match event:
         case TraceRecorded(trace):
-            return replace(dialogue, ride=phase, traces=(*dialogue.traces, trace))
+            name = dialogue.ride_id or trace.trace_id
+            return replace(dialogue, ride=phase, ride_id=name, traces=(*dialogue.traces, trace))
         case EventRecorded(happened):
             return replace(dialogue, ride=phase, events=(*dialogue.events, happened))
         case RideEnded(at):
@@ -86,11 +98,11 @@ def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded
 def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
     session = dialogue.session(asked.session)
     phase = after(PHASES, session.phase, Move.ASKED)
-    record = dialogue.record(asked.at)
+    now = _situation(mind, dialogue, session, Pending(asked))
     if phase is Phase.PLANNING:
-        return dialogue, (_answered(asked, turn_away(mind, session, asked, record, "busy")),)
+        return _tell(dialogue, session, asked, turn_away(now, "busy"))
+    understood = understand(now, _open_turn(session))
     session = replace(session, phase=phase)
-    understood = understand(mind, session, asked, record)
     if isinstance(understood, Said):
         return _speak(dialogue, session, asked, understood)
     return _think(mind, dialogue, session, Pending(asked, understood))
@@ -99,23 +111,26 @@ def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
 def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Step:
     """Explain; what was planned again for an earlier question need not be planned anew."""
     asked, understood, extra = question.asked, question.understood, question.extra
-    record = dialogue.record(asked.at, extra, question.refused)
-    found = answer(mind, session, asked, record, understood)
+    assert understood is not None
+    now = _situation(mind, dialogue, session, question)
+    found = respond(now, understood)
     if isinstance(found, NeedRollout):
         known = dialogue.planned.get(found)
         if len(extra) >= MAX_ROUNDS or known in extra:
-            why = NoExplanation(reason="too-little-evidence")
-            found = refuse(mind, session, asked, record, understood, why)
+            found = refuse(now, understood.query, NoExplanation(reason="too-little-evidence"))
         elif found in question.refused:  # there is no answer without it
-            found = refuse(
-                mind, session, asked, record, understood, NoExplanation(reason=question.why)
-            )
+            found = refuse(now, understood.query, NoExplanation(reason=question.why))
         elif known is not None:
             question = replace(question, extra=(*extra, known))
             return _think(mind, dialogue, session, question)
         else:
             return _want(dialogue, session, replace(question, need=found))
     return _speak(dialogue, session, asked, found)
+
+
+def _situation(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Situation:
+    record = dialogue.record(question.asked.at, question.extra, question.refused)
+    return Situation(mind, remember(session.turns, dialogue.ride_id), question.asked, record)
 
 
 def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
@@ -161,24 +176,50 @@ def _turn_away(mind: Mind, dialogue: Dialogue, event: TurnedAway) -> Step:
     asked = event.asked
     session = dialogue.session(asked.session)
     session = replace(session, phase=after(PHASES, session.phase, Move.TURNED_AWAY))
-    said = turn_away(mind, session, asked, dialogue.record(asked.at), event.reason)
-    return _with(dialogue, asked.session, session), (_answered(asked, said),)
+    said = turn_away(_situation(mind, dialogue, session, Pending(asked)), event.reason)
+    return _tell(dialogue, session, asked, said)
 
 
 def _speak(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
-    session = replace(
-        session,
-        phase=after(PHASES, session.phase, Move.ANSWERED),
-        turns=(*session.turns, Turn(said.text, said.query, said.reply)),
-        named=session.named | frozenset(said.mentioned),
-        topic=said.mentioned[-1] if said.mentioned else session.topic,
-        choices=said.choices,
-    )
-    return _with(dialogue, asked.session, session), (_answered(asked, said),)
+    """End the turn that was thought about."""
+    session = replace(session, phase=after(PHASES, session.phase, _ending(said)))
+    return _tell(dialogue, session, asked, said)
 
 
-def _answered(asked: Asked, said: Said) -> Answered:
-    return Answered(asked.request, asked.session, said.reply)
+def _tell(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
+    """Say it, and keep the turn."""
+    turn = said.turn(asked, dialogue.ride_id)
+    session = replace(session, turns=(*session.turns, turn))
+    answered = Answered(asked.request, asked.session, said.reply, turn)
+    return _with(dialogue, asked.session, session), (answered,)
+
+
+def _ending(said: Said | Turn) -> Move:
+    if said.choices:
+        return Move.ASKED_BACK
+    return Move.QUIZZED if said.quiz is not None else Move.ANSWERED
+
+
+def _open_turn(session: Session) -> Turn | None:
+    """The turn that ended with a question of ours, which may be answered now."""
+    if session.phase not in (Phase.CHOOSING, Phase.QUIZZING):
+        return None
+    return next(turn for turn in reversed(session.turns) if not turn.turned_away)
+
+
+def _resumed(dialogue: Dialogue, name: str, turns: tuple[Turn, ...]) -> Session:
+    """The session as its last turn left it; offers of another ride are void.
+
+    Raises:
+        IllegalEvent: it has gone on already.
+    """
+    if dialogue.session(name) != Session():
+        raise IllegalEvent(f"'resumed' for {name!r}, which has gone on already")
+    thinking = after(PHASES, Phase.LISTENING, Move.ASKED)
+    last = next((turn for turn in reversed(turns) if not turn.turned_away), None)
+    if last is None or last.ride != dialogue.ride_id:
+        return Session(turns=turns)
+    return Session(after(PHASES, thinking, _ending(last)), turns)
 
 
 def _with(dialogue: Dialogue, name: str, session: Session) -> Dialogue:

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.events import Asked
-from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.states import Phase, RidePhase
+from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
@@ -16,20 +17,14 @@ EPSILON = 1e-6  # [s] times nearer than this are the same
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
-    """One question and its reply."""
-
-    text: str  # as asked; where a choice was picked, the question it stands for
-    query: Query | None
-    reply: Reply
-
-
-@dataclass(frozen=True, slots=True)
 class Understood:
-    """A question that can be explained."""
+    """What a passenger said, where it takes the record to reply to it."""
 
     text: str  # see Turn
     query: Query
+    aim: Literal["answer", "quiz", "verdict"] = "answer"
+    quiz: Quiz | None = None  # of a verdict: the question that was answered ...
+    right: bool | None = None  # ... and how; None: the passenger does not know
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +32,7 @@ class Pending:
     """A question that is thought about, or waits for rollouts."""
 
     asked: Asked
-    understood: Understood
+    understood: Understood | None = None  # None: not looked at yet
     need: NeedRollout | None = None  # what it waits for
     extra: tuple[PlanTrace, ...] = ()  # what arrived for it so far
     refused: tuple[NeedRollout, ...] = ()  # what could not be had for it
@@ -50,9 +45,6 @@ class Session:
 
     phase: Phase = Phase.LISTENING
     turns: tuple[Turn, ...] = ()
-    named: frozenset[int] = frozenset()  # vehicles that were spoken of
-    topic: int | None = None  # the one that was spoken of last
-    choices: tuple[Query, ...] = ()  # offered by the last reply
     pending: Pending | None = None
 
 
@@ -61,6 +53,7 @@ class Dialogue:
     """The ride's record, and every conversation about it."""
 
     ride: RidePhase = RidePhase.UNDER_WAY
+    ride_id: str | None = None  # id of its first trace: the same ride driven again has the same
     traces: tuple[PlanTrace, ...] = ()
     events: tuple[Event, ...] = ()
     ended_at: float | None = None  # [s]

@@ -1,8 +1,10 @@
 """The conversation as a table; everything that decides what may follow what stands here.
 
 A session listens, thinks about one question at a time, and may have to wait for new rollouts
-before it can go on thinking. A ride is under way until it is over. An input that the table does
-not provide for is an error and changes nothing.
+before it can go on thinking. It may end a turn with a question of its own: which of several
+readings is meant, or, on request, one that shows whether the passenger has understood. A ride is
+under way until it is over. An input that the table does not provide for is an error and changes
+nothing.
 """
 
 from collections.abc import Mapping
@@ -16,6 +18,8 @@ class Phase(Enum):
     LISTENING = "listening"
     THINKING = "thinking"
     PLANNING = "planning"
+    CHOOSING = "choosing"  # the passenger may pick one of the readings offered
+    QUIZZING = "quizzing"  # the passenger may answer a question of ours
 
 
 class Move(Enum):
@@ -24,10 +28,13 @@ class Move(Enum):
     ASKED = "asked"
     TURNED_AWAY = "turned away"  # the shell could not have the question answered
     ANSWERED = "answered"
+    ASKED_BACK = "asked back"
+    QUIZZED = "quizzed"
     LACKED = "lacked evidence"
     PLANNED = "rollouts arrived"
     PLANNING_FAILED = "rollouts failed"
     CANCELLED = "cancelled"
+    FORGOTTEN = "forgotten"
 
 
 class RidePhase(Enum):
@@ -47,13 +54,23 @@ class RideMove(Enum):
 PHASES: Mapping[tuple[Phase, Move], Phase] = {
     (Phase.LISTENING, Move.ASKED): Phase.THINKING,
     (Phase.LISTENING, Move.TURNED_AWAY): Phase.LISTENING,
+    (Phase.LISTENING, Move.FORGOTTEN): Phase.LISTENING,
+    (Phase.CHOOSING, Move.ASKED): Phase.THINKING,
+    (Phase.CHOOSING, Move.TURNED_AWAY): Phase.CHOOSING,
+    (Phase.CHOOSING, Move.FORGOTTEN): Phase.LISTENING,
+    (Phase.QUIZZING, Move.ASKED): Phase.THINKING,
+    (Phase.QUIZZING, Move.TURNED_AWAY): Phase.QUIZZING,
+    (Phase.QUIZZING, Move.FORGOTTEN): Phase.LISTENING,
     (Phase.THINKING, Move.ANSWERED): Phase.LISTENING,
+    (Phase.THINKING, Move.ASKED_BACK): Phase.CHOOSING,
+    (Phase.THINKING, Move.QUIZZED): Phase.QUIZZING,
     (Phase.THINKING, Move.LACKED): Phase.PLANNING,
     (Phase.PLANNING, Move.PLANNED): Phase.THINKING,
     (Phase.PLANNING, Move.PLANNING_FAILED): Phase.THINKING,
     (Phase.PLANNING, Move.CANCELLED): Phase.LISTENING,
     (Phase.PLANNING, Move.ASKED): Phase.PLANNING,  # turned away as busy
     (Phase.PLANNING, Move.TURNED_AWAY): Phase.PLANNING,
+    (Phase.PLANNING, Move.FORGOTTEN): Phase.LISTENING,
 }
 
 RIDE_PHASES: Mapping[tuple[RidePhase, RideMove], RidePhase] = {

@@ -13,6 +13,7 @@ from xavi_dialogue.language.readings import Reading
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 #: Types whose counterfactual is what they ask about.
 _ABOUT_FOIL = frozenset({"why_not", "what_if", "compare"})
+AGAIN = "again"  # the event of a bare "why?", which asks for the reason behind the answer
 #: Rules that mean nothing without an earlier question.
 LEANING = frozenset({"more", "less", "again", "replace", "correction"})
 
@@ -129,11 +130,13 @@ def _again(reading: Reading, previous: Query) -> Query:
             previous, type="why_not", factual=None, counterfactual=_asked(previous), negated=False
         )
     if previous.type == "why":
-        return _refer(previous, detail="more")
+        return _refer(previous, detail="more", event=AGAIN)
     if previous.type in ("why_not", "compare"):
-        return _refer(previous, type="why_not" if previous.type == "why_not" else "why")
+        kind = "why_not" if previous.type == "why_not" else "why"
+        return _refer(previous, type=kind, event=AGAIN)
     keep = previous.factual if previous.type in ("what", "when", "how", "confidence") else None
-    return _refer(Query(type="why", actor=previous.actor, factual=keep, tense=previous.tense))
+    plain = Query(type="why", actor=previous.actor, factual=keep, tense=previous.tense)
+    return _refer(plain, event=AGAIN)
 
 
 def _turned(side: str, previous: Query) -> Query | None:

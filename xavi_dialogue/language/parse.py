@@ -59,6 +59,12 @@ class Parser:
         previous = self.question_before(context, vehicles)
         return _remembered(text, previous, vehicles, self._opinion)
 
+    def follow(
+        self, text: str, previous: Query | None, vehicles: frozenset[int] = VEHICLES
+    ) -> Query | NotUnderstood:
+        """The query that a text means after an earlier question, as that was answered."""
+        return _remembered(text, previous, vehicles, self._opinion).result
+
     def question_before(
         self, context: tuple[str, ...], vehicles: frozenset[int] = VEHICLES
     ) -> Query | None:

@@ -1,0 +1,69 @@
+"""From what was understood to what is said: explain, put into words. Pure."""
+
+from dataclasses import replace
+
+import msgspec
+
+from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.chain import WHICH
+from xavi_dialogue.dialogue.mind import (
+    Said,
+    Situation,
+    inviting,
+    refuse,
+    reply_of,
+    speech,
+    topics,
+)
+from xavi_dialogue.dialogue.state import Understood
+from xavi_dialogue.explain.engine import settled
+from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation, Reason
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.record import Record
+from xavi_dialogue.language.doings import vehicle_of
+from xavi_dialogue.language.realise import realise
+from xavi_dialogue.language.refusals import (
+    realise_help,
+    realise_not_understood,
+    realise_smalltalk,
+)
+
+
+def answer(now: Situation, understood: Understood) -> Said | NeedRollout:
+    """The reply to what was understood, or what it takes to find it."""
+    query = settled(understood.query, now.record)
+    if query.type in ("smalltalk", "help", "ambiguous"):
+        return _chat(now, query)
+    found = now.mind.explain(query, now.record)
+    if isinstance(found, NeedRollout):
+        return found
+    if isinstance(found, NoExplanation):
+        return refuse(now, query, found)
+    context = speech(now, explained_trace(found, now.record))
+    if query.event == WHICH:  # name it once more with where it is
+        context = replace(context, named=context.named - {vehicle_of(query.actor)})
+    utterance = realise(query, found, context)
+    reply = reply_of(now.record, utterance, None, query)
+    trace_id = found.evidence.traces[0] if found.evidence.traces else None
+    reply = msgspec.structs.replace(reply, explanation=found, trace_id=trace_id)
+    return Said(query, reply, mentioned=topics(query, utterance))
+
+
+def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
+    """The recorded decision that an explanation is about."""
+    wanted = frozenset(found.evidence.traces)
+    known = (*record.traces, *record.extra)
+    return next((trace for trace in known if trace.trace_id in wanted), None)
+
+
+def _chat(now: Situation, query: Query) -> Said:
+    """What to say to small talk, to a request for help, and where it is not clear what is meant."""
+    context = inviting(now, speech(now))
+    reason: Reason | None = None
+    if query.type == "smalltalk":
+        utterance = realise_smalltalk(query.event, context)
+    elif query.type == "help":
+        utterance = realise_help(context)
+    else:
+        utterance, reason = realise_not_understood("ambiguous", context), "ambiguous"
+    return Said(query, reply_of(now.record, utterance, reason, query))

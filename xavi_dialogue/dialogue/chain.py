@@ -1,0 +1,106 @@
+"""Going deeper: what a bare "why?", "how do you know?" or "which car?" asks after an answer.
+
+A row of whys goes one level down each time: from a decision to the prediction of the vehicle
+behind it, from there to the evidence for the prediction, and there it ends.
+"""
+
+import msgspec
+
+from xavi_dialogue.dialogue.memory import Memory
+from xavi_dialogue.dialogue.referents import PREFIX
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.explanation import Cause, NoExplanation
+from xavi_dialogue.explain.query import Query, QueryAction
+
+WHICH = "which"  # the event of "which car?"
+#: Beneath the evidence there are no further reasons.
+BOTTOM = NoExplanation(reason="out-of-scope", facts={"what": "deeper"})
+
+_REASONED = frozenset({"why", "why_not", "what_if", "compare", "how_avoid", "sensitivity"})
+
+
+def deeper(last: Turn, query: Query) -> Query | None:
+    """What a bare "why?" asks after an answer; None where there is nothing beneath it.
+
+    Args:
+        last: the turn before.
+        query: the bare "why?" as the words alone are understood.
+    """
+    before, found = last.query, last.reply.explanation
+    if before is None or found is None:
+        return msgspec.structs.replace(query, detail=None)
+    if before.type not in (*_REASONED, "how"):
+        return query
+    if before.actor == "ego" and before.type in _REASONED:
+        cause = _first_cause(last)
+        if cause is not None:
+            return _motive(cause, before)
+        return query if before.detail != "more" else None
+    if before.type == "why":
+        return Query(
+            type="how",
+            actor=before.actor,
+            factual=_expected(last)[-1:] or None,
+            tense=before.tense,
+            refers_to_previous=True,
+        )
+    return None
+
+
+def evidence_for(last: Turn) -> Query | None:
+    """What "how do you know?" asks after an answer that blames a vehicle: how we saw it coming."""
+    before, cause = last.query, _first_cause(last)
+    if before is None or cause is None or before.actor != "ego" or before.type not in _REASONED:
+        return None
+    return Query(
+        type="how",
+        actor=f"{PREFIX}{cause.vehicle}",
+        factual=_last_of(cause.actions),
+        tense=before.tense,
+        refers_to_previous=True,
+    )
+
+
+def meant_vehicle(query: Query, memory: Memory) -> Query | None:
+    """What "which car?" asks after an answer: about the vehicle it named first."""
+    named = next((t.mentioned for t in reversed(memory.turns) if t.mentioned), ())
+    if not named:
+        return None
+    return Query(
+        type="what",
+        actor=f"{PREFIX}{named[0]}",
+        tense="present",
+        event=WHICH,
+        refers_to_previous=query.refers_to_previous,
+    )
+
+
+def _motive(cause: Cause, before: Query) -> Query:
+    return Query(
+        type="why",
+        actor=f"{PREFIX}{cause.vehicle}",
+        tense=before.tense,
+        detail="more",
+        refers_to_previous=True,
+    )
+
+
+def _first_cause(last: Turn) -> Cause | None:
+    found = last.reply.explanation
+    others = () if found is None else tuple(c for c in found.causes if c.vehicle != 0)
+    return others[0] if others else None
+
+
+def _expected(last: Turn) -> tuple[QueryAction, ...]:
+    """What the last answer expected of a vehicle."""
+    found = last.reply.explanation
+    if found is None:
+        return ()
+    if found.activity is not None and found.activity.probability is not None:
+        return found.activity.actions
+    kind = None if found.destination is None else found.destination.kind
+    return () if kind is None else (kind,)
+
+
+def _last_of(actions: tuple[QueryAction, ...]) -> tuple[QueryAction, ...] | None:
+    return actions[-1:] or None

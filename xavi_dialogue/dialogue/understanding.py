@@ -1,0 +1,112 @@
+"""What is asked, or what to say where that is not clear. Pure."""
+
+import msgspec
+
+from xavi_dialogue.dialogue.bearings import Vehicles
+from xavi_dialogue.dialogue.chain import BOTTOM, deeper, evidence_for, meant_vehicle
+from xavi_dialogue.dialogue.choices import chosen
+from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
+from xavi_dialogue.dialogue.referents import PREFIX, Scope, candidates, described, scenes_of
+from xavi_dialogue.dialogue.state import Understood
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.explanation import NoExplanation, Reason
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.record import Record
+from xavi_dialogue.language.followup import AGAIN
+from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.refusals import (
+    MAX_CHOICES,
+    realise_clarification,
+    realise_not_understood,
+)
+
+
+def understand(now: Situation, before: Turn | None) -> Understood | Said:
+    """What is asked, or what to say where that is not clear.
+
+    Args:
+        now: the question and what there is to understand it from.
+        before: the turn before, where it ended with a question of ours.
+    """
+    text, memory = now.asked.text, now.memory
+    offered = () if before is None else before.choices
+    pick = chosen(text, len(offered)) if offered else None
+    if pick is not None:
+        return _refer(now, offered[pick])
+    vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
+    parsed = now.mind.parse(text, vehicles, memory.previous)
+    if not isinstance(parsed, Query):
+        return _ask_back(now, parsed.cause, parsed.readings[:MAX_CHOICES])
+    if parsed.type == "smalltalk" and parsed.event == "quiz":
+        return Understood(text, parsed, "quiz")
+    found = _in_conversation(now, parsed)
+    return found if isinstance(found, Said) else _refer(now, found)
+
+
+def _ask_back(now: Situation, cause: str, readings: tuple[Query, ...]) -> Said:
+    utterance = realise_not_understood(cause, inviting(now, speech(now)), readings)
+    reason: Reason = "ambiguous" if utterance.choices else "not-understood"
+    reply = reply_of(now.record, utterance, reason)
+    return Said(None, reply, choices=readings if utterance.choices else ())
+
+
+def _in_conversation(now: Situation, query: Query) -> Query | Said:
+    """The question in the light of the answers given so far, and not of the questions alone."""
+    last = now.memory.last
+    if query.actor == f"{PREFIX}unknown" and query.type == "what" and not query.factual:
+        return meant_vehicle(query, now.memory) or query
+    again = query.event == AGAIN
+    if again:
+        query = msgspec.structs.replace(query, event=None)
+    if last is None:
+        return query
+    if again:
+        found = deeper(last, query)
+        return refuse(now, query, BOTTOM) if found is None else found
+    if query.type == "how" and query.refers_to_previous and query.actor == "ego":
+        return evidence_for(last) or query
+    return query
+
+
+def _refer(now: Situation, query: Query) -> Understood | Said:
+    """Put numbers in the place of descriptions of vehicles.
+
+    Of several that a suspected one may be, none is asked about: the answer names the causes.
+    """
+    text, record = now.asked.text, now.record
+    scope = Scope(_scenes(query, record), now.memory.topic)
+    suspected, acting = described(query.hypothesised_cause or ""), described(query.actor)
+    suspects = None if suspected is None else candidates(suspected, scope)
+    if suspects is not None and len(suspects) == 1:
+        query = msgspec.structs.replace(query, hypothesised_cause=f"{PREFIX}{suspects[0]}")
+    found = None if acting is None else candidates(acting, scope)
+    if suspects == () or found == ():
+        known = {name for trace in record.traces for name in trace.scene} - {0}
+        facts = {"known": tuple(f"vehicle {name}" for name in sorted(known))}
+        unseen = acting if found == () else suspected
+        why = NoExplanation(reason="unknown-vehicle", facts={"asked": unseen, **facts})
+        return refuse(now, query, why)
+    if found is None:
+        return Understood(text, query)
+    meant = tuple(msgspec.structs.replace(query, actor=f"{PREFIX}{name}") for name in found)
+    if len(meant) == 1:
+        return Understood(text, meant[0])
+    offered = meant[:MAX_CHOICES]
+    utterance = realise_clarification(questions(offered, MAX_CHOICES), speech(now))
+    reply = reply_of(record, utterance, "ambiguous", query)
+    return Said(query, reply, choices=offered)
+
+
+def _scenes(query: Query, record: Record) -> tuple[Vehicles, ...]:
+    """The scenes that the question may be about, the likeliest first.
+
+    A question about the past is about the decision behind the latest manoeuvre; any other is
+    about what is seen now.
+    """
+    latest_first = tuple(reversed(record.traces))
+    if query.tense != "past":
+        return scenes_of(latest_first)
+    decisions = [event.decision for event in carried_out(record.events)][-1:]
+    behind = tuple(trace for trace in latest_first if trace.decision in decisions)
+    return scenes_of((*behind, *latest_first))
