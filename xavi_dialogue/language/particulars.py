@@ -26,6 +26,8 @@ MEASURES: dict[str, frozenset[str]] = {
     "smoother": frozenset({"smoother", "comfortable", "comfy", "jerky", "pleasant"}),
     "quicker": frozenset({"faster", "quicker", "slower", "sooner", "earlier", "longer", "time"}),
 }
+#: `Query.event` of small talk, that which asks most for an answer first.
+COURTESIES = ("quiz", "identity", "thanks", "greeting", "assent")
 #: Actors that a comparison does not speak of: our own car, and pronouns for what is compared.
 UNNAMED = frozenset({"", "ego", "vehicle:it", "vehicle:that"})
 
@@ -155,9 +157,7 @@ def _leaning(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 def _courtesy(whole: tuple[Token, ...]) -> str | None:
     """What kind of small talk it is: that which asks most for an answer."""
     said = {t.value for t in whole if t.terminal == "SMALL"}
-    return next(
-        (kind for kind in ("identity", "thanks", "greeting", "assent") if kind in said), None
-    )
+    return next((kind for kind in COURTESIES if kind in said), None)
 
 
 PARTICULARS: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {

@@ -102,7 +102,8 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
         return None
     fields = _slots_of(rule, clauses, whole)
     if rule in PARTICULARS:
-        fields |= PARTICULARS[rule](parse.tree, whole)
+        heard = (*whole, *after) if rule == "smalltalk" else whole  # "I see. Now test me."
+        fields |= PARTICULARS[rule](parse.tree, heard)
     focus = next((c for c in clauses if c.role not in ("contrast", "own", "incident")), None)
     scope = whole[focus.span[0] : focus.span[1] + 1] if focus else whole
     if rule in ("confidence", "how") and focus is None:
