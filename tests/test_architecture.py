@@ -24,6 +24,7 @@ ROOMS = (
 PURE = ("planner", "xavi_dialogue.causal", "xavi_dialogue.explain", "xavi_dialogue.dialogue")
 GATES = {  # each outside world enters through one file
     "libsumo": "sim/sumo.py",
+    "sqlite3": "xavi_dialogue/transports/database.py",
     "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
 }
 SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/transports/terminal.py"}

@@ -1,0 +1,207 @@
+"""One SQLite file of ours: opened with care, written all or nothing, emptied for good.
+
+    StoreError
+    ├── Damaged      not a database, not ours, or broken
+    ├── Newer        written by a later version of this program
+    ├── Unwritable   no such place, no permission, disk full, locked: may work again later
+    └── TooLarge     more than may be kept
+
+Every message names the file and says how to mend it.
+"""
+
+import contextlib
+import os
+import sqlite3
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, TypeAlias
+
+APPLICATION = 0x58415649  # "XAVI", in the file's header
+OPENING = 40  # attempts to open what another process is just making ...
+PAUSE = 0.05  # [s] ... with so much time between them
+PAGE = 4096  # bytes
+
+Row: TypeAlias = tuple[Any, ...]
+Writing: TypeAlias = sqlite3.Connection
+
+_BROKEN = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR})
+
+
+class StoreError(Exception):
+    """The file cannot be used."""
+
+
+class Damaged(StoreError):
+    """Not a database, not ours, or broken."""
+
+
+class Newer(StoreError):
+    """Written by a later version of this program."""
+
+
+class Unwritable(StoreError):
+    """It cannot be opened or written now; that may work again later."""
+
+
+class TooLarge(StoreError):
+    """More than may be kept."""
+
+
+class Database:
+    """A connection to one file; of use in the thread that made it."""
+
+    def __init__(self, path: Path, tables: str, version: int, *, patience: float) -> None:
+        """Open the file; make it, for its owner alone, where there is none.
+
+        Args:
+            path: the file.
+            tables: SQL that makes them in an empty file.
+            version: of the tables.
+            patience: [s] to wait for others that write.
+
+        Raises:
+            Damaged: it is no database, not ours, or broken.
+            Newer: its tables have a later version.
+            Unwritable: it cannot be opened or made.
+        """
+        self.path = path
+        self._make()
+        with self._translated():
+            self._connection = sqlite3.connect(path, timeout=patience, isolation_level=None)
+        try:
+            self._open(tables, version)
+        except BaseException:
+            self.close()
+            raise
+
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[Writing]:
+        """Write all that is written within, or nothing.
+
+        Raises:
+            StoreError: nothing was written.
+        """
+        with self._translated():
+            self._connection.execute("BEGIN IMMEDIATE")
+            try:
+                yield self._connection
+                self._connection.execute("COMMIT")
+            except BaseException:
+                if self._connection.in_transaction:  # a full disk ends it by itself
+                    self._connection.execute("ROLLBACK")
+                raise
+
+    def rows(self, sql: str, arguments: Sequence[object] = ()) -> list[Row]:
+        """What a query finds.
+
+        Raises:
+            StoreError: it cannot be read.
+        """
+        with self._translated():
+            return self._connection.execute(sql, arguments).fetchall()
+
+    def purge(self) -> None:
+        """Let nothing of what was deleted be left in the files.
+
+        Raises:
+            Unwritable: something is left as long as somebody else reads, or the disk is full.
+        """
+        try:
+            with self._translated():
+                self._connection.execute("VACUUM")
+        finally:
+            [(busy, _, _)] = self.rows("PRAGMA wal_checkpoint(TRUNCATE)")
+        if busy:
+            raise Unwritable(
+                f"what was erased may still be in {self.path}-wal while another program reads it;"
+                " end that program and erase again"
+            )
+
+    def cap(self, size: int) -> None:
+        """Let the file grow to no more than `size` bytes, or than it has."""
+        self.rows(f"PRAGMA max_page_count = {max(size // PAGE, 1)}")
+
+    def close(self) -> None:
+        """Close the file."""
+        with self._translated():
+            self._connection.close()
+
+    def _make(self) -> None:
+        try:
+            self.path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            # Only a file that did not exist is opened here: closing one that is in use would
+            # take the locks of this process from it.
+            os.close(os.open(self.path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o600))
+        except FileExistsError:
+            pass
+        except OSError as error:
+            raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
+
+    def _open(self, tables: str, version: int) -> None:
+        for attempt in range(1, OPENING + 1):
+            try:
+                self._version(version)  # before anything is changed in what may not be ours
+                self._set_up()
+                break
+            except Unwritable as error:
+                # Whoever makes the file locks it in a way that waits for nobody.
+                if attempt == OPENING or "locked" not in str(error):
+                    raise
+                time.sleep(PAUSE)
+        with contextlib.suppress(OSError):  # the file of another user, who lets us write
+            self.path.chmod(0o600)
+        with self.writing() as file:
+            if self._version(version) == 0:
+                for statement in filter(str.strip, tables.split(";")):
+                    file.execute(statement)
+                file.execute(f"PRAGMA application_id = {APPLICATION}")
+                file.execute(f"PRAGMA user_version = {version}")
+        if self.rows("PRAGMA quick_check(1)") != [("ok",)]:
+            raise Damaged(_mend(self.path, "it is damaged"))
+
+    def _set_up(self) -> None:
+        self.rows("PRAGMA journal_mode = WAL")
+        self.rows("PRAGMA synchronous = FULL")
+        self.rows("PRAGMA foreign_keys = ON")
+        self.rows("PRAGMA secure_delete = ON")
+        self.rows("PRAGMA temp_store = MEMORY")
+
+    def _version(self, known: int) -> int:
+        [(version,)] = self.rows("PRAGMA user_version")
+        [(application,)] = self.rows("PRAGMA application_id")
+        [(tables,)] = self.rows("SELECT count(*) FROM sqlite_master")
+        if application != APPLICATION and (application or version or tables):
+            raise Damaged(_mend(self.path, "it is the database of another program"))
+        if version > known:
+            raise Newer(
+                f"{self.path} was written by a later version of xavi (tables of version {version},"
+                f" {known} is known here): use that version, or another file with --store"
+            )
+        return int(version)
+
+    @contextlib.contextmanager
+    def _translated(self) -> Iterator[None]:
+        try:
+            yield
+        except (sqlite3.OperationalError, sqlite3.DatabaseError) as error:
+            code = getattr(error, "sqlite_errorcode", None)
+            if code is None:
+                raise  # a fault of ours in using the library
+            if code & 0xFF in _BROKEN:
+                raise Damaged(_mend(self.path, str(error))) from error
+            raise Unwritable(_hint(self.path, str(error))) from error
+
+
+def _mend(path: Path, problem: str) -> str:
+    return (
+        f"cannot use {path}: {problem}; move the file away to begin anew, put back a copy of it,"
+        " or name another with --store"
+    )
+
+
+def _hint(path: Path, problem: str) -> str:
+    return (
+        f"cannot open or write {path}: {problem}; see to the disk's space and to permissions,"
+        " or name another file with --store"
+    )
