@@ -9,7 +9,7 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat test lint format schema judge bench fuzz clean runtime develop
+.PHONY: help chat test lint format schema diagram judge bench fuzz clean runtime develop
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
@@ -35,6 +35,9 @@ format: develop ## put the code in its standard form
 
 schema: develop ## write docs/plan_trace.schema.json anew
 	@$(BIN)/python -m xavi_dialogue.transports.schema docs/plan_trace.schema.json
+
+diagram: develop ## draw the conversation's states in ARCHITECTURE.md anew
+	@$(BIN)/python -m xavi_dialogue.app.diagram ARCHITECTURE.md
 
 judge: develop ## learn anew of what kind questions are, from those annotated
 	@$(BIN)/python -m xavi_dialogue.app.learn tests/language/questions/learn/*.jsonl

@@ -42,12 +42,17 @@ def activity(record: Record) -> Explanation:
 def scripted_mind() -> Mind:
     """Understands the names of what it shall do.
 
-    These are "answer", "lack", "lack more", "suppose", "refuse" and "huh".
+    These are "answer", "lack", "lack more", "suppose", "refuse", "huh", "either" and "quiz me".
     """
 
     def parse(text: str, _: frozenset[int], __: Query | None) -> Query | NotUnderstood:
         if text == "huh":
             return NotUnderstood("gibberish")
+        if text == "either":
+            readings = (Query(type="why", time="answer"), Query(type="what", time="refuse"))
+            return NotUnderstood("ambiguous", readings=readings)
+        if text == "quiz me":
+            return Query(type="smalltalk", event="quiz")
         return Query(type="what", time=text, tense="present")
 
     def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:

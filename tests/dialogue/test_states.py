@@ -1,18 +1,23 @@
 import contextlib
 import itertools
+from pathlib import Path
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.fakes import scripted_mind
 from tests.traces import s1_ride
+from xavi_dialogue.app.diagram import drawn
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
     Cancelled,
     EventRecorded,
+    Forgotten,
     Input,
+    Resumed,
     RideEnded,
     RolloutsArrived,
     RolloutsFailed,
@@ -21,7 +26,7 @@ from xavi_dialogue.dialogue.events import (
     TurnedAway,
 )
 from xavi_dialogue.dialogue.manager import advance, fold
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state import Dialogue, Session
 from xavi_dialogue.dialogue.states import (
     PHASES,
     RIDE_PHASES,
@@ -33,13 +38,36 @@ from xavi_dialogue.dialogue.states import (
     after,
     diagram,
 )
+from xavi_dialogue.dialogue.turn import Turn
 
+ROOT = Path(__file__).resolve().parents[2]
 RIDE = s1_ride(draws=20)
 MIND = scripted_mind()
 
+
+def turns_of(*texts: str) -> tuple[Turn, ...]:
+    """The turns of a conversation in which these were asked."""
+    state = fold(MIND, map(TraceRecorded, RIDE.traces))
+    state = fold(MIND, (Asked("q", "ada", text, 7.0) for text in texts), state)
+    return state.session("ada").turns
+
+
+TURNS = turns_of("answer", "refuse", "either")
 requests = st.sampled_from(["q1", "q2"])
 sessions = st.sampled_from(["ada", "bob"])
-texts = st.sampled_from(["answer", "lack", "lack more", "lack forever", "refuse", "huh"])
+texts = st.sampled_from(
+    [
+        "answer",
+        "lack",
+        "lack more",
+        "lack forever",
+        "refuse",
+        "huh",
+        "either",
+        "the second",
+        "quiz me",
+    ]
+)
 asked = st.builds(Asked, requests, sessions, texts, at=st.sampled_from([4.0, 7.0]))
 inputs = st.one_of(
     asked,
@@ -47,6 +75,8 @@ inputs = st.one_of(
     st.builds(RolloutsArrived, requests, sessions, st.sampled_from(RIDE.traces)),
     st.builds(RolloutsFailed, requests, sessions, st.just("planner-failed")),
     st.builds(Cancelled, requests, sessions),
+    st.builds(Forgotten, sessions),
+    st.builds(Resumed, sessions, st.sampled_from([(), TURNS, TURNS[:1]])),
     st.builds(TraceRecorded, st.sampled_from(RIDE.traces)),
     st.builds(EventRecorded, st.sampled_from(RIDE.events)),
     st.builds(RideEnded, st.just(7.0)),
@@ -76,6 +106,11 @@ def test_every_phase_can_be_reached_and_left() -> None:
     assert {before for (before, _), after in PHASES.items() if before is not after} == set(Phase)
 
 
+def test_the_diagram_in_the_documents_is_that_of_the_table() -> None:
+    document = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    assert drawn(document) == document, "make diagram writes it anew"
+
+
 def test_the_diagram_shows_every_transition() -> None:
     drawn = diagram()
     assert drawn.count("-->") == len(PHASES) + len(RIDE_PHASES) + 2
@@ -98,6 +133,9 @@ def test_any_row_of_inputs_ends_in_a_legal_state(row: list[Input]) -> None:
         for session in after_it.sessions.values():
             assert session.phase is not Phase.THINKING
             assert (session.pending is not None) == (session.phase is Phase.PLANNING)
+            kept = [turn for turn in session.turns if not turn.turned_away]
+            assert session.phase is not Phase.CHOOSING or kept[-1].choices
+            assert session.phase is not Phase.QUIZZING or kept[-1].quiz is not None
         state = after_it
     assert fold(MIND, [*map(TraceRecorded, RIDE.traces), *legal]) == state
 
@@ -113,3 +151,36 @@ def test_the_state_before_an_input_is_left_as_it_was(row: list[Input], last: Inp
         advance(MIND, state, last)
     after = (state.ride, state.traces, state.events, dict(state.sessions), dict(state.planned))
     assert after == before
+
+
+@given(st.lists(texts, max_size=6), st.lists(texts, max_size=4))
+def test_a_conversation_that_is_resumed_goes_on_as_it_would_have(
+    before: list[str], later: list[str]
+) -> None:
+    began = fold(MIND, map(TraceRecorded, RIDE.traces))
+    asked = [Asked("q", "ada", text, 7.0) for text in before if not text.startswith("lack")]
+    lived = fold(MIND, asked, began)
+    turns = tuple(
+        msgspec.json.decode(msgspec.json.encode(t), type=Turn) for t in lived.session("ada").turns
+    )
+    resumed = fold(MIND, [Resumed("ada", turns)], began)
+    assert resumed.session("ada") == lived.session("ada")
+    more = [Asked("q", "ada", text, 7.0) for text in later if not text.startswith("lack")]
+    assert fold(MIND, more, resumed) == fold(MIND, more, lived)
+
+
+def test_a_conversation_is_resumed_before_it_goes_on_and_not_after() -> None:
+    state = fold(MIND, [*map(TraceRecorded, RIDE.traces), Asked("q", "ada", "answer", 7.0)])
+    with pytest.raises(IllegalEvent, match="resumed"):
+        advance(MIND, state, Resumed("ada", TURNS))
+
+
+def test_what_was_offered_about_another_ride_is_void() -> None:
+    state = fold(MIND, [TraceRecorded(RIDE.traces[1]), Resumed("ada", TURNS)])
+    assert state.session("ada").phase is Phase.LISTENING
+    assert state.session("ada").turns == TURNS
+
+
+def test_a_forgotten_conversation_begins_anew() -> None:
+    state = fold(MIND, [*map(TraceRecorded, RIDE.traces), Resumed("ada", TURNS), Forgotten("ada")])
+    assert state.session("ada") == Session()

@@ -99,11 +99,12 @@ def after(table: Mapping[tuple[State, Input], State], state: State, move: Input)
 
 
 def diagram() -> str:
-    """Both tables as Mermaid state diagrams."""
-    lines = ["stateDiagram-v2", "    [*] --> listening"]
+    """Both tables as Mermaid state diagrams, in Markdown."""
+    lines = ["```mermaid", "stateDiagram-v2", "    [*] --> listening"]
     lines += [f"    {a.value} --> {b.value}: {move.value}" for (a, move), b in PHASES.items()]
-    lines += ["", "stateDiagram-v2", '    state "under way" as under_way', "    [*] --> under_way"]
+    lines += ["```", "", "```mermaid", "stateDiagram-v2"]
+    lines += ['    state "under way" as under_way', "    [*] --> under_way"]
     for (before, happened), then in RIDE_PHASES.items():
         names = [phase.value.replace(" ", "_") for phase in (before, then)]
         lines.append(f"    {names[0]} --> {names[1]}: {happened.value}")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "```"]) + "\n"
