@@ -58,6 +58,10 @@ def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
 
 def _chat(now: Situation, query: Query) -> Said:
     """What to say to small talk, to a request for help, and where it is not clear what is meant."""
+    last = now.memory.last
+    if query.event == "repeat" and last is not None:
+        reply = msgspec.structs.replace(last.reply, sim_time=now.record.now)
+        return Said(last.query, reply, last.leans, last.mentioned, last.choices)
     context = inviting(now, speech(now))
     reason: Reason | None = None
     if query.type == "smalltalk":

@@ -27,7 +27,10 @@ MEASURES: dict[str, frozenset[str]] = {
     "quicker": frozenset({"faster", "quicker", "slower", "sooner", "earlier", "longer", "time"}),
 }
 #: `Query.event` of small talk, that which asks most for an answer first.
-COURTESIES = ("quiz", "identity", "thanks", "greeting", "assent")
+COURTESIES = (
+    *("quiz", "repeat", "recall", "identity", "thanks", "greeting", "farewell"),
+    *("dissent", "assent"),
+)
 #: Actors that a comparison does not speak of: our own car, and pronouns for what is compared.
 UNNAMED = frozenset({"", "ego", "vehicle:it", "vehicle:that"})
 
@@ -44,6 +47,9 @@ def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
         fields["hypothesised_cause"] = actor(cause)
         if "WHY" in terminals(tree):
             fields["event"] = INFLUENCE
+    elif because and (said := first(because, "said")) and (name := clause(said).actor):
+        if name != "ego":  # "because vehicle 1 slowed down"
+            fields["hypothesised_cause"] = name
     if "INVOLVED" in terminals(tree):
         named = [name for c in children(tree, "actor") if (name := actor(c)) != "vehicle:it"]
         return {"event": INFLUENCE, "hypothesised_cause": named[-1] if named else "vehicle:it"}

@@ -12,7 +12,7 @@ from xavi_dialogue.language.doings import doing, vehicle_of
 from xavi_dialogue.language.generator import expand
 from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join
-from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.questions import question, questions
 from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.suggestions import about_vehicle, answerable, fresh, from_situation
 from xavi_dialogue.language.wording import lexicon, rewrite
@@ -57,6 +57,7 @@ class Refusal:
     needed: Quantity | None = None
     share: Quantity | None = None  # of all that may happen, behind that evidence
     suggestion: str | None = None  # a question that can be asked
+    last: str | None = None  # the question that was asked last
 
 
 #: Manoeuvres whose side the question left open.
@@ -101,13 +102,23 @@ def realise_clarification(choices: tuple[str, ...], context: SpeechContext) -> U
 
 
 def realise_smalltalk(topic: str | None, context: SpeechContext) -> Utterance:
-    """A friendly word on a greeting, thanks, assent, a question of identity, or anything else."""
-    return _chat("smalltalk", topic, context, questions(from_situation(context)))
+    """A friendly word on a greeting, thanks, assent, a question of identity, or anything else.
+
+    Of topic `recall`, which question was asked last.
+    """
+    offered = questions(from_situation(context))
+    last = next((question(query) for query in reversed(context.asked) if _telling(query)), None)
+    content = Refusal("smalltalk", topic, suggestion=next(iter(offered), None), last=last)
+    return _speak(content, context, offered)
 
 
 def realise_help(context: SpeechContext) -> Utterance:
     """What can be asked, with examples from the situation."""
     return _chat("help", None, context, questions(from_situation(context)))
+
+
+def _telling(query: Query) -> bool:
+    return query.type not in ("smalltalk", "help", "ambiguous", "out_of_scope")
 
 
 def _chat(
