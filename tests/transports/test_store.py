@@ -83,6 +83,25 @@ def test_a_ride_learns_what_it_is_later(path: Path) -> None:
     assert (listed.scenario, listed.seed) == ("town", 3)
 
 
+def test_a_turn_without_a_ride_is_kept_too(path: Path) -> None:
+    with Store(path) as store:
+        store.keep([new("Hello?", ride=None)])
+        [alone] = store.sessions()
+        store.keep(
+            [new("Why?"), new("Are you there?", ride=None, turn=turn("Are you there?", 0.0))]
+        )
+        [listed] = store.sessions()
+        assert store.forget("ada") == 3
+    assert (alone.scenario, alone.seed, alone.sim_time, alone.question) == (
+        None,
+        None,
+        None,
+        "Hello?",
+    )
+    assert (listed.scenario, listed.seed, listed.sim_time) == ("s1", 4, 8.0)
+    assert listed.question == "Are you there?"
+
+
 def test_exported_lines_say_what_they_are(path: Path) -> None:
     with Store(path) as store:
         store.keep([event(), new("Why?"), new("Hm?", "bob", ride=RideName("r2"))])

@@ -14,7 +14,9 @@ from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
     Cancelled,
+    Forgotten,
     Input,
+    Resumed,
     RolloutsArrived,
     RolloutsFailed,
     RolloutsWanted,
@@ -24,6 +26,7 @@ from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.transports.bus import Call
 from xavi_dialogue.transports.messages import (
@@ -35,6 +38,7 @@ from xavi_dialogue.transports.messages import (
 )
 
 _LOG = logging.getLogger(__name__)
+MAX_PAST = 200  # turns of a session that are known of
 MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
 
 Heard: TypeAlias = SceneReport | TraceReport | EventReport
@@ -58,10 +62,11 @@ class Question:
 
 @dataclass(frozen=True)
 class Answer:
-    """A reply to be sent."""
+    """A reply to be sent, after its turn has been kept."""
 
     question: Question
     reply: Reply
+    turn: Turn | None
 
 
 @dataclass(frozen=True)
@@ -83,10 +88,18 @@ class Desk:
     dialogue: Dialogue = field(default_factory=Dialogue)
     ledger: Ledger | None = None
     questions: dict[str, Question] = field(default_factory=dict)  # by request, in order
+    past: dict[str, tuple[Turn, ...]] = field(default_factory=dict)  # by session
     car_alive: bool = False
 
+    def resume(self, session: str, turns: tuple[Turn, ...]) -> None:
+        """Know what was said in a session before; to be told before its first question."""
+        self.past[session] = turns[-MAX_PAST:]
+
     def hear(self, report: Heard) -> None:
-        """Take down a report; the first of another ride begins a new record."""
+        """Take down a report; the first of another ride begins a new record.
+
+        What was said goes on: a session is resumed when its next question is begun.
+        """
         if self.ledger is None or self.ledger.ride != report.ride:
             self.ledger, self.dialogue = Ledger(report.ride), Dialogue()
             for question in self.questions.values():
@@ -114,6 +127,14 @@ class Desk:
         if question.begun:
             self._tell(Cancelled(wanted.request, wanted.session))
         return question
+
+    def forget(self, session: str) -> tuple[int, list[Question]]:
+        """Forget a session; how many turns of it were known, and its questions, now dropped."""
+        dropped = [one for one in self.questions.values() if one.asked.session == session]
+        for question in dropped:
+            del self.questions[question.asked.request]
+        self._tell(Forgotten(session))
+        return len(self.past.pop(session, ())), dropped
 
     def deliver(self, request: str, result: PlanTrace | Reason) -> list[Errand]:
         """Go on with a question for which the planner planned again, or did not."""
@@ -148,14 +169,19 @@ class Desk:
         asked = _asked(question.asked, at)
         complete = self.ledger is not None and self.ledger.complete(at)
         gone = not self.car_alive and (known is None or known.sim_time < at)
+        if not (complete or gone or question.deadline <= now):
+            return []
+        self._go_on(question.asked.session)
         if complete:
             question.begun = True
             return self._try(asked, TurnedAway(asked, "planner-failed"))
-        if gone:
-            return self._tell(TurnedAway(asked, "planner-unavailable"))
-        if question.deadline <= now:
-            return self._tell(TurnedAway(asked, "timed-out"))
-        return []
+        return self._tell(TurnedAway(asked, "planner-unavailable" if gone else "timed-out"))
+
+    def _go_on(self, session: str) -> None:
+        """Resume a session that the manager has not heard of on this ride."""
+        before = self.past.get(session)
+        if before and session not in self.dialogue.sessions:
+            self._tell(Resumed(session, before))
 
     def _try(self, event: Input, otherwise: Input) -> list[Errand]:
         """Tell the manager; should it fail through a fault of ours, one passenger is told so.
@@ -175,8 +201,10 @@ class Desk:
     def _errands(self, outputs: Iterable[Answered | RolloutsWanted]) -> Iterable[Errand]:
         for output in outputs:
             match output:
-                case Answered(request, _, reply):
-                    yield Answer(self.questions.pop(request), reply)
+                case Answered(request, session, reply, turn):
+                    if turn is not None:
+                        self.resume(session, (*self.past.get(session, ()), turn))
+                    yield Answer(self.questions.pop(request), reply, turn)
                 case RolloutsWanted(request, _, need):
                     yield PlanAgain(self.questions[request], need)
 

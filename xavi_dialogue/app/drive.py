@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.resources import files
 from pathlib import Path
 from typing import TypeAlias
 
@@ -113,7 +114,7 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
     tally = Tally(Summary(scenario.name, seed))
     log = Log(RecordedRide(scenario.name, seed, 0.0))
     with (
-        _company(scenario, manner.connect) as (reporter, records),
+        _company(scenario, seed, manner.connect) as (reporter, records),
         start(scenario, seed, network, duration=manner.duration) as ride,
     ):
         car = Car(
@@ -134,7 +135,7 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
 
 @contextmanager
 def _company(
-    scenario: Scenario, endpoint: str | None
+    scenario: Scenario, seed: int, endpoint: str | None
 ) -> Iterator[tuple[Reporter | None, tuple[Record, ...]]]:
     """Who is told of the ride, and who takes it down to answer about it: nobody without a hub."""
     if endpoint is None:
@@ -143,4 +144,12 @@ def _company(
     with join(endpoint, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
         planning = Replanner(pool)
         serve(bus, Keys(), planning)
-        yield Reporter(bus, Keys()), (planning.record,)
+        yield Reporter(bus, Keys(), _again(scenario), seed), (planning.record,)
+
+
+def _again(scenario: Scenario) -> str | None:
+    """By what the scenario is loaded another time: its name if it is ours, else its folder."""
+    ours = Path(str(files("sim"))) / "scenarios" / scenario.name
+    place = scenario.name if ours.resolve() == scenario.folder.resolve() else str(scenario.folder)
+    # A folder whose name is no text cannot be told.
+    return place if place.isascii() or place.encode(errors="replace").decode() == place else None

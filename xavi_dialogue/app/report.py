@@ -21,7 +21,18 @@ KEPT_EVENTS = 1000
 class Reporter:
     """Publishes what the car sees, decides and does."""
 
-    def __init__(self, bus: Bus, keys: Keys) -> None:
+    def __init__(
+        self, bus: Bus, keys: Keys, scenario: str | None = None, seed: int | None = None
+    ) -> None:
+        """Begin to report a ride.
+
+        Args:
+            bus: to report on.
+            keys: of the car.
+            scenario: name or folder, and
+            seed: so that others can have the ride driven again.
+        """
+        self._scenario, self._seed = scenario, seed
         self._ride = secrets.token_hex(4)
         self._scene = bus.publisher(keys.of("scene"))
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
@@ -68,6 +79,8 @@ class Reporter:
             traces=self._traces,
             events=self._events,
             orders=orders,
+            scenario=self._scenario,
+            seed=self._seed,
         )
         self._scene.put(pack(report))
         self._scenes += 1

@@ -16,6 +16,7 @@ import msgspec
 from planner import trace as plan_trace
 from planner.trace import PlanTrace, TraceError
 from xavi_dialogue.app.desk import Answer, Desk, Errand, PlanAgain, Question
+from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import (
@@ -37,6 +38,8 @@ from xavi_dialogue.transports.messages import (
     CancelRequest,
     EventReport,
     Failure,
+    ForgetReply,
+    ForgetRequest,
     HistoryReply,
     HistoryRequest,
     MessageError,
@@ -49,6 +52,7 @@ from xavi_dialogue.transports.messages import (
     unpack,
 )
 from xavi_dialogue.transports.schema import schema_of
+from xavi_dialogue.transports.store import RideName
 
 MAX_TURNS = 100  # in a history
 IDLE = 0.5  # [s] between looks at whether to stop
@@ -60,8 +64,17 @@ _Job: TypeAlias = Callable[[], None]
 class Service:
     """Answers questions about one car."""
 
-    def __init__(self, bus: Bus, keys: Keys, mind: Mind) -> None:
+    def __init__(self, bus: Bus, keys: Keys, mind: Mind, memory: Memory | None = None) -> None:
+        """Begin to serve, once opened.
+
+        Args:
+            bus: of the car and the passengers.
+            keys: of the car.
+            mind: answers.
+            memory: keeps what is said; none: it is forgotten when this process ends.
+        """
         self.desk = Desk(mind)
+        self._memory = Memory() if memory is None else memory
         self.rejected = 0  # reports that could not be read
         self._bus, self._keys = bus, keys
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
@@ -76,6 +89,7 @@ class Service:
         bus.subscribe(key("scene"), self._hearer(SceneReport))
         bus.serve(key("@rpc/ask"), partial(self._post, self._on_ask))
         bus.serve(key("@rpc/history"), partial(self._post, self._on_history))
+        bus.serve(key("@rpc/forget"), partial(self._post, self._on_forget))
         bus.serve(key("@rpc/cancel"), partial(self._post, self._on_cancel))
         for name, message in MESSAGES.items():
             if message not in CAR_MESSAGES:
@@ -97,6 +111,7 @@ class Service:
             while True:
                 _do(self._inbox.get_nowait())
         except queue.Empty:
+            self._memory.tidy(time.time())
             self._run(self.desk.settle(time.monotonic()))
 
     def _post(self, job: Callable[..., None], *arguments: object) -> None:
@@ -112,9 +127,29 @@ class Service:
         self, kind: type[TraceReport | EventReport | SceneReport], payload: bytes
     ) -> None:
         try:
-            self.desk.hear(unpack(payload, kind))
+            report = unpack(payload, kind)
         except MessageError:
             self.rejected += 1
+            return
+        self.desk.hear(report)
+        if isinstance(report, EventReport):
+            ride = self._ride() or RideName(report.ride)
+            self._memory.hear(ride, report.seq, time.time(), report.event)
+
+    def _ride(self) -> RideName | None:
+        """The ride that is heard of."""
+        ledger = self.desk.ledger
+        if ledger is None:
+            return None
+        scene = ledger.scene
+        if scene is None:
+            return RideName(ledger.ride)
+        return RideName(ledger.ride, scene.scenario, scene.seed)
+
+    def _know(self, session: str) -> None:
+        """Make sure that the desk knows what was said in a session before."""
+        if session not in self.desk.past:
+            self.desk.resume(session, self._memory.recall(session))
 
     def _on_car(self, alive: bool) -> None:
         self.desk.car_alive = alive
@@ -128,7 +163,9 @@ class Service:
         if asked.request in self.desk.questions:
             call.refuse(pack(Failure(reason="busy", detail="a request of this name is open")))
             return
-        self.desk.take(Question(call, asked, time.monotonic()))
+        came = time.monotonic()
+        self._know(asked.session)
+        self.desk.take(Question(call, asked, came))
 
     def _on_cancel(self, call: Call) -> None:
         try:
@@ -141,13 +178,32 @@ class Service:
             dropped.call.drop()
         call.reply(pack(CancelReply(request=wanted.request, cancelled=dropped is not None)))
 
+    def _on_forget(self, call: Call) -> None:
+        try:
+            wanted = unpack(call.payload, ForgetRequest)
+        except MessageError as error:
+            call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
+            return
+        known, dropped = self.desk.forget(wanted.session)
+        for question in dropped:
+            question.call.drop()
+        erased = self._memory.forget(wanted.session)
+        reply = ForgetReply(
+            request=wanted.request,
+            session=wanted.session,
+            turns=known if erased is None else max(erased, known),
+            forgotten=erased is not None,
+        )
+        call.reply(pack(reply))
+
     def _on_history(self, call: Call) -> None:
         try:
             wanted = unpack(call.payload, HistoryRequest)
         except MessageError as error:
             call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
             return
-        turns = self.desk.dialogue.session(wanted.session).turns[-MAX_TURNS:]
+        self._know(wanted.session)
+        turns = self.desk.past[wanted.session][-MAX_TURNS:]
         ledger = self.desk.ledger
         scene = None if ledger is None else ledger.scene
         reply = HistoryReply(
@@ -169,6 +225,8 @@ class Service:
 
     def _send(self, answer: Answer) -> None:
         asked = answer.question.asked
+        if answer.turn is not None:
+            self._memory.keep(asked.session, self._ride(), time.time(), answer.turn)
         taken = round((time.monotonic() - answer.question.came) * 1000.0, 3)
         fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
         reply = AskReply(**fields, request=asked.request, seq=self._next(), wall_time=time.time())

@@ -27,6 +27,7 @@ Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
 Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
+Folder = Annotated[str, msgspec.Meta(min_length=1, max_length=4096)]
 CarState = Literal["driving", "paused", "ended"]
 
 KIB = 1024
@@ -79,6 +80,8 @@ class SceneReport(Report, frozen=True, kw_only=True):
     traces: Count  # reports on key `trace` so far
     events: Count  # reports on key `event` so far
     orders: Count = 0  # lines on its standard input that the car has obeyed
+    scenario: Folder | None = None  # name or folder, and seed: how to drive the ride again
+    seed: int | None = None
 
 
 class TraceReport(Report, frozen=True, kw_only=True):
@@ -161,6 +164,28 @@ class HistoryReply(Message, frozen=True, kw_only=True):
     turns: tuple[PastTurn, ...]
 
 
+class ForgetRequest(Message, frozen=True, kw_only=True):
+    """The passenger wants a session forgotten: what was said, on disk and in memory."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.forget/1"] = "xavi.forget/1"
+    request: Name
+    session: Name
+
+
+class ForgetReply(Message, frozen=True, kw_only=True):
+    """What came of it."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.forget_reply/1"] = "xavi.forget_reply/1"
+    request: Name
+    session: Name
+    turns: Count  # that were erased
+    forgotten: bool  # false: something is left on disk, until it can be written again
+
+
 class CancelRequest(Message, frozen=True, kw_only=True):
     """The passenger no longer wants an answer."""
 
@@ -223,7 +248,8 @@ MESSAGES: dict[str, type[AnyMessage]] = {
     schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind
     for kind in (
         *(SceneReport, TraceReport, EventReport, AskRequest, AskReply, HistoryRequest),
-        *(HistoryReply, CancelRequest, CancelReply, WhatIfRequest, Failure),
+        *(HistoryReply, ForgetRequest, ForgetReply, CancelRequest, CancelReply, WhatIfRequest),
+        Failure,
     )
 }
 

@@ -26,7 +26,7 @@ CREATE TABLE rides (
     id TEXT PRIMARY KEY, begun REAL NOT NULL, scenario TEXT, seed INTEGER
 );
 CREATE TABLE turns (
-    session TEXT NOT NULL, number INTEGER NOT NULL, ride TEXT NOT NULL REFERENCES rides,
+    session TEXT NOT NULL, number INTEGER NOT NULL, ride TEXT REFERENCES rides,
     sim_time REAL NOT NULL, wall_time REAL NOT NULL, turn TEXT NOT NULL,
     PRIMARY KEY (session, number)
 );
@@ -53,7 +53,7 @@ class NewTurn:
     """A turn to be kept."""
 
     session: str
-    ride: RideName
+    ride: RideName | None  # None: no car had been heard of
     wall_time: float  # [s]
     turn: Turn
 
@@ -78,10 +78,10 @@ class Summary(msgspec.Struct, frozen=True):
     turns: int
     first: float  # [s] wall time of the first turn that is kept
     last: float  # [s] of the last
-    scenario: str | None  # of the last turn's ride
+    scenario: str | None  # of the last turn on a ride
     seed: int | None
-    sim_time: float  # [s] at which the last question was asked
-    question: str  # the last
+    sim_time: float | None  # [s] at which that turn's question was asked
+    question: str  # of the last turn
 
 
 class _Line(msgspec.Struct, omit_defaults=True):
@@ -125,7 +125,8 @@ class Store:
         """
         with self._file.writing() as file:
             for new in news:
-                _keep_ride(file, new.ride, new.wall_time)
+                if new.ride is not None:
+                    _keep_ride(file, new.ride, new.wall_time)
                 match new:
                     case NewTurn():
                         self._keep_turn(file, new)
@@ -148,10 +149,14 @@ class Store:
     def sessions(self) -> tuple[Summary, ...]:
         """All sessions, the one that was spoken in last at the end."""
         rows = self._file.rows(
-            "SELECT session, count, first, last, scenario, seed, sim_time, turn FROM turns"
-            " JOIN (SELECT session AS name, count(*) AS count, max(number) AS latest,"
-            " min(wall_time) AS first, max(wall_time) AS last FROM turns GROUP BY session)"
-            " ON session = name AND number = latest JOIN rides ON ride = id ORDER BY last, session"
+            "SELECT name, count, first, last, scenario, seed, driven.sim_time, said.turn FROM"
+            " (SELECT session AS name, count(*) AS count, min(wall_time) AS first,"
+            " max(wall_time) AS last, max(number) AS latest,"
+            " max(CASE WHEN ride IS NOT NULL THEN number END) AS riding"
+            " FROM turns GROUP BY session)"
+            " JOIN turns AS said ON said.session = name AND said.number = latest"
+            " LEFT JOIN turns AS driven ON driven.session = name AND driven.number = riding"
+            " LEFT JOIN rides ON id = driven.ride ORDER BY last, name"
         )
         return tuple(Summary(*(*row[:-1], _question(row[-1]))) for row in rows)
 
@@ -173,12 +178,15 @@ class Store:
             spoken = file.execute(
                 f"SELECT DISTINCT ride FROM turns WHERE {chosen}", [*given.values()]
             )
-            rides = {ride for (ride,) in spoken}
+            rides = {ride for (ride,) in spoken if ride is not None}
             erased = file.execute(f"DELETE FROM turns WHERE {chosen}", [*given.values()]).rowcount
             if session is None:
                 sql = "SELECT id FROM rides WHERE ? IS NULL OR begun < ?"
                 rides |= {ride for (ride,) in file.execute(sql, (before, before))}
-            silent = "DELETE FROM rides WHERE id = ? AND id NOT IN (SELECT ride FROM turns)"
+            silent = (
+                "DELETE FROM rides"
+                " WHERE id = ? AND NOT EXISTS (SELECT 1 FROM turns WHERE turns.ride = rides.id)"
+            )
             gone = sum(file.execute(silent, (ride,)).rowcount for ride in sorted(rides))
         if erased or gone:
             self._file.purge()
@@ -228,14 +236,18 @@ class Store:
         size = len(text.encode())
         if size > MAX_TURN:
             raise TooLarge(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
+        ride = None if new.ride is None else new.ride.id
+        row = (new.session, ride, new.turn.reply.sim_time, new.wall_time, text, new.session)
         file.execute(
             "INSERT INTO turns SELECT ?, coalesce(max(number), 0) + 1, ?, ?, ?, ?"
             " FROM turns WHERE session = ?",
-            (
-                *(new.session, new.ride.id, new.turn.reply.sim_time, new.wall_time, text),
-                new.session,
-            ),
+            row,
         )
+
+
+def fits(turn: Turn) -> bool:
+    """Whether a turn is small enough to be kept."""
+    return len(_json(turn).encode()) <= MAX_TURN
 
 
 def _keep_ride(file: Writing, ride: RideName, wall_time: float) -> None:

@@ -1,0 +1,154 @@
+"""What a service keeps on disk of what is said and what happens, and gets back.
+
+A turn is kept before its reply is sent. Where that fails the passenger is answered all the
+same, and warned once; what was missed is made up for as soon as the file can be written again.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+from planner.events import Event
+from xavi_dialogue.app.desk import MAX_PAST
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.transports.database import StoreError
+from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
+
+KEEP_DAYS = 30
+PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
+MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
+EXPIRED_EVERY = 3600.0  # [s]
+
+
+@dataclass(frozen=True)
+class Keeping:
+    """Where and how long what is said is kept."""
+
+    path: Path
+    days: int = KEEP_DAYS
+
+
+def default_path() -> Path:
+    """The file of this user's conversations."""
+    # Deferred: it is needed by few of those who import this module.
+    from platformdirs import user_data_path
+
+    return user_data_path("xavi-dialogue") / "dialogue.sqlite3"
+
+
+def _nobody(_: str) -> None:
+    pass
+
+
+@dataclass
+class Memory:
+    """The file, as long as it can be used; without one, nothing is kept."""
+
+    keeping: Keeping | None = None
+    warn: Callable[[str], None] = _nobody
+    _store: Store | None = None
+    _missed: list[New] = field(default_factory=list)  # not yet written
+    _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
+    _failing: bool = False
+    _expired: float = 0.0  # [s] wall time when what is too old was last erased
+
+    def recall(self, session: str) -> tuple[Turn, ...]:
+        """What was said in a session, oldest first; nothing where that cannot be read."""
+        if self.keeping is None or session in self._unforgotten:
+            return ()
+        try:
+            return self._opened(self.keeping).turns(session, MAX_PAST)
+        except StoreError as error:
+            self._fail(error)
+            return ()
+
+    def keep(self, session: str, ride: RideName | None, wall_time: float, turn: Turn) -> None:
+        """Keep a turn, and all that was missed; in the file when this returns, if at all."""
+        if self.keeping is None:
+            return
+        if fits(turn):
+            self._missed.append(NewTurn(session, ride, wall_time, turn))
+        else:
+            self.warn(f"a turn of session {session} is too large to be kept")
+        self._write(self.keeping)
+
+    def hear(self, ride: RideName, seq: int, wall_time: float, event: Event) -> None:
+        """Keep an event, with the next `tidy`."""
+        if self.keeping is not None:
+            self._missed.append(NewEvent(ride, seq, wall_time, event))
+            del self._missed[:-MAX_MISSED]
+
+    def tidy(self, now: float) -> None:
+        """Write what was heard; now and then erase what is too old.
+
+        Args:
+            now: wall time [s].
+        """
+        # A file that fails may take a while each time; the next turn tries again.
+        if self.keeping is None or self._failing:
+            return
+        if self._missed:
+            self._write(self.keeping)
+        if now >= self._expired + EXPIRED_EVERY:
+            self._expired = now
+            try:
+                self._opened(self.keeping).expire(self.keeping.days, now)
+            except StoreError as error:
+                self._fail(error)
+
+    def forget(self, session: str) -> int | None:
+        """Erase a session; how many turns, None where some of it is left for the time being."""
+        self._missed = [
+            new for new in self._missed if isinstance(new, NewEvent) or new.session != session
+        ]
+        if self.keeping is None:
+            return 0
+        self._unforgotten.add(session)
+        try:
+            return self._erase(self._opened(self.keeping))
+        except StoreError as error:
+            self._fail(error)
+            return None
+
+    def close(self) -> None:
+        """Close the file."""
+        if self._store is not None:
+            self._store.close()
+            self._store = None
+
+    def _opened(self, keeping: Keeping) -> Store:
+        if self._store is None:
+            self._store = Store(keeping.path, patience=PATIENCE)
+        return self._store
+
+    def _write(self, keeping: Keeping) -> None:
+        del self._missed[:-MAX_MISSED]
+        try:
+            store = self._opened(keeping)
+            self._erase(store)
+            store.keep(self._missed)
+        except StoreError as error:
+            self._fail(error)
+            return
+        self._missed.clear()
+        if self._failing:
+            self._failing = False
+            self.warn("what is said is kept again, and what was missed as well")
+
+    def _erase(self, store: Store) -> int:
+        erased = 0
+        for session in sorted(self._unforgotten):
+            erased += store.forget(session)
+            self._unforgotten.discard(session)
+        return erased
+
+    def _fail(self, error: StoreError) -> None:
+        if not self._failing:
+            self.warn(f"what is said is not kept until this is mended: {error}")
+        self._failing = True
+
+
+def fresh_session(now: datetime, salt: str) -> str:
+    """A name for a conversation that nobody named, such as 20261121-164210-3f."""
+    return f"{now:%Y%m%d-%H%M%S}-{salt}"
