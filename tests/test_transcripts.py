@@ -7,65 +7,77 @@ from pathlib import Path
 
 import pytest
 
-from xavi_dialogue.app.golden import replay_driven, replay_recorded, ride_path, transcripts_in
-from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.transcript import Exchange, read
+from xavi_dialogue.app.golden import (
+    ENDING,
+    RIDES,
+    Written,
+    by_ride,
+    recording,
+    replay_driven,
+    replay_recorded,
+    transcripts_in,
+)
+from xavi_dialogue.app.local import make_mind
+from xavi_dialogue.transports.transcript import Exchange, write
 
 FOLDER = Path(__file__).parents[1] / "transcripts"
 TRANSCRIPTS = transcripts_in(FOLDER)
+ABOUT = by_ride(TRANSCRIPTS)
+MAX_SIZE = 8 << 20  # [byte] of the whole folder
 
-each = pytest.mark.parametrize("path", TRANSCRIPTS, ids=lambda path: path.stem)
+each = pytest.mark.parametrize("one", TRANSCRIPTS, ids=lambda one: one.path.stem)
 
 REPLAY = """
 import sys
 from pathlib import Path
-from xavi_dialogue.app.golden import replay_recorded, ride_path
-from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.transcript import read
-for path in map(Path, sys.argv[1:]):
-    ride = ride_file.load(ride_path(path).read_bytes())
-    sys.stdout.write(replay_recorded(read(path.read_text(encoding="utf-8")), ride))
+from xavi_dialogue.app.golden import recording, replay_recorded, transcripts_in
+from xavi_dialogue.app.local import make_mind
+from xavi_dialogue.transports.transcript import write
+for one in transcripts_in(Path(sys.argv[1])):
+    played = replay_recorded(one.transcript, recording(one.ride), make_mind())
+    sys.stdout.write(write(played.transcript))
 """
 
 
 @each
-def test_a_conversation_comes_out_of_its_recording(path: Path) -> None:
-    text = path.read_text(encoding="utf-8")
-    ride = ride_file.load(ride_path(path).read_bytes())
-    assert replay_recorded(read(text), ride) == text
+def test_a_conversation_comes_out_of_its_recording(one: Written) -> None:
+    played = replay_recorded(one.transcript, recording(one.ride), make_mind())
+    assert write(played.transcript) == one.text
 
 
 @pytest.mark.parametrize("hash_seed", ["1", "2"])
 def test_conversations_do_not_depend_on_the_hash_seed(hash_seed: str, root: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", REPLAY, *map(str, TRANSCRIPTS)],
+        [sys.executable, "-c", REPLAY, str(FOLDER)],
         capture_output=True,
         check=True,
         cwd=root,
         env={**os.environ, "PYTHONHASHSEED": hash_seed, "PYTHONPATH": str(root)},
     )
-    assert done.stdout.decode() == "".join(p.read_text(encoding="utf-8") for p in TRANSCRIPTS)
+    assert done.stdout.decode() == "".join(one.text for one in TRANSCRIPTS)
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ride", ABOUT, ids=lambda path: path.name.removesuffix(ENDING))
+def test_conversations_and_their_recording_come_out_of_sumo(ride: Path) -> None:
+    now = replay_driven(ABOUT[ride])
+    assert now.texts == tuple(one.text for one in ABOUT[ride])
+    assert now.ride == recording(ride)
+
+
+def test_every_recording_is_talked_about() -> None:
+    assert sorted((FOLDER / RIDES).iterdir()) == sorted(ABOUT)
+
+
+def test_the_folder_stays_small() -> None:
+    sizes = [path.stat().st_size for path in FOLDER.rglob("*") if path.is_file()]
+    assert sum(sizes) <= MAX_SIZE
+
+
 @each
-def test_a_conversation_and_its_recording_come_out_of_sumo(path: Path) -> None:
-    text = path.read_text(encoding="utf-8")
-    now = replay_driven(read(text))
-    assert now.text == text
-    assert now.ride == ride_file.load(ride_path(path).read_bytes())
-
-
-def test_both_stories_are_told() -> None:
-    told = {read(path.read_text(encoding="utf-8")).get("scenario") for path in TRANSCRIPTS}
-    assert {"s1", "s2"} <= told
-
-
-@each
-def test_every_question_has_its_reply(path: Path) -> None:
-    steps = read(path.read_text(encoding="utf-8")).steps
-    exchanges = [step for step in steps if isinstance(step, Exchange)]
-    assert len(exchanges) >= 4
+def test_every_question_has_its_reply(one: Written) -> None:
+    exchanges = [step for step in one.transcript.steps if isinstance(step, Exchange)]
+    assert 4 <= len(exchanges) <= 12
     assert all(exchange.reply for exchange in exchanges)
 
 

@@ -176,11 +176,21 @@ def scenarios(as_json: AsJson = False) -> None:
 @app.command()
 def transcripts(
     accept: Annotated[bool, typer.Option("--accept", help="Rewrite what differs.")] = False,
+    covered: Annotated[
+        bool, typer.Option("--coverage", help="Show what no conversation exercises.")
+    ] = False,
     folder: Annotated[Path, typer.Option(help="Where the transcripts lie.")] = Path("transcripts"),
 ) -> None:
     """Replay the golden conversations in SUMO; show, or accept, what differs."""
-    from xavi_dialogue.app.golden import replay_all
+    from xavi_dialogue.app.golden import replay_all, transcripts_in
 
+    if covered:
+        from xavi_dialogue.app.coverage import measure
+
+        with _errors():
+            coverage = measure(transcripts_in(folder))
+        _write(coverage.table())
+        raise typer.Exit(ExitStatus.FAILED if coverage.missing else ExitStatus.ANSWERED)
     with _errors():
         differing = replay_all(folder, accept=accept, note=_note)
     raise typer.Exit(ExitStatus.FAILED if differing and not accept else ExitStatus.ANSWERED)

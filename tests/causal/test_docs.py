@@ -12,7 +12,7 @@ from xavi_dialogue.transports import ride_file
 
 
 def rides(root: Path):
-    found = {name: root / "transcripts" / f"{name}.ride.jsonl.gz" for name in ("s1", "s2")}
+    found = {name: root / "transcripts/rides" / f"{name}-0.ride.jsonl.gz" for name in ("s1", "s2")}
     return {name: ride_file.load(path.read_bytes()) for name, path in found.items()}
 
 

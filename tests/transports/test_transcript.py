@@ -7,6 +7,7 @@ from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transports.transcript import (
     At,
+    Befalls,
     Comment,
     Exchange,
     TranscriptError,
@@ -23,8 +24,11 @@ seed: 3
 Because.
 
 # Later.
+# On a bridge.
 
 @ 8.0s
+
+! planner fails
 
 > Which one?
 This one or that one?
@@ -42,7 +46,9 @@ def test_a_transcript_is_read_step_by_step() -> None:
     assert transcript.steps == (
         Exchange("Why?", "Because."),
         Comment("# Later."),
+        Comment("# On a bridge."),
         At(8.0, "@ 8.0s"),
+        Befalls("planner fails"),
         Exchange("Which one?", "This one or that one?\n1. this\n2. that"),
         Exchange("2", ""),
     )
@@ -52,6 +58,7 @@ def test_what_is_written_is_read_again() -> None:
     once = write(read(TEXT))
     assert read(once) == read(TEXT)
     assert write(read(once)) == once
+    assert "# Later.\n# On a bridge.\n\n@ 8.0s\n\n! planner fails\n\n> Which" in once
 
 
 @pytest.mark.parametrize(
@@ -60,6 +67,7 @@ def test_what_is_written_is_read_again() -> None:
         ("colour: blue\n", "line 1: the header"),
         ("scenario: s1\n\nno question\n", "line 3: a reply without a question"),
         ("scenario: s1\n\n@ noon\n", "line 3: a moment"),
+        ("scenario: s1\n\n! the sky falls\n", "line 3: after ! comes one of planner answers, "),
     ],
 )
 def test_a_wrong_line_is_named(text: str, problem: str) -> None:

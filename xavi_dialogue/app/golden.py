@@ -1,173 +1,200 @@
-"""`xavi transcripts`: golden conversations, replayed from recordings and from SUMO."""
+"""`xavi transcripts`: golden conversations, replayed from recordings and from SUMO.
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+Conversations about the same scenario and seed share one recording of the ride:
+`transcripts/rides/s1-0.ride.jsonl.gz` holds it once, with all that was planned again for any.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import get_args
 
 from planner.trace import PlanTrace
 from sim.scenario import load as load_scenario
 from xavi_dialogue.app.local import Conversation, Replan, drive_to, make_mind, planner_for
+from xavi_dialogue.app.play import Played, latest, play
 from xavi_dialogue.app.ride import clock, network_of, start
-from xavi_dialogue.dialogue.events import EventRecorded, RideEnded, TraceRecorded
-from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import NeedRollout
-from xavi_dialogue.language.context import Style
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
-from xavi_dialogue.transports.transcript import (
-    At,
-    Exchange,
-    Transcript,
-    TranscriptError,
-    read,
-    write,
-)
+from xavi_dialogue.transports.transcript import Transcript, TranscriptError, read, write
+
+RIDES = "rides"  # the folder of the recordings, in that of the transcripts
+ENDING = ".ride.jsonl.gz"
 
 Note = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Replayed:
-    """A transcript as it is now, and the ride behind it."""
+class Written:
+    """A transcript as it is kept."""
 
+    path: Path
     text: str
+    transcript: Transcript
+
+    @property
+    def ride(self) -> Path:
+        """Where the recording of its ride lies."""
+        name = f"{Path(self.scenario).name}-{self.seed}{ENDING}"
+        return self.path.parent / RIDES / name
+
+    @property
+    def scenario(self) -> str:
+        """A name, or a folder."""
+        return _header(self, "scenario")
+
+    @property
+    def seed(self) -> int:
+        """The seed of the ride."""
+        seed = _header(self, "seed")
+        if not seed.isdecimal():
+            raise TranscriptError(f"{self.path}: {seed!r} is no seed")
+        return int(seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """Transcripts about one ride as they are now, and the ride behind them."""
+
+    texts: tuple[str, ...]
     ride: RecordedRide
 
 
-def replay_recorded(transcript: Transcript, ride: RecordedRide) -> str:
-    """The transcript as it comes out of a recorded ride, without SUMO and planner."""
+def transcripts_in(folder: Path) -> tuple[Written, ...]:
+    """The transcripts of a folder, by name.
+
+    Raises:
+        TranscriptError: there are none, or one cannot be read.
+    """
+    paths = sorted(folder.glob("*.txt"))
+    if not paths:
+        raise TranscriptError(f"there are no transcripts (*.txt) in {folder}")
+    return tuple(map(_open, paths))
+
+
+def by_ride(written: Sequence[Written]) -> Mapping[Path, tuple[Written, ...]]:
+    """The transcripts about every ride, by where its recording lies."""
+    rides = sorted({one.ride for one in written})
+    return {ride: tuple(one for one in written if one.ride == ride) for ride in rides}
+
+
+def recording(path: Path) -> RecordedRide:
+    """A recorded ride.
+
+    Raises:
+        RideFileError: there is none.
+    """
+    try:
+        return ride_file.load(path.read_bytes())
+    except OSError as error:
+        raise RideFileError(f"cannot read {path}: {error.strerror}") from error
+
+
+def replay_recorded(transcript: Transcript, ride: RecordedRide, mind: Mind) -> Played:
+    """The transcript as it comes out of a recorded ride, without SUMO and planner.
+
+    Raises:
+        RideFileError: a plan is wanted that the recording does not hold.
+    """
 
     def again(_: PlanTrace, need: NeedRollout) -> PlanTrace:
         try:
             return ride.whatifs[ride_file.key(need)]
         except KeyError:
-            wanted = f"{need.actions or need.removed} at {need.trace_id}"
-            raise RideFileError(
-                f"the recording holds no plan for {wanted}; accept it anew"
-            ) from None
+            raise RideFileError(f"the recording holds no plan for {need}; accept it anew") from None
 
-    conversation = Conversation(make_mind(), again)
-    for event in _inputs(ride):
-        conversation.dialogue, _ = advance(conversation.mind, conversation.dialogue, event)
-    return write(_converse(transcript, conversation, ride.halt))
+    return play(transcript, mind, inputs_of(ride), ride.halt, again)
 
 
-def replay_driven(transcript: Transcript) -> Replayed:
-    """The transcript as it comes out of driving the scenario again."""
-    scenario = load_scenario(_header(transcript, "scenario"))
-    seed = int(_header(transcript, "seed"))
+def replay_driven(written: Sequence[Written]) -> Replayed:
+    """Transcripts about one ride as they come out of driving it again."""
+    scenario, seed = load_scenario(written[0].scenario), written[0].seed
     network = network_of(scenario)
-    planned: dict[str, PlanTrace] = {}
-    conversation = Conversation(make_mind(), _keeping(planner_for(network), planned))
+    mind = make_mind()
+    known = Conversation(mind, planner_for(network))
+    last = max(latest(one.transcript) for one in written)
     with start(scenario, seed, network) as ride:
-        halt = drive_to(ride, conversation, None)
-        latest = max((s.time for s in transcript.steps if isinstance(s, At)), default=halt)
-        for moment in ride if latest > halt else ():
-            conversation.record(moment)
-            if clock(moment) >= latest:
+        halt = drive_to(ride, known, None)
+        for moment in ride if last > halt else ():
+            known.record(moment)
+            if clock(moment) >= last:
                 break
-    text = write(_converse(transcript, conversation, halt))
-    known = conversation.dialogue
     recorded = RecordedRide(
-        scenario=_header(transcript, "scenario"),
+        scenario=written[0].scenario,
         seed=seed,
         halt=halt,
-        traces=list(known.traces),
-        events=list(known.events),
-        ended=known.ended_at,
-        whatifs=planned,
+        traces=list(known.dialogue.traces),
+        events=list(known.dialogue.events),
+        ended=known.dialogue.ended_at,
     )
-    return Replayed(text, recorded)
+    again = _keeping(known.again, recorded.whatifs)
+    inputs = inputs_of(recorded)
+    played = (play(one.transcript, mind, inputs, halt, again) for one in written)
+    return Replayed(tuple(write(one.transcript) for one in played), recorded)
 
 
 def replay_all(folder: Path, *, accept: bool, note: Note) -> int:
     """Replay every transcript of a folder in SUMO; how many differ from what is written there.
 
+    A transcript differs where its text or its recording does.
+
     Raises:
         TranscriptError: the folder holds none, or one cannot be read.
     """
-    paths = transcripts_in(folder)
     differing = 0
-    for path in paths:
-        text = path.read_text(encoding="utf-8")
-        now = replay_driven(read(text))
-        same = now.text == text and recorded_ride(path) == now.ride
-        differing += not same
-        if accept and not same:
-            path.write_text(now.text, encoding="utf-8")
-            ride_path(path).write_bytes(ride_file.dump(now.ride))
-        note(f"{path}: {'as before' if same else 'accepted' if accept else 'differs'}")
+    for path, written in by_ride(transcripts_in(folder)).items():
+        now = replay_driven(written)
+        driven = _as_recorded(path, now.ride)
+        if accept and not driven:
+            path.parent.mkdir(exist_ok=True)
+            path.write_bytes(ride_file.dump(now.ride))
+        for one, text in zip(written, now.texts, strict=True):
+            same = driven and one.text == text
+            differing += not same
+            if accept:
+                one.path.write_text(text, encoding="utf-8")
+            note(f"{one.path}: {'as before' if same else 'accepted' if accept else 'differs'}")
     return differing
 
 
-def transcripts_in(folder: Path) -> list[Path]:
-    """The transcripts of a folder, sorted.
-
-    Raises:
-        TranscriptError: there are none.
-    """
-    paths = sorted(folder.glob("*.txt"))
-    if not paths:
-        raise TranscriptError(f"there are no transcripts (*.txt) in {folder}")
-    return paths
+def inputs_of(ride: RecordedRide) -> tuple[Input, ...]:
+    """What the dialogue is told of a recorded ride."""
+    over = () if ride.ended is None else (RideEnded(ride.ended),)
+    return (*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events), *over)
 
 
-def ride_path(path: Path) -> Path:
-    """Where the recording of a transcript lies: beside it."""
-    return path.with_suffix(".ride.jsonl.gz")
-
-
-def recorded_ride(path: Path) -> RecordedRide | None:
-    """The recording beside a transcript, None where there is none that can be read."""
+def _as_recorded(path: Path, ride: RecordedRide) -> bool:
+    """Whether a recording holds just this ride."""
     try:
-        return ride_file.load(ride_path(path).read_bytes())
-    except (OSError, RideFileError):
-        return None
+        return recording(path) == ride
+    except RideFileError:
+        return False
 
 
-def _converse(transcript: Transcript, conversation: Conversation, halt: float) -> Transcript:
-    """The same questions, with the replies given now."""
-    style = _style(transcript)
-    at = halt
-    steps = []
-    for step in transcript.steps:
-        if isinstance(step, At):
-            at = step.time
-        if isinstance(step, Exchange):
-            reply = conversation.ask(step.question, at, style)
-            step = replace(step, reply=reply.text)
-        steps.append(step)
-    return replace(transcript, steps=tuple(steps))
-
-
-def _inputs(ride: RecordedRide) -> Iterable[TraceRecorded | EventRecorded | RideEnded]:
-    yield from map(TraceRecorded, ride.traces)
-    yield from map(EventRecorded, ride.events)
-    if ride.ended is not None:
-        yield RideEnded(ride.ended)
+def _open(path: Path) -> Written:
+    text = path.read_text(encoding="utf-8")
+    try:
+        return Written(path, text, read(text))
+    except TranscriptError as error:
+        raise TranscriptError(f"{path}: {error}") from error
 
 
 def _keeping(again: Replan, kept: dict[str, PlanTrace]) -> Replan:
     """Plan again, and keep what comes of it."""
 
     def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        found = kept[ride_file.key(need)] = again(trace, need)
-        return found
+        name = ride_file.key(need)
+        if name not in kept:
+            kept[name] = again(trace, need)
+        return kept[name]
 
     return planned
 
 
-def _header(transcript: Transcript, key: str) -> str:
-    value = transcript.get(key)
+def _header(written: Written, key: str) -> str:
+    value = written.transcript.get(key)
     if value is None:
-        raise TranscriptError(f"the header lacks {key!r}")
+        raise TranscriptError(f"{written.path}: the header lacks {key!r}")
     return value
-
-
-def _style(transcript: Transcript) -> Style:
-    style = transcript.get("style", "passenger")
-    for known in get_args(Style):
-        if style == known:
-            return known  # type: ignore[no-any-return]
-    raise TranscriptError(f"there is no style {style!r}")

@@ -27,13 +27,22 @@ from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.explain.engine import explain
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.language.context import Style
 from xavi_dialogue.language.parse import Parser
 
 SESSION = "passenger"
 
-Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]  # may raise WhatIfError
+#: May raise WhatIfError or NoPlan.
+Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]
+
+
+class NoPlan(Exception):
+    """A plan cannot be had; the reason is the one the passenger is given."""
+
+    def __init__(self, reason: Reason) -> None:
+        super().__init__(reason)
+        self.reason = reason
 
 
 def make_mind() -> Mind:
@@ -88,6 +97,8 @@ class Conversation:
             return RolloutsArrived(request, SESSION, self.again(next(known), need))
         except (StopIteration, WhatIfError):
             return RolloutsFailed(request, SESSION, "planner-failed")
+        except NoPlan as none:
+            return RolloutsFailed(request, SESSION, none.reason)
 
     def _tell(self, event: Input) -> Output | None:
         self.dialogue, outputs = advance(self.mind, self.dialogue, event)

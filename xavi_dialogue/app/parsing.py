@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator
 
+import lark
 import msgspec
 
 from xavi_dialogue.explain.query import Query
@@ -36,7 +37,8 @@ def parse_text(
     """What a question means, for people or as JSON, and whether it was understood."""
     report = Parser().explain(one_line(text), vehicles=vehicles)
     understood = isinstance(report.result, Query)
-    shown = msgspec.json.encode(report if explain else report.result).decode()
+    told = report if explain else report.result
+    shown = msgspec.json.encode(told, enc_hook=_tree).decode()
     if not as_json:
         shown = _steps(report) if explain else _lines(report.result)
     return shown, understood
@@ -75,6 +77,15 @@ def parse_lines(
         yield msgspec.json.encode({"id": question.id, "query": query}).decode()
     if broken:
         raise ParseUsageError(f"{broken} of {count} lines hold no question")
+
+
+def _tree(value: object) -> object:
+    """What the grammar read, as JSON: a list of rule and parts, and words with their terminals."""
+    if isinstance(value, lark.Tree):
+        return [str(value.data), *value.children]
+    if isinstance(value, lark.Token):
+        return f"{value.type}={value}"
+    raise NotImplementedError(type(value))
 
 
 def _lines(result: Query | NotUnderstood) -> str:

@@ -4,7 +4,7 @@ Strict ones come from the grammar of questions; loose ones from the clauses alon
 of question that the judge thinks likely.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import lark
 
@@ -12,7 +12,7 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.beam import Budget, Found, Prices, search
 from xavi_dialogue.language.costs import costs
 from xavi_dialogue.language.followup import resolve
-from xavi_dialogue.language.grammar import STARTS
+from xavi_dialogue.language.grammar import STARTS, Tree
 from xavi_dialogue.language.kinds import LEAN, WHICH, kind_of
 from xavi_dialogue.language.lattice import Cuts, Lattice
 from xavi_dialogue.language.loose import as_question, clauses
@@ -37,6 +37,7 @@ class Candidate:
     kind: str
     cost: float  # 0 is a perfect fit
     loose: bool = False
+    tree: Tree | None = field(default=None, compare=False, repr=False)  # what the grammar read
 
 
 def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Candidate]:
@@ -57,7 +58,7 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
         known = found.get((parse.rule, query))
         if cost <= limit and (known is None or cost < known.cost):
             kind = kind_of(query, previous)
-            found[parse.rule, query] = Candidate(parse.rule, query, kind, cost)
+            found[parse.rule, query] = Candidate(parse.rule, query, kind, cost, tree=parse.tree)
     return list(found.values())
 
 
@@ -69,6 +70,7 @@ def loosely(
     tokens = tuple(edge.token for _, edge in cuts)
     spoken_of = previous is not None and previous.actor != "ego"
     parse = clauses(lattice, budget, spoken_of=spoken_of)
+    parsed = parse.tree if parse is not None else None
     topic = named_first(lattice, cuts)
     found: list[Candidate] = []
     for kind in kinds:
@@ -88,7 +90,7 @@ def loosely(
         query = resolve(reading, previous)
         if query is not None and _fits(kind, query, reading, previous):
             cost = costs().loose.base + reading.cost
-            found.append(Candidate(rule, query, kind, cost, loose=True))
+            found.append(Candidate(rule, query, kind, cost, loose=True, tree=parsed))
     return found
 
 

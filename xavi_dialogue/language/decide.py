@@ -34,7 +34,8 @@ def weigh(candidates: list[Candidate], judged: dict[str, float]) -> tuple[Scored
         score = one.cost + _against(one.kind, judged)
         known = scored.get(one.query)
         if known is None or score < known.score:
-            scored[one.query] = Scored(one.rule, one.query, round(score, 4), one.cost, one.loose)
+            score = round(score, 4)
+            scored[one.query] = Scored(one.rule, one.query, score, one.cost, one.loose, one.tree)
     return tuple(sorted(scored.values(), key=lambda s: (s.score, s.rule)))
 
 

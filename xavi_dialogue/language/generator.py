@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from xavi_dialogue.language.rules import (
+    Alternative,
     Call,
     Comparison,
     Grammar,
@@ -19,6 +20,7 @@ from xavi_dialogue.language.rules import (
     Item,
     Literal,
     Path,
+    Rule,
     Word,
 )
 
@@ -48,13 +50,24 @@ def expand(grammar: Grammar, start: str, *values: object) -> tuple[Token, ...]:
     """
     rule = grammar[start]
     scope = dict(zip(rule.parameters, values, strict=True))
+    tokens: list[Token] = []
+    for item in choose(rule, scope).items:
+        tokens += _fill(item, scope, grammar, start)
+    return tuple(tokens)
+
+
+def choose(rule: Rule, scope: Mapping[str, object]) -> Alternative:
+    """The first alternative of a rule whose guard holds for the values in its scope.
+
+    Raises:
+        ExpansionError: none fits.
+    """
     for alternative in rule.alternatives:
         if all(_holds(comparison, scope) for comparison in alternative.guard):
-            tokens: list[Token] = []
-            for item in alternative.items:
-                tokens += _fill(item, scope, grammar, start)
-            return tuple(tokens)
-    raise ExpansionError(f"rule {start} has no alternative for {scope!r}; add one to the grammar")
+            return alternative
+    raise ExpansionError(
+        f"rule {rule.name} has no alternative for {scope!r}; add one to the grammar"
+    )
 
 
 def _fill(

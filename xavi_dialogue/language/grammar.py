@@ -170,3 +170,26 @@ def tree_of(rule: str, tokens: Iterable[lark.Token]) -> Tree:
         parser.feed_token(token)
     tree: Tree = parser.feed_eof()  # type: ignore[no-untyped-call]
     return tree
+
+
+def rules_of(tree: Tree) -> frozenset[str]:
+    """All rules by which a tree was made, those that leave no node of their own in it included.
+
+    Args:
+        tree: of a start rule.
+    """
+    actions, rule = _actions(), str(tree.data)
+    states = list(beginning(rule))
+    names = set[str]()
+    leaves = tree.scan_values(lambda leaf: isinstance(leaf, lark.Token))
+    for terminal in (*(leaf.type for leaf in leaves), _END):
+        while states[-1] != _end_state(rule):
+            kind, argument, name = actions[states[-1]][terminal]
+            if kind == 0:
+                states.append(argument)
+                break
+            names.add(name)
+            if argument:
+                del states[-argument:]
+            states.append(actions[states[-1]][name][1])
+    return frozenset(names)

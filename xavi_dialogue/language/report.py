@@ -1,9 +1,10 @@
 """Report: what the parser understood, and why."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.grammar import Tree
 from xavi_dialogue.language.tokens import Token
 
 #: Why a text has no query. Those that begin with "no-" say what it lacks (see malformed.toml).
@@ -37,6 +38,7 @@ class Scored:
     score: float  # cost by grammar and judge together: the lower, the likelier
     cost: float = 0.0  # by the grammar: 0 is a perfect fit
     loose: bool = False  # only its clauses were read by the grammar
+    tree: Tree | None = field(default=None, compare=False, repr=False)  # what the grammar read
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,12 +11,13 @@ Errors:
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from typing import TypeAlias
 
-from lark import Lark, LarkError, Transformer
+from lark import Lark, LarkError, Transformer, v_args
+from lark.tree import Meta
 
 
 class GrammarError(ValueError):
@@ -78,6 +79,7 @@ class Alternative:
 
     guard: tuple[Comparison, ...]
     items: tuple[Item, ...]
+    line: int = field(default=0, compare=False)  # of the grammar file, from 1; 0: of none
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,10 +105,11 @@ class _Reader(Transformer):  # type: ignore[type-arg]
         parameters = tuple(p.strip() for p in inner.split(",") if p.strip())
         return Rule(name, parameters, tuple(p for p in parts if isinstance(p, Alternative)))
 
-    def alternative(self, parts: list[object]) -> Alternative:
+    @v_args(meta=True)
+    def alternative(self, meta: Meta, parts: list[object]) -> Alternative:
         guard = tuple(c for p in parts if isinstance(p, tuple) for c in p)
         items = tuple(p for p in parts if isinstance(p, Word | Blank | Call))
-        return Alternative(guard, tuple(i for i in items if i != Word("ε")))
+        return Alternative(guard, tuple(i for i in items if i != Word("ε")), meta.line)
 
     def guard(self, parts: list[tuple[Comparison, ...]]) -> tuple[Comparison, ...]:
         return parts[0]
@@ -153,7 +156,7 @@ class _Reader(Transformer):  # type: ignore[type-arg]
 @cache
 def _notation() -> Lark:
     text = (files("grammars") / "answer_notation.lark").read_text(encoding="utf-8")
-    return Lark(text, parser="lalr", maybe_placeholders=False)
+    return Lark(text, parser="lalr", maybe_placeholders=False, propagate_positions=True)
 
 
 def read_grammar(text: str, name: str = "grammar") -> dict[str, Rule]:

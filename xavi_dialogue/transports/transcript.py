@@ -9,16 +9,38 @@
 
 A header, then moments that move time, questions, and replies of one or more lines. Before the
 first moment, the time is the end of the first lane change or turn. Lines with # are comments.
+
+What befalls the car stands in lines of its own, and holds until a line says otherwise:
+
+    ! planner fails
+    > What if vehicle 1 had not been there?
+    My planner could not work that out, ...
+
+    ! planner answers
+
+See `Befallen` for what there is.
 """
 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 _MOMENT = re.compile(r"@\s*(\d{1,6}(?:\.\d{1,6})?)\s*s?")
 _HEADER = re.compile(r"(\w+):\s*(.*)")
 KEYS = ("scenario", "seed", "style", "trace")
+
+Befallen: TypeAlias = Literal[
+    "planner answers",  # as it does from the beginning
+    "planner fails",  # nothing comes of planning again
+    "planner late",  # planning again takes longer than the passenger is kept waiting
+    "planner gone",  # nobody is there to plan again
+    "no record",  # of the decisions: their traces have been lost
+    "record",  # all of them are there, as from the beginning
+    "restart",  # the program ends, and goes on later with the turns it has kept
+    "meanwhile",  # the next question is asked while the planner works on the one before
+]
+BEFALLEN: tuple[Befallen, ...] = get_args(Befallen)
 
 
 class TranscriptError(ValueError):
@@ -48,7 +70,14 @@ class Comment:
     text: str
 
 
-Step: TypeAlias = At | Exchange | Comment
+@dataclass(frozen=True, slots=True)
+class Befalls:
+    """Something befalls the car."""
+
+    what: Befallen
+
+
+Step: TypeAlias = At | Exchange | Comment | Befalls
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +127,7 @@ def read(text: str) -> Transcript:
 def _steps(lines: Iterable[tuple[int, str]]) -> Iterator[Step]:
     question, reply = None, list[str]()
     for number, line in lines:
-        begins = line.startswith((">", "@", "#"))
+        begins = line.startswith((">", "@", "#", "!"))
         if begins and question is not None:
             yield Exchange(question, "\n".join(reply).strip())
             question, reply = None, []
@@ -109,6 +138,8 @@ def _steps(lines: Iterable[tuple[int, str]]) -> Iterator[Step]:
             yield At(time, line)
         elif line.startswith("#"):
             yield Comment(line)
+        elif line.startswith("!"):
+            yield Befalls(_befallen(number, line))
         elif line.startswith(">"):
             question = line[1:].strip()
         elif question is not None:
@@ -119,13 +150,27 @@ def _steps(lines: Iterable[tuple[int, str]]) -> Iterator[Step]:
         yield Exchange(question, "\n".join(reply).strip())
 
 
+def _befallen(number: int, line: str) -> Befallen:
+    wanted = line[1:].strip()
+    for known in BEFALLEN:
+        if wanted == known:
+            return known
+    raise TranscriptError(f"line {number}: after ! comes one of {', '.join(BEFALLEN)}")
+
+
 def write(transcript: Transcript) -> str:
     """The transcript as text; `read` gives it back."""
     blocks = ["\n".join(f"{key}: {value}" for key, value in transcript.header)]
+    before: Step | None = None
     for step in transcript.steps:
         match step:
+            case Comment(text) if isinstance(before, Comment):
+                blocks[-1] += "\n" + text
             case At(_, text) | Comment(text):
                 blocks.append(text)
+            case Befalls(what):
+                blocks.append(f"! {what}")
             case Exchange(question, reply):
                 blocks.append(f"> {question}\n{reply}")
+        before = step
     return "\n\n".join(blocks) + "\n"

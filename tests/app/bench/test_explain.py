@@ -18,7 +18,7 @@ from xavi_dialogue.app.bench.tables import Uneven, tables
 from xavi_dialogue.causal.model import CausalModel, plan_of
 from xavi_dialogue.transports import ride_file
 
-FOLDER = Path(__file__).parents[3] / "transcripts"
+FOLDER = Path(__file__).parents[3] / "transcripts" / "rides"
 
 
 def by_tables(trace, plan):
@@ -82,7 +82,7 @@ def test_growth_is_measured_on_every_axis():
 
 def test_those_answered_are_timed():
     watch = Watch()
-    ride = ride_file.load((FOLDER / "s1.ride.jsonl.gz").read_bytes())
+    ride = ride_file.load((FOLDER / "s1-0.ride.jsonl.gz").read_bytes())
     recorded("s1", ride, watch)
     assert {"all", "s1 why_not", "s1 what_if"} <= set(watch.taken)
     assert len(watch.taken["all"]) == sum(

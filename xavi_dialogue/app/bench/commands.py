@@ -99,7 +99,7 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
 
     @group.command("explain")
     def _explain(
-        rides: Rides = Path("transcripts"),
+        rides: Rides = Path("transcripts/rides"),
         write: Page = None,
         as_json: AsJson = False,
     ) -> None:

@@ -108,7 +108,7 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
         watch.figures(),
         tuple(growth(*size) for size in sizes()),
         tuple(beside()) if available() else (),
-        stories(known),
+        stories({ride.scenario: ride for ride in known.values()}),
     )
 
 

@@ -1,0 +1,82 @@
+"""What the golden conversations exercise: counted by what was understood and said, no more."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from tests.traces import s1_ride
+from xavi_dialogue.__main__ import app
+from xavi_dialogue.app.coverage import Coverage, Item, measure
+from xavi_dialogue.app.golden import RIDES, transcripts_in
+from xavi_dialogue.transports import ride_file
+from xavi_dialogue.transports.ride_file import RecordedRide
+
+HEADER = "scenario: s1\nseed: 0\n\n! planner fails\n\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with a ride, still without a transcript."""
+    ride = s1_ride()
+    recorded = RecordedRide("s1", 0, 7.0, list(ride.traces), list(ride.events), 9.0)
+    (tmp_path / RIDES).mkdir()
+    (tmp_path / RIDES / "s1-0.ride.jsonl.gz").write_bytes(ride_file.dump(recorded))
+    return tmp_path
+
+
+def covered(folder: Path, *questions: str) -> Coverage:
+    text = HEADER + "".join(f"> {question}\n\n" for question in questions)
+    (folder / "one.txt").write_text(text, encoding="utf-8")
+    return measure(transcripts_in(folder))
+
+
+def of(coverage: Coverage, group: str) -> dict[str, int]:
+    return {i.name: n for i, n in coverage.counts.items() if i.group == group and n}
+
+
+def test_types_and_reasons_are_those_of_the_turns(folder: Path) -> None:
+    found = covered(folder, "Hello!", "Why did you not fly?", "asdf qwer", "Hello!")
+    assert of(found, "reasons") == {"not-understood": 1, "not-an-action": 1}
+    assert of(found, "question types") == {"smalltalk": 2, "out_of_scope": 1}
+
+
+def test_alternatives_are_named_with_their_place(folder: Path, root: Path) -> None:
+    found = of(covered(folder, "asdf qwer"), "alternatives of answer_refusals.rules")
+    places = {name.split(": ")[1]: name.split(": ")[0] for name in found}
+    assert sorted(places) == ["ASK 1", "NOT_UNDERSTOOD 8", "REFUSAL 1"]
+    path, line = places["NOT_UNDERSTOOD 8"].split(":")
+    assert "gibberish" in (root / path).read_text(encoding="utf-8").splitlines()[int(line) - 1]
+
+
+def test_what_is_offered_and_not_shown_does_not_count(folder: Path) -> None:
+    found = of(covered(folder, "asdf qwer"), "alternatives of answer_questions.rules")
+    assert sum(name.split(": ")[1].startswith("QUESTION") for name in found) == 1
+
+
+def test_rules_of_questions_are_those_of_the_chosen_reading(folder: Path) -> None:
+    found = of(covered(folder, "Why did you change lanes?"), "rules of question.lark")
+    names = {name.rpartition(" ")[2] for name in found}
+    assert {"why", "said"} <= names
+    assert not names & {"why_not", "what_if", "more"}
+
+
+def test_inlined_rules_count(folder: Path) -> None:
+    found = of(covered(folder, "Why did you change lanes?"), "rules of question.lark")
+    assert any(name.endswith(": _aux") for name in found)
+
+
+def test_the_table_says_what_is_missing() -> None:
+    one, other = Item("reasons", "busy"), Item("reasons", "ambiguous")
+    table = Coverage({one: 0, other: 3}).table()
+    assert "1 of    2" in table
+    assert table.endswith("not exercised:\n  reasons: busy")
+    assert Coverage({other: 3}).missing == ()
+
+
+def test_the_command_fails_while_something_is_missing(folder: Path) -> None:
+    covered(folder, "Hello!")
+    done = CliRunner().invoke(app, ["transcripts", "--coverage", "--folder", str(folder)])
+    assert done.exit_code == 1
+    assert "  reasons: busy\n" in done.output
+    assert "reasons: smalltalk" not in done.output
