@@ -47,9 +47,9 @@ def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
         fields["hypothesised_cause"] = actor(cause)
         if "WHY" in terminals(tree):
             fields["event"] = INFLUENCE
-    elif because and (said := first(because, "said")) and (name := clause(said).actor):
-        if name != "ego":  # "because vehicle 1 slowed down"
-            fields["hypothesised_cause"] = name
+    elif because and (said := first(because, "said")):  # "because vehicle 1 slowed down"
+        name = clause(said).actor
+        fields["hypothesised_cause"] = None if name == "ego" else name
     if "INVOLVED" in terminals(tree):
         named = [name for c in children(tree, "actor") if (name := actor(c)) != "vehicle:it"]
         return {"event": INFLUENCE, "hypothesised_cause": named[-1] if named else "vehicle:it"}
