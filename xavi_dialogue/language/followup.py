@@ -113,7 +113,8 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if reading.heading is not None:
         return _turned(reading.heading, previous)
     if query.factual:
-        return _with_actions(previous, query.factual)
+        asked = _with_actions(previous, query.factual)
+        return _refer(asked, actor=query.actor) if reading.named_actor else asked
     if query.time and not reading.named_actor:
         now = query.tense if reading.tensed else previous.tense  # "after that" goes on from there
         return _refer(previous, time=query.time, tense=now)

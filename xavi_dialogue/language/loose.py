@@ -61,9 +61,17 @@ def _misleads(rule: str, parts: list[Tree]) -> bool:
     if rule == "compare":
         return "unsaid" in kinds
     if rule == "replace":
-        return any(part.data == "given" and "because" in part.children for part in parts)
+        laid = any(part.data == "given" and "because" in part.children for part in parts)
+        return laid or any(_is_whole(part) for part in parts)
     given = [clause.data for part in parts if part.data == "given" for clause in _trees(part)]
     return rule == "why_not" and "said" in kinds and bool({"denied", "unsaid"} & set(given))
+
+
+def _is_whole(part: Tree) -> bool:
+    """Whether a clause says of a vehicle what it does, did or will do: that replaces nothing."""
+    pieces = [child.data for child in _trees(part)]
+    finite = any(isinstance(child, lark.Token) for child in part.children)
+    return part.data == "said" and finite and {"actor", "actions"} <= set(pieces)
 
 
 def _placed(rule: str, parts: list[Tree], seen: frozenset[str]) -> list[Tree]:
