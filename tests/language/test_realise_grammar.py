@@ -41,6 +41,7 @@ STARTS = {
     },
     "answer_refusals": {"REFUSAL", "CHOOSE"},
     "answer_questions": {"QUESTION"},
+    "answer_quiz": {"QUIZ", "VERDICT", "NOTHING"},
 }
 
 
