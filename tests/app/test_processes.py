@@ -227,8 +227,9 @@ class Screen:
             return text in self.seen
 
         found = until(appears)
+        assert found, f"{text!r} is not shown in:\n{self.seen}"
         self.seen = self.seen.partition(text)[2]
-        return found
+        return True
 
 
 def command(pid: int) -> bytes:

@@ -12,6 +12,7 @@ from prompt_toolkit.data_structures import Size
 from prompt_toolkit.input import PipeInput, create_pipe_input
 from prompt_toolkit.output.vt100 import Vt100_Output
 
+from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.terminal import TerminalChat
 from xavi_dialogue.transports.text import clean
 
@@ -34,8 +35,8 @@ class FakeCabin:
     def status(self) -> str:
         return "0:04 status"
 
-    def vehicles(self) -> tuple[str, ...]:
-        return ("vehicle 1: the car ahead",)
+    def vehicles(self) -> str:
+        return "vehicle 1: the car ahead"
 
     def plan(self) -> str:
         return "I plan to go on."
@@ -48,6 +49,22 @@ class FakeCabin:
         if text.startswith("slow"):
             await self.answered.wait()
         return f"answer to {text}"
+
+    async def why(self) -> str:
+        return f"Why, after {len(self.asked)}?"
+
+    async def history(self) -> str:
+        return "\n".join(f"> {text}" for text in self.asked)
+
+    async def save(self, file: str) -> str:
+        if file == "taken":
+            raise CommandError("There is a file taken already.")
+        self.did.append(f"save {file}")
+        return f"Saved to {file}."
+
+    async def forget(self) -> str:
+        self.did.append("forget")
+        return "Erased."
 
     def cancel(self, request: str) -> None:
         self.did.append("cancel")
@@ -203,8 +220,8 @@ def test_commands() -> None:
 @pytest.mark.parametrize(
     ("line", "problem"),
     [
-        ("/fly", "There is no command /fly."),
-        ("/speed", "/speed takes one number"),
+        ("/fly", "There is no command /fly. The nearest is /why; /help lists all."),
+        ("/speed", "/speed is written /speed X."),
         ("/speed fast", "not 'fast'"),
         ("/speed nan", "not 'nan'"),
     ],

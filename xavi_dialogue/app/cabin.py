@@ -1,16 +1,17 @@
 """What a passenger at a terminal can see and do, over the bus."""
 
 import asyncio
-from collections.abc import Iterable
 from contextlib import suppress
+from datetime import datetime
 
-from planner.trace import Action
 from xavi_dialogue.app import control
 from xavi_dialogue.app.client import Client, ServiceLost, new_request
 from xavi_dialogue.app.convoy import Convoy
+from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import clock, plan_in_words
 from xavi_dialogue.dialogue.referents import vehicle_words
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.commands import forms
 from xavi_dialogue.transports.messages import SceneReport
 
 KMH = 3.6
@@ -19,14 +20,15 @@ PHRASES = (
     *("instead of ", "changing left", "changing right", "turning left", "turning right"),
     *("change left", "change right", "turn left", "turn right", "stop", "slow down", "give way"),
 )
-COMMANDS = ("/help", "/pause", "/resume", "/speed ", "/vehicles", "/plan", "/quit")
+COMMANDS = forms("terminal")
+ALONE = "There is no other vehicle in view."
 
 
 class RemoteCabin:
     """See transports.terminal.Cabin."""
 
-    def __init__(self, behind: Convoy, client: Client) -> None:
-        self._behind, self._client = behind, client
+    def __init__(self, behind: Convoy, client: Client, minutes: Minutes) -> None:
+        self._behind, self._client, self._minutes = behind, client, minutes
 
     def status(self) -> str:
         """One line: time, speed, plan."""
@@ -37,28 +39,20 @@ class RemoteCabin:
         parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan), _state(scene)]
         return "  ·  ".join(filter(None, parts))
 
-    def vehicles(self) -> tuple[str, ...]:
+    def vehicles(self) -> str:
         """The vehicles in view, in words."""
-        scene = self._client.scene
-        if scene is None:
-            return ()
-        return tuple(
-            f"vehicle {name}: {words.description or 'a ' + scene.vehicles[name].kind},"
-            f" {scene.vehicles[name].speed * KMH:.0f} km/h"
-            for name, words in vehicle_words(scene.vehicles).items()
-        )
+        return vehicles_in_words(self._client.scene)
 
     def plan(self) -> str:
         """The plan in words."""
-        scene = self._client.scene
-        plan: Iterable[Action] = () if scene is None else scene.plan
-        return f"I plan to {plan_in_words(plan)}." if plan else "I have no plan yet."
+        return plan_told(self._client.scene)
 
     def words(self) -> tuple[str, ...]:
         """What can be completed to."""
         scene = self._client.scene
         names = () if scene is None else tuple(name for name in scene.vehicles if name != 0)
-        return (*COMMANDS, *(f"vehicle {name}" for name in names), *PHRASES)
+        commands = (f"{form.usage.split()[0]}{' ' if form.takes else ''}" for form in COMMANDS)
+        return (*commands, *(f"vehicle {name}" for name in names), *PHRASES)
 
     async def ask(self, text: str, request: str) -> str:
         """The answer to a question."""
@@ -73,11 +67,25 @@ class RemoteCabin:
             with suppress(RuntimeError):  # the conversation is over
                 loop.call_soon_threadsafe(settle, reply)
 
-        scene = self._client.scene
-        at = None if scene is None else scene.sim_time
-        self._client.send(text, done, at=at, request=request)
+        self._client.send(text, done, at=self._client.now(), request=request)
         reply = await answer
         return f"({reply}.)" if isinstance(reply, ServiceLost) else reply.text
+
+    async def why(self) -> str:
+        """The question why, as it has to be asked now."""
+        return await asyncio.to_thread(self._minutes.why)
+
+    async def history(self) -> str:
+        """What was said in this session."""
+        return await asyncio.to_thread(self._minutes.told)
+
+    async def save(self, file: str) -> str:
+        """Write what was said into a file; see Minutes.save."""
+        return await asyncio.to_thread(self._minutes.save, file, datetime.now().astimezone())
+
+    async def forget(self) -> str:
+        """Erase what was said."""
+        return await asyncio.to_thread(self._minutes.forget)
 
     def cancel(self, request: str) -> None:
         """Drop a question."""
@@ -102,6 +110,25 @@ class RemoteCabin:
     def new_request(self) -> str:
         """A name for a question."""
         return new_request()
+
+
+def vehicles_in_words(scene: SceneReport | None) -> str:
+    """The other vehicles in view, a line each."""
+    if scene is None:
+        return ALONE
+    lines = (
+        f"vehicle {name}: {words.description or 'a ' + scene.vehicles[name].kind},"
+        f" {scene.vehicles[name].speed * KMH:.0f} km/h"
+        for name, words in vehicle_words(scene.vehicles).items()
+    )
+    return "\n".join(lines) or ALONE
+
+
+def plan_told(scene: SceneReport | None) -> str:
+    """What the car is about to do."""
+    if scene is None or not scene.plan:
+        return "I have no plan yet."
+    return f"I plan to {plan_in_words(scene.plan)}."
 
 
 def _state(scene: SceneReport) -> str:

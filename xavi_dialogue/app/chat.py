@@ -2,7 +2,8 @@
 
 import asyncio
 import signal
-from collections.abc import Callable, Iterable
+import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,14 +11,11 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.cabin import RemoteCabin
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.convoy import Convoy, convoy, first_scene
+from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import Narrator
-from xavi_dialogue.dialogue.reply import Reply, encode
+from xavi_dialogue.app.piped import Piped, Write
 from xavi_dialogue.transports.bus import Keys
-from xavi_dialogue.transports.messages import MAX_TEXT, EventReport
-from xavi_dialogue.transports.text import one_line
-from xavi_dialogue.transports.transcript import moment
-
-Write = Callable[[str], None]
+from xavi_dialogue.transports.messages import EventReport
 
 
 @dataclass(frozen=True)
@@ -29,6 +27,11 @@ class Ride:
     seed: int
     session: str
 
+    @property
+    def header(self) -> tuple[tuple[str, str], ...]:
+        """Of transcripts."""
+        return (("scenario", self.name), ("seed", str(self.seed)))
+
 
 def through_pipe(
     ride: Ride, lines: Iterable[str], write: Write, note: Write, *, speed: float, as_json: bool
@@ -37,7 +40,7 @@ def through_pipe(
 
     Args:
         ride: what to drive.
-        lines: questions; "@ 8.0s" moves time, "/quit" ends.
+        lines: questions; "@ 8.0s" moves time, "/quit" ends, "/help" lists the other commands.
         write: takes answers.
         note: takes notes on what goes on.
         speed: simulated seconds per second; 0 is as fast as possible.
@@ -52,21 +55,12 @@ def through_pipe(
         client = Client(behind.bus, Keys(), ride.session)
         first_scene(behind, client)
         scene = behind.drive(client, control.Until(None), halt=True)
-        at = scene.sim_time
-        note(f"asking at {at:.1f} s")
+        note(f"asking at {scene.sim_time:.1f} s")
+        minutes = Minutes(client, ride.session, ride.header)
+        piped = Piped(behind, client, minutes, write, note, as_json, scene, scene.sim_time)
         for raw in lines:
-            line = one_line(raw[:MAX_TEXT])
-            moved = moment(line)
-            if line == "/quit":
+            if not piped.take(raw):
                 return
-            if moved is not None:
-                at = moved
-                if scene.sim_time < at and scene.state != "ended":
-                    scene = behind.drive(client, control.Until(at), halt=True)
-            elif line.startswith("/"):
-                note(f"there is no command {line.split()[0]} without a terminal")
-            elif line:
-                write(_shown(client.ask(line, at), as_json))
 
 
 def at_terminal(ride: Ride, history: Path, *, speed: float) -> None:
@@ -81,9 +75,9 @@ def at_terminal(ride: Ride, history: Path, *, speed: float) -> None:
 
 async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
     # Deferred: a quarter of a second that only a terminal needs.
-    from prompt_toolkit.history import FileHistory
-
+    from xavi_dialogue.transports.screen import Keyboard
     from xavi_dialogue.transports.terminal import TerminalChat
+    from xavi_dialogue.transports.typed import TypedLines
 
     told: list[Write] = []
     narrator = Narrator()
@@ -97,14 +91,13 @@ async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
     client = Client(behind.bus, Keys(), ride.session, on_event)
     await asyncio.to_thread(first_scene, behind, client)
     history.parent.mkdir(parents=True, exist_ok=True)
-    chat = TerminalChat(RemoteCabin(behind, client), FileHistory(str(history)))
+    typed = TypedLines(history)
+    minutes = Minutes(client, ride.session, ride.header, typed.forget)
+    cabin = RemoteCabin(behind, client, minutes)
+    chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
     told.append(chat.tell)
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, chat.end)
     behind.car.order(control.Resume())
     await chat.run()
-
-
-def _shown(reply: Reply, as_json: bool) -> str:
-    return encode(reply) if as_json else reply.text

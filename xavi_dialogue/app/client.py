@@ -7,8 +7,10 @@ import time
 from collections.abc import Callable
 
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.language.context import Style
-from xavi_dialogue.transports.bus import Bus, Keys, Outcome, Refused
+from xavi_dialogue.explain.explanation import NoExplanation
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.context import SpeechContext, Style
+from xavi_dialogue.transports.bus import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
 from xavi_dialogue.transports.messages import (
     MAX_TEXT,
     AskReply,
@@ -16,7 +18,13 @@ from xavi_dialogue.transports.messages import (
     CancelRequest,
     EventReport,
     Failure,
+    ForgetReply,
+    ForgetRequest,
+    HistoryReply,
+    HistoryRequest,
+    M,
     MessageError,
+    PastTurn,
     SceneReport,
     pack,
     unpack,
@@ -25,6 +33,7 @@ from xavi_dialogue.transports.text import clean
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] that a reply may take on its way
+PATIENCE = 3.0  # [s] for what takes no thought
 POLL = 0.1  # [s] between looks at whether waiting still makes sense
 
 
@@ -45,10 +54,24 @@ class Client:
         self.scene: SceneReport | None = None  # the latest
         self._bus, self._keys, self._session = bus, keys, session
         self._changed = threading.Condition()
+        self._latest: EventReport | None = None
         self._on_event = on_event
         bus.subscribe(keys.of("scene"), self._on_scene)
         if on_event is not None:
             bus.subscribe(keys.of("event"), self._on_report, kept=True)
+
+    def now(self) -> float | None:
+        """The moment [s] up to which the passenger has been told of the ride; None before it.
+
+        An event may be told before the scene that follows it is seen. Of a halted car, no such
+        scene can be waited for.
+        """
+        scene, latest = self.scene, self._latest
+        if scene is None:
+            return None
+        if latest is None or latest.ride != scene.ride or scene.state == "paused":
+            return scene.sim_time
+        return max(scene.sim_time, latest.sim_time)
 
     def send(
         self,
@@ -59,7 +82,10 @@ class Client:
         style: Style = "passenger",
         request: str | None = None,
     ) -> None:
-        """Ask; `done` gets the reply, or why there is none, on a thread of the bus."""
+        """Ask; `done` gets the reply, or why there is none, on a thread of the bus.
+
+        A service that says nothing at all within the deadline counts as one that has timed out.
+        """
         asked = AskRequest(
             request=request or new_request(),
             session=self._session,
@@ -69,7 +95,11 @@ class Client:
             at=at,
         )
         key = self._keys.of("@rpc/ask")
-        self._bus.request(key, pack(asked), DEADLINE + GRACE, lambda came: done(_reply(came)))
+
+        def settle(came: Outcome) -> None:
+            done(_late(at, style) if isinstance(came, TooLate) else _reply(came))
+
+        self._bus.request(key, pack(asked), DEADLINE + GRACE, settle)
 
     def ask(self, text: str, at: float | None = None, style: Style = "passenger") -> Reply:
         """Ask and wait for the reply.
@@ -88,6 +118,32 @@ class Client:
         """Tell the service that an answer is no longer wanted."""
         wanted = CancelRequest(request=request, session=self._session)
         self._bus.request(self._keys.of("@rpc/cancel"), pack(wanted), 1.0, lambda _: None)
+
+    def history(self) -> tuple[PastTurn, ...]:
+        """The latest turns of the session, oldest first; waits for them.
+
+        Raises:
+            ServiceLost: they cannot be had.
+        """
+        wanted = pack(HistoryRequest(session=self._session))
+        return self._call("@rpc/history", wanted, HistoryReply).turns
+
+    def forget(self) -> ForgetReply:
+        """Have the session forgotten; waits for what comes of it.
+
+        Raises:
+            ServiceLost: the service does not answer, or refuses.
+        """
+        wanted = pack(ForgetRequest(request=new_request(), session=self._session))
+        return self._call("@rpc/forget", wanted, ForgetReply)
+
+    def _call(self, tail: str, wanted: bytes, kind: type[M]) -> M:
+        try:
+            return unpack(call(self._bus, self._keys.of(tail), wanted, PATIENCE), kind)
+        except MessageError as error:
+            raise ServiceLost(f"the dialogue service sent nonsense: {error}") from error
+        except NoAnswer as error:
+            raise _lost(error) from error
 
     def wait_for(
         self, wanted: Callable[[SceneReport], bool], going_on: Callable[[], None], patience: float
@@ -125,6 +181,7 @@ class Client:
             report = unpack(payload, EventReport)
         except MessageError:
             return
+        self._latest = report
         if self._on_event is not None:
             self._on_event(report)
 
@@ -135,18 +192,30 @@ def new_request() -> str:
 
 
 def _reply(came: Outcome) -> Reply | ServiceLost:
-    match came:
-        case bytes():
-            try:
-                return unpack(came, AskReply).reply()
-            except MessageError as error:
-                return ServiceLost(f"the dialogue service sent nonsense: {error}")
-        case Refused(payload=payload):
-            try:
-                failure = unpack(payload, Failure)
-            except MessageError:
-                return ServiceLost("the dialogue service refused the question")
-            reason = clean(failure.detail) or failure.reason
-            return ServiceLost(f"the dialogue service refused the question: {reason}")
-        case _:
-            return ServiceLost("the dialogue service does not answer")
+    if isinstance(came, NoAnswer):
+        return _lost(came)
+    try:
+        return unpack(came, AskReply).reply()
+    except MessageError as error:
+        return ServiceLost(f"the dialogue service sent nonsense: {error}")
+
+
+def _late(at: float | None, style: Style) -> Reply:
+    """What the service would have said, had it kept to its deadline."""
+    # Deferred: a service that hangs is rare, and sentences take a while to load.
+    from xavi_dialogue.language.refusals import refuse
+
+    refusal = NoExplanation(reason="timed-out")
+    said = refuse(Query(type="what"), refusal, SpeechContext(style=style))
+    return Reply(text=said.text, kind="refusal", reason="timed-out", sim_time=at or 0.0)
+
+
+def _lost(came: NoAnswer) -> ServiceLost:
+    if not isinstance(came, Refused):
+        return ServiceLost("the dialogue service does not answer")
+    try:
+        failure = unpack(came.payload, Failure)
+    except MessageError:
+        return ServiceLost("the dialogue service refused")
+    reason = clean(failure.detail) or failure.reason
+    return ServiceLost(f"the dialogue service refused: {reason}")

@@ -2,38 +2,38 @@
 
 import asyncio
 import contextlib
-import shutil
-import textwrap
-from collections.abc import Awaitable, Callable, Iterable, Iterator
+import contextvars
+import os
+from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
-from prompt_toolkit import PromptSession, print_formatted_text
-from prompt_toolkit.completion import CompleteEvent, Completer, Completion
-from prompt_toolkit.document import Document
+from prompt_toolkit import PromptSession
+from prompt_toolkit.application import get_app_session
 from prompt_toolkit.formatted_text import FormattedText
 from prompt_toolkit.history import History, InMemoryHistory
+from prompt_toolkit.input import Input
 from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
 from prompt_toolkit.patch_stdout import patch_stdout
 
+from xavi_dialogue.transports import commands
+from xavi_dialogue.transports.commands import CommandError
+from xavi_dialogue.transports.completion import Words
+from xavi_dialogue.transports.messages import MAX_TEXT
+from xavi_dialogue.transports.screen import Screen, cut, has_colours
+from xavi_dialogue.transports.text import one_line
+
 PROMPT = "> "
+THINKING = "thinking ... (Ctrl-C gives it up)"
+SURE = "Erase all that was said in this session? [y/N] "
+KEPT = "(nothing is erased)"
 REFRESH = 0.25  # [s] of the status line
 WATCH = 0.5  # [s] between looks at whether all is well
-MAX_WIDTH = 100  # columns of an answer
+NOTICED = 0.2  # [s] after which a passenger who waits is told that there is something to wait for
 WELCOME = "Ask about the ride at any time. /help lists what else there is."
 HINT = "Ctrl-C cancels an answer; Ctrl-D or /quit ends the ride."
-
-HELP = """\
-Ask anything about the ride, such as: Why did you change lanes?
-/pause  /resume     halt the ride, and go on
-/speed X            X simulated seconds per second; 0 is as fast as possible
-/vehicles  /plan    who is there, and what I am about to do
-/help  /quit        this list, and the end (also Ctrl-D)
-Tab completes. Ctrl-C cancels the answer that you wait for."""
-
-
-class CommandError(Exception):
-    """A slash command that does not exist, or is used wrongly."""
+HELP = "Ask anything about the ride, such as: Why did you change lanes?"
+KEYS = "Tab completes. Ctrl-C cancels the answer that you wait for, Ctrl-D ends the ride."
 
 
 class Cabin(Protocol):
@@ -42,7 +42,7 @@ class Cabin(Protocol):
     def status(self) -> str:
         """One line: time, speed, plan."""
 
-    def vehicles(self) -> tuple[str, ...]:
+    def vehicles(self) -> str:
         """The vehicles in view, in words."""
 
     def plan(self) -> str:
@@ -53,6 +53,22 @@ class Cabin(Protocol):
 
     def ask(self, text: str, request: str) -> Awaitable[str]:
         """The answer to a question."""
+
+    def why(self) -> Awaitable[str]:
+        """The question why, as it has to be asked now."""
+
+    def history(self) -> Awaitable[str]:
+        """What was said in this session."""
+
+    def save(self, file: str) -> Awaitable[str]:
+        """Write what was said into a file, a new one if it has no name; say which.
+
+        Raises:
+            CommandError: nothing was said, there is such a file, or it cannot be written.
+        """
+
+    def forget(self) -> Awaitable[str]:
+        """Erase what was said; say how much it was."""
 
     def cancel(self, request: str) -> None: ...
 
@@ -68,40 +84,61 @@ class Cabin(Protocol):
     def new_request(self) -> str: ...
 
 
+_Job: TypeAlias = Callable[[str], Awaitable[str]]  # a request's name; what is to be said
+
+
 @dataclass(frozen=True)
 class _Waiting:
     request: str
-    task: "asyncio.Task[None]"
+    task: "asyncio.Future[str]"
 
 
 class TerminalChat:
     """One conversation at a terminal."""
 
-    def __init__(self, cabin: Cabin, history: History | None = None) -> None:
+    def __init__(
+        self,
+        cabin: Cabin,
+        history: History | None = None,
+        *,
+        keyboard: Input | None = None,
+        colours: bool | None = None,
+    ) -> None:
         self._cabin = cabin
-        self._questions: asyncio.Queue[str] = asyncio.Queue()
+        self._screen = Screen(colours=has_colours(os.environ) if colours is None else colours)
+        self._jobs: asyncio.Queue[_Job] = asyncio.Queue()  # one after another, as typed
         self._waiting: _Waiting | None = None
+        self._thinking = False  # and for so long that it is shown
+        self._confirming = False  # whether to erase the conversation
+        self._over = False
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._context = contextvars.copy_context()
+        self._app_session = get_app_session()
         self._session: PromptSession[str] = PromptSession(
-            PROMPT,
+            self._prompt,
+            input=keyboard,
             history=history or InMemoryHistory(),
-            completer=_Words(cabin.words),
+            completer=Words(cabin.words),
             complete_while_typing=False,
-            bottom_toolbar=self._toolbar,
+            bottom_toolbar=lambda: cut(f" {cabin.status()}", self._screen.columns),
             key_bindings=self._bindings(),
             refresh_interval=REFRESH,
+            color_depth=self._screen.depth,
+            style=self._screen.style,
         )
 
     def tell(self, line: str) -> None:
         """Show a line from any thread; nothing happens before and after the conversation."""
         if self._loop is not None:
             with contextlib.suppress(RuntimeError):  # the loop is closed
-                self._loop.call_soon_threadsafe(_dim, line)
+                self._loop.call_soon_threadsafe(self._screen.dim, line, context=self._context)
 
     def end(self) -> None:
         """End the conversation, from the loop's thread."""
-        if self._session.app.is_running:
-            self._session.app.exit(exception=EOFError)
+        self._over = True
+        app = self._app_session.app
+        if app is not None and app.is_running and not app.is_done:
+            app.exit(exception=EOFError)
 
     async def run(self) -> None:
         """Talk until the passenger, or something that went wrong, ends it.
@@ -110,87 +147,146 @@ class TerminalChat:
             Exception: what `Cabin.check` raised.
         """
         self._loop = asyncio.get_running_loop()
-        tasks = [asyncio.create_task(self._answer_all()), asyncio.create_task(self._watch())]
+        behind = [asyncio.create_task(self._ending(one())) for one in (self._work, self._watch)]
         try:
-            with patch_stdout():
-                _dim(WELCOME)
-                await self._talk(tasks[1])
+            with self._session.input.raw_mode(), patch_stdout():
+                self._screen.dim(WELCOME)
+                await self._talk()
+                for task in behind:
+                    if task.done():
+                        task.result()
         finally:
             self._loop = None
-            for task in tasks:
+            for task in behind:
                 task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            await asyncio.gather(*behind, return_exceptions=True)
 
-    async def _talk(self, watch: "asyncio.Task[None]") -> None:
-        while True:
+    async def _talk(self) -> None:
+        while not self._over:
             try:
-                text = (await self._session.prompt_async()).strip()
+                text = await self._session.prompt_async()
             except EOFError:
-                if watch.done():
-                    watch.result()
                 return
-            if text == "/quit":
+            for line in text.splitlines():  # several where they were pasted
+                if not self._over:
+                    self._take(line)
+
+    def _take(self, line: str) -> None:
+        """Take up a line that was typed: an assent, a command, or a question."""
+        text = one_line(line)
+        if self._confirming:
+            self._confirming = False
+            if text.lower() in ("y", "yes"):
+                self._jobs.put_nowait(lambda _: self._forget())
                 return
-            try:
-                if text.startswith("/"):
-                    self._command(text)
-                elif text:
-                    self._questions.put_nowait(text)
-            except CommandError as error:
-                _show(str(error))
+            self._screen.dim(KEPT)
+            if text.lower() in ("n", "no"):
+                return
+        try:
+            if text.startswith("/"):
+                self._command(commands.read(text, "terminal"))
+            elif text:
+                self._ask(text)
+        except CommandError as error:
+            self._screen.tell(str(error))
 
-    def _command(self, text: str) -> None:
-        match text.split():
-            case ["/help"]:
-                _show(HELP)
-            case ["/pause"]:
-                self._cabin.pause()
-            case ["/resume"]:
-                self._cabin.resume()
-            case ["/vehicles"]:
-                _show("\n".join(self._cabin.vehicles()) or "There is no other vehicle in view.")
-            case ["/plan"]:
-                _show(self._cabin.plan())
-            case ["/speed", factor]:
-                self._cabin.speed(_factor(factor))
-            case ["/speed", *_]:
-                raise CommandError("/speed takes one number: /speed 2")
-            case [command, *_]:
-                raise CommandError(f"There is no command {command}. /help lists them.")
+    def _ask(self, text: str) -> None:
+        if len(text) > MAX_TEXT:
+            self._screen.dim(f"(Only the first {MAX_TEXT} characters are asked.)")
+        self._jobs.put_nowait(lambda request: self._cabin.ask(text[:MAX_TEXT], request))
 
-    async def _answer_all(self) -> None:
+    def _command(self, command: commands.Command) -> None:
+        cabin, screen, put = self._cabin, self._screen, self._jobs.put_nowait
+        match command.name:
+            case "quit":
+                self._over = True
+            case "help":
+                screen.tell(HELP)
+                screen.lay_out(commands.listed("terminal", screen.width))
+                screen.tell(KEYS)
+            case "vehicles":
+                screen.tell(cabin.vehicles())
+            case "plan":
+                screen.tell(cabin.plan())
+            case "pause":
+                cabin.pause()
+            case "resume":
+                cabin.resume()
+            case "speed":
+                cabin.speed(commands.factor(command.argument))
+            case "why":
+                put(self._why)
+            case "more":
+                put(lambda request: cabin.ask(commands.MORE, request))
+            case "history":
+                put(lambda _: cabin.history())
+            case "save":
+                put(lambda _: cabin.save(command.argument))
+            case "forget":
+                self._confirming = True
+
+    async def _why(self, request: str) -> str:
+        return await self._cabin.ask(await self._cabin.why(), request)
+
+    async def _forget(self) -> str:
+        told = await self._cabin.forget()
+        buffer = self._session.default_buffer
+        buffer.reset(buffer.document)  # the lines typed before are read again
+        return told
+
+    async def _work(self) -> None:
+        """Do one job after another."""
         while True:
-            text = await self._questions.get()
+            job = await self._jobs.get()
             request = self._cabin.new_request()
-            task = asyncio.create_task(self._answer(text, request))
+            task = asyncio.ensure_future(job(request))
             self._waiting = _Waiting(request, task)
+            notice = asyncio.get_running_loop().call_later(NOTICED, self._notice)
             await asyncio.wait([task])
-            self._waiting = None
+            notice.cancel()
+            self._waiting, self._thinking = None, False
+            if not task.cancelled():
+                self._tell_outcome(task)
+            self._session.app.invalidate()
 
-    async def _answer(self, text: str, request: str) -> None:
-        _say(await self._cabin.ask(text, request))
+    def _tell_outcome(self, task: "asyncio.Future[str]") -> None:
+        try:
+            self._screen.say(task.result())
+        except CommandError as error:
+            self._screen.tell(str(error))
+
+    def _notice(self) -> None:
+        self._thinking = True
+        self._session.app.invalidate()
 
     async def _watch(self) -> None:
-        """End the conversation when what it rests on is gone."""
+        """Make sure that what the conversation rests on is there."""
         while True:
             await asyncio.sleep(WATCH)
-            try:
-                self._cabin.check()
-            except Exception:
-                self.end()
-                raise
+            self._cabin.check()
+
+    async def _ending(self, work: Coroutine[None, None, None]) -> None:
+        """End the conversation when something goes wrong."""
+        try:
+            await work
+        except Exception:
+            self.end()
+            raise
 
     def _interrupt(self) -> None:
         """Ctrl-C: the answer that is waited for, else what is typed, else a hint."""
         waiting, buffer = self._waiting, self._session.default_buffer
-        if waiting is not None:
+        if self._confirming:
+            self._confirming = False
+            self._screen.dim(KEPT)
+        elif waiting is not None:
             self._cabin.cancel(waiting.request)
             waiting.task.cancel()
-            _dim("(cancelled)")
+            self._screen.dim("(cancelled)")
         elif buffer.text:
             buffer.reset()
         else:
-            _dim(HINT)
+            self._screen.dim(HINT)
 
     def _bindings(self) -> KeyBindings:
         bindings = KeyBindings()
@@ -202,58 +298,9 @@ class TerminalChat:
 
         return bindings
 
-    def _toolbar(self) -> str:
-        thinking = "  ·  thinking" if self._waiting is not None else ""
-        return f" {self._cabin.status()}{thinking}"
-
-
-class _Words(Completer):
-    """Completes the last words of the line to what the live scene offers."""
-
-    def __init__(self, words: Callable[[], tuple[str, ...]]) -> None:
-        self._words = words
-
-    def get_completions(self, document: Document, _: CompleteEvent) -> Iterable[Completion]:
-        """See Completer."""
-        line = document.text_before_cursor.lstrip()
-        for word in self._words():
-            for typed in _tails(line):
-                if word.lower().startswith(typed.lower()) and word.lower() != typed.lower():
-                    yield Completion(word, start_position=-len(typed))
-                    break
-
-
-def _tails(line: str) -> Iterator[str]:
-    """The last words of the line, from all of them to one."""
-    words = line.split(" ")
-    for first in range(len(words)):
-        tail = " ".join(words[first:])
-        if tail:
-            yield tail
-
-
-def _factor(text: str) -> float:
-    try:
-        factor = float(text)
-    except ValueError:
-        factor = -1.0
-    if not 0.0 <= factor <= 1000.0:
-        raise CommandError(f"/speed takes a number from 0 to 1000, not {text!r}.")
-    return factor
-
-
-def _wrap(text: str) -> str:
-    width = min(shutil.get_terminal_size().columns, MAX_WIDTH)
-    return "\n".join(textwrap.fill(line, width) for line in text.splitlines())
-
-
-def _say(text: str) -> None:
-    print_formatted_text(_wrap(text) + "\n")
-
-
-def _show(text: str) -> None:
-    print_formatted_text(text)
-
-
-def _dim(text: str) -> None:
-    print_formatted_text(FormattedText([("fg:ansibrightblack", text)]))
+    def _prompt(self) -> FormattedText:
+        """What stands before what is typed; above it, for as long as it lasts, what goes on."""
+        prompt = SURE if self._confirming else PROMPT
+        if self._thinking and not self._session.app.is_done:
+            return FormattedText([(self._screen.faint, f"{THINKING}\n"), ("", prompt)])
+        return FormattedText([("", prompt)])

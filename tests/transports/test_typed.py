@@ -1,0 +1,36 @@
+"""The lines that a passenger typed, and how they are forgotten."""
+
+from pathlib import Path
+
+from xavi_dialogue.transports.typed import TypedLines
+
+
+def lines(file: Path) -> list[str]:
+    return [*TypedLines(file).load_history_strings()][::-1]
+
+
+def test_what_is_typed_is_there_again_for_its_owner_alone(tmp_path: Path) -> None:
+    file = tmp_path / "history"
+    TypedLines(file).append_string("Why?")
+    TypedLines(file).append_string("a\nb")
+    assert lines(file) == ["Why?", "a\nb"]
+    assert file.stat().st_mode & 0o077 == 0
+
+
+def test_forgetting_erases_what_was_typed_here_and_the_questions_typed_before(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "history"
+    before = TypedLines(file)
+    for line in ("Where  are we?", "Who is that?", "one\nWhere are we?"):
+        before.append_string(line)
+    now = TypedLines(file)
+    now.append_string("/plan")
+    now.forget(["Where are we?"])
+    assert lines(file) == ["Who is that?"]
+    assert "Where" not in file.read_text()
+    assert now.get_strings() == ["Who is that?"]
+    assert [path.name for path in tmp_path.iterdir()] == ["history"]
+    assert file.stat().st_mode & 0o077 == 0
+    now.append_string("Why?")
+    assert lines(file) == ["Who is that?", "Why?"]

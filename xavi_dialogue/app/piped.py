@@ -1,0 +1,102 @@
+"""The chat without a terminal: one line in, one answer out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TypeAlias
+
+from xavi_dialogue.app import control
+from xavi_dialogue.app.cabin import plan_told, vehicles_in_words
+from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.convoy import Convoy
+from xavi_dialogue.app.minutes import Minutes
+from xavi_dialogue.dialogue.reply import encode
+from xavi_dialogue.transports import commands
+from xavi_dialogue.transports.commands import Command, CommandError
+from xavi_dialogue.transports.messages import MAX_TEXT, SceneReport
+from xavi_dialogue.transports.text import one_line
+from xavi_dialogue.transports.transcript import moment
+
+Write: TypeAlias = Callable[[str], None]
+WIDTH = 100  # columns of what /help lists
+HELP = (
+    "A line is a question, a moment that moves time such as @ 8.0s, or one of these commands.\n"
+    "Answers go to the standard output; with --json nothing else does."
+)
+
+
+@dataclass
+class Piped:
+    """A conversation line by line about a ride that halts between questions."""
+
+    behind: Convoy
+    client: Client
+    minutes: Minutes
+    write: Write  # takes answers
+    note: Write  # takes what is none
+    as_json: bool  # write replies as JSON
+    scene: SceneReport  # where the ride has halted
+    at: float  # [s] what questions are about
+
+    def take(self, raw: str) -> bool:
+        """Take a line; whether to go on.
+
+        Raises:
+            ChildFailed: car or service ended.
+            ServiceLost: a question was not answered.
+        """
+        line = one_line(raw)
+        moved = moment(line)
+        if moved is not None:
+            self._move(moved)
+        elif line.startswith("/"):
+            try:
+                return self._obey(commands.read(line, "pipe"))
+            except CommandError as error:
+                self.note(str(error))
+        elif line:
+            self._ask(line)
+        return True
+
+    def _move(self, at: float) -> None:
+        self.at = at
+        if self.scene.sim_time < at and self.scene.state != "ended":
+            self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
+
+    def _ask(self, text: str) -> None:
+        if len(text) > MAX_TEXT:
+            self.note(f"only the first {MAX_TEXT} characters of a question are asked")
+        reply = self.client.ask(text[:MAX_TEXT], self.at)
+        self.write(encode(reply) if self.as_json else reply.text)
+
+    def _obey(self, command: Command) -> bool:
+        match command.name:
+            case "quit":
+                return False
+            case "help":
+                self._tell(f"{HELP}\n{commands.listed('pipe', WIDTH)}")
+            case "why":
+                self._ask(self.minutes.why())
+            case "more":
+                self._ask(commands.MORE)
+            case "vehicles":
+                self._tell_now(vehicles_in_words(self.scene))
+            case "plan":
+                self._tell_now(plan_told(self.scene))
+            case "history":
+                self._tell(self.minutes.told())
+            case "save":
+                self.note(self.minutes.save(command.argument, datetime.now().astimezone()))
+            case "forget":
+                self.note(self.minutes.forget())
+        return True
+
+    def _tell_now(self, text: str) -> None:
+        """Tell what is known of the latest moment alone."""
+        if self.at < self.scene.sim_time:
+            self.note(f"this is how it is at {self.scene.sim_time:.1f} s")
+        self._tell(text)
+
+    def _tell(self, text: str) -> None:
+        """What was asked for and is no answer: JSON lines hold answers alone."""
+        (self.note if self.as_json else self.write)(text)

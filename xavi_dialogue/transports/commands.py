@@ -1,0 +1,117 @@
+"""Slash commands: what a passenger may write besides questions, read and listed."""
+
+import difflib
+import textwrap
+import tomllib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Literal, TypeAlias
+
+Place: TypeAlias = Literal["terminal", "pipe"]
+MIN_TWO_COLUMNS = 60  # columns of a terminal on which usage and meaning stand side by side
+MAX_SPEED = 1000.0  # simulated seconds per second
+
+WHY = "Why?"  # of what was said last
+WHY_DONE = "Why did you do that?"  # of what was done last
+MORE = "Tell me more."
+
+
+class CommandError(Exception):
+    """A command that does not exist, is used wrongly, or cannot be carried out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """How a command is written."""
+
+    name: str
+    does: str
+    takes: str = ""  # "X"; "[FILE]" where it may be left out; empty: nothing
+    terminal: bool = False  # needs one
+
+    @property
+    def usage(self) -> str:
+        """Such as "/speed X"."""
+        return f"/{self.name} {self.takes}".rstrip()
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """One command as given."""
+
+    name: str
+    argument: str = ""
+
+
+def forms(place: Place) -> tuple[Form, ...]:
+    """The commands that work in a place."""
+    return tuple(form for form in _forms().values() if place == "terminal" or not form.terminal)
+
+
+def read(line: str, place: Place) -> Command:
+    """The command in a line that begins with a slash.
+
+    Raises:
+        CommandError: there is no such command, not in this place, or not with this argument.
+    """
+    word, _, argument = line.strip().removeprefix("/").partition(" ")
+    name, argument = word.lower(), argument.strip()
+    form = _forms().get(name)
+    if form is None:
+        raise CommandError(
+            f"There is no command /{word}. The nearest is /{_nearest(name, forms(place))};"
+            " /help lists all."
+        )
+    if form.terminal and place != "terminal":
+        raise CommandError(f"/{name} needs a terminal. /help lists what works without one.")
+    if argument and not form.takes:
+        raise CommandError(f"/{name} takes nothing after it.")
+    if not argument and form.takes and not form.takes.startswith("["):
+        raise CommandError(f"/{name} is written {form.usage}. /help says more.")
+    return Command(name, argument)
+
+
+def factor(argument: str) -> float:
+    """What /speed takes: simulated seconds per second.
+
+    Raises:
+        CommandError: it is no number from 0 to 1000.
+    """
+    try:
+        number = float(argument)
+    except ValueError:
+        number = -1.0
+    if not 0.0 <= number <= MAX_SPEED:
+        raise CommandError(f"/speed takes one number from 0 to {MAX_SPEED:g}, not {argument!r}.")
+    return number
+
+
+def listed(place: Place, width: int) -> str:
+    """The commands, in lines of at most `width` columns."""
+    usages = {form.usage: form.does for form in forms(place)}
+    column = max(map(len, usages)) + 2
+    lines = []
+    for usage, does in usages.items():
+        if width >= MIN_TWO_COLUMNS:
+            hanging, first = " " * column, f"{usage:{column}}"
+        else:
+            lines.append(usage)
+            hanging = first = "  "
+        lines.append(textwrap.fill(does, width, initial_indent=first, subsequent_indent=hanging))
+    return "\n".join(lines)
+
+
+def _nearest(name: str, among: Iterable[Form]) -> str:
+    """The command that begins alike, else the one that is written most alike."""
+    names = [form.name for form in among]
+    alike = difflib.get_close_matches(name, names, n=1, cutoff=0.0)
+    begun = [known for known in names if name and known.startswith(name)]
+    return (begun or alike)[0]
+
+
+@cache
+def _forms() -> Mapping[str, Form]:
+    text = files("grammars").joinpath("commands.toml").read_text(encoding="utf-8")
+    return {entry["name"]: Form(**entry) for entry in tomllib.loads(text)["command"]}

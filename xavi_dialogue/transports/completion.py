@@ -1,0 +1,31 @@
+"""What the Tab key completes to."""
+
+from collections.abc import Callable, Iterable, Iterator
+
+from prompt_toolkit.completion import CompleteEvent, Completer, Completion
+from prompt_toolkit.document import Document
+
+
+class Words(Completer):
+    """Completes the last words of the line to what the live scene offers."""
+
+    def __init__(self, words: Callable[[], tuple[str, ...]]) -> None:
+        self._words = words
+
+    def get_completions(self, document: Document, _: CompleteEvent) -> Iterable[Completion]:
+        """See Completer."""
+        line = document.text_before_cursor.lstrip()
+        for word in self._words():
+            for typed in _tails(line):
+                if word.lower().startswith(typed.lower()) and word.lower() != typed.lower():
+                    yield Completion(word, start_position=-len(typed))
+                    break
+
+
+def _tails(line: str) -> Iterator[str]:
+    """The last words of the line, from all of them to one."""
+    words = line.split(" ")
+    for first in range(len(words)):
+        tail = " ".join(words[first:])
+        if tail:
+            yield tail
