@@ -13,7 +13,7 @@ from xavi_dialogue.explain.explanation import Cause, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryAction
 
 WHICH = "which"  # the event of "which car?"
-#: Beneath the evidence there are no further reasons.
+#: Beneath the evidence, and what the road allows, there are no further reasons.
 BOTTOM = NoExplanation(reason="out-of-scope", facts={"what": "deeper"})
 
 _REASONED = frozenset({"why", "why_not", "what_if", "compare", "how_avoid", "sensitivity"})
@@ -27,8 +27,11 @@ def deeper(last: Turn, query: Query) -> Query | None:
         query: the bare "why?" as the words alone are understood.
     """
     before, found = last.query, last.reply.explanation
-    if before is None or found is None:
-        return msgspec.structs.replace(query, detail=None)
+    if before is None:
+        return query
+    if found is None:
+        right = last.leans is not None and last.reply.reason == "did-not-happen"
+        return msgspec.structs.replace(query, detail=None) if right else None
     if before.type not in (*_REASONED, "how"):
         return query
     if before.actor == "ego" and before.type in _REASONED:

@@ -151,7 +151,13 @@ def reply_of(
 
 
 def _corrected(query: Query, why: NoExplanation) -> Query | None:
-    """What a follow-up leans on after a wrong premise was put right: on what did happen."""
+    """What a follow-up leans on after a refusal.
+
+    Where a wrong premise was put right, on what did happen; where the foil was declined, on the
+    question without it.
+    """
+    if why.reason in ("not-applicable", "too-little-evidence", "effect-too-small"):
+        return msgspec.structs.replace(query, counterfactual=None, negated=False)
     happened = why.facts.get("happened")
     if why.reason != "did-not-happen" or not isinstance(happened, tuple) or not happened:
         return None

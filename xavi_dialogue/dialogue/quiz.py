@@ -142,7 +142,8 @@ def _deed(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None
         first = said.deeds[0]
         if "speed-up" in first or "slow-down" in first:
             return _right(bool(quiz.same) and quiz.sooner is ("speed-up" in first))
-        return _right(bool(ours & set(first)))
+        quicker = said.sooner is not None and bool(quiz.same) and said.sooner is quiz.sooner
+        return _right(quicker or bool(ours & set(first)))  # "gone faster"
     if said.same is not None:
         if said.same or quiz.same:
             return _right(said.same is quiz.same)

@@ -14,11 +14,12 @@ from xavi_dialogue.explain.explanation import NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.language.followup import AGAIN
-from xavi_dialogue.language.questions import questions
+from xavi_dialogue.language.questions import question, questions
 from xavi_dialogue.language.refusals import (
     MAX_CHOICES,
     realise_clarification,
     realise_not_understood,
+    realise_smalltalk,
 )
 
 
@@ -37,7 +38,7 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
-        return _ask_back(now, parsed.cause, parsed.readings[:MAX_CHOICES])
+        return _ask_back(now, parsed.cause, parsed.readings)
     if parsed.type == "smalltalk" and parsed.event == "quiz":
         return Understood(text, parsed, "quiz")
     found = _in_conversation(now, parsed)
@@ -45,10 +46,11 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
 
 
 def _ask_back(now: Situation, cause: str, readings: tuple[Query, ...]) -> Said:
-    utterance = realise_not_understood(cause, inviting(now, speech(now)), readings)
+    offered = _told_apart(readings)
+    utterance = realise_not_understood(cause, inviting(now, speech(now)), offered)
     reason: Reason = "ambiguous" if utterance.choices else "not-understood"
     reply = reply_of(now.record, utterance, reason)
-    return Said(None, reply, choices=readings if utterance.choices else ())
+    return Said(None, reply, choices=offered if utterance.choices else ())
 
 
 def _in_conversation(now: Situation, query: Query) -> Query | Said:
@@ -61,12 +63,29 @@ def _in_conversation(now: Situation, query: Query) -> Query | Said:
         query = msgspec.structs.replace(query, event=None)
     if last is None:
         return query
+    if last.reply.reason is not None and _doubts(query, last):
+        return _insist(now, query)
     if again:
         found = deeper(last, query)
         return refuse(now, query, BOTTOM) if found is None else found
     if query.type == "how" and query.refers_to_previous and query.actor == "ego":
         return evidence_for(last) or query
+    if query.type == "when" and query.tense == "future" and not (query.factual or query.event):
+        return msgspec.structs.replace(query, actor="ego")  # "how long will this take?"
     return query
+
+
+def _doubts(query: Query, last: Turn) -> bool:
+    """Whether it is asked if we are sure of what we declined to answer."""
+    asked = last.query if last.leans is None else last.leans
+    same = asked is not None and (query.factual, query.actor) == (asked.factual, asked.actor)
+    return query.type == "confidence" and query.refers_to_previous and same
+
+
+def _insist(now: Situation, query: Query) -> Said:
+    """Say that what was declined stands."""
+    utterance = realise_smalltalk("insist", inviting(now, speech(now)))
+    return Said(query, reply_of(now.record, utterance, None, query))
 
 
 def _refer(now: Situation, query: Query) -> Understood | Said:
@@ -92,10 +111,18 @@ def _refer(now: Situation, query: Query) -> Understood | Said:
     meant = tuple(msgspec.structs.replace(query, actor=f"{PREFIX}{name}") for name in found)
     if len(meant) == 1:
         return Understood(text, meant[0])
-    offered = meant[:MAX_CHOICES]
+    offered = _told_apart(meant)
+    if len(offered) < 2:
+        return _ask_back(now, "ambiguous", ())
     utterance = realise_clarification(questions(offered, MAX_CHOICES), speech(now))
     reply = reply_of(record, utterance, "ambiguous", query)
     return Said(query, reply, choices=offered)
+
+
+def _told_apart(meant: tuple[Query, ...]) -> tuple[Query, ...]:
+    """The readings that can be offered: those whose wordings differ, and not too many."""
+    by_wording = {question(query): query for query in reversed(meant)}
+    return tuple(query for query in meant if query in by_wording.values())[:MAX_CHOICES]
 
 
 def _scenes(query: Query, record: Record) -> tuple[Vehicles, ...]:
