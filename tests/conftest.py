@@ -1,5 +1,6 @@
 """What all tests share: one deterministic Hypothesis profile, and where the repository lies."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,3 +17,12 @@ ROOT = Path(__file__).parents[1]
 def root() -> Path:
     """The repository's top folder."""
     return ROOT
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nobody_s_own_files(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep what tests, and the processes that they start, write about the user to themselves."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("XDG_DATA_HOME", "XDG_STATE_HOME"):
+            patch.setenv(name, str(tmp_path_factory.mktemp(name.lower())))
+        yield

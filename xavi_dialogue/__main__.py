@@ -17,6 +17,7 @@ from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
 from xavi_dialogue.app.reproduce.command import command as reproduce
+from xavi_dialogue.app.sessions_commands import KEEP_DAYS, KeepDays, StoreFile, add, keeping_in
 
 if TYPE_CHECKING:
     from sim.scenario import Scenario
@@ -31,8 +32,8 @@ app = typer.Typer(
 )
 
 
-def _session_name(name: str) -> str:
-    if not re.fullmatch(r"[A-Za-z0-9_.-]{1,64}", name):
+def _session_name(name: str | None) -> str | None:
+    if name is not None and not re.fullmatch(r"[A-Za-z0-9_.-]{1,64}", name):
         raise typer.BadParameter("a name has 1 to 64 letters, digits, dots, dashes, underscores")
     return name
 
@@ -46,7 +47,12 @@ ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a fold
 Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
-SessionName = Annotated[str, typer.Option(callback=_session_name, help="Name of the conversation.")]
+SessionName = Annotated[
+    str | None,
+    typer.Option(
+        callback=_session_name, help="A conversation to begin or go on with. Default: a new one."
+    ),
+]
 SpeedFactor = Annotated[
     float | None,
     typer.Option(min=0.0, max=1000.0, help="Simulated seconds per second; 0: as fast as possible."),
@@ -55,20 +61,36 @@ SpeedFactor = Annotated[
 
 @app.command()
 def chat(
-    scenario: ScenarioName = "s1",
+    scenario: Annotated[
+        str | None, typer.Option("--scenario", help="A name, or a folder. Default: s1.")
+    ] = None,
     seed: Seed = None,
     speed: SpeedFactor = None,
-    session: SessionName = "passenger",
+    session: SessionName = None,
     as_json: AsJson = False,
+    store: StoreFile = None,
+    keep_days: KeepDays = KEEP_DAYS,
 ) -> None:
     """Ride and talk."""
+    from datetime import datetime
+    from secrets import token_hex
+
+    from xavi_dialogue.app import going_on
     from xavi_dialogue.app.chat import Ride, at_terminal, through_pipe
 
     with _errors():
-        loaded = _load(scenario)
-        ride = Ride(str(loaded.folder), loaded.name, _seed(seed, loaded), session)
+        keeping = keeping_in(store, keep_days)
+        going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+        if session is not None:
+            going = going_on.find(keeping, session)
+        loaded = _load(going.place(scenario))
+        seed = going.seed(seed, loaded)
+        at = going.moment(loaded, seed)
+        _note(going.note(at, keeping))
+        ride = Ride(str(loaded.folder), loaded.name, seed, going.session, keeping, at)
         if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
-            at_terminal(ride, _history_file(), speed=1.0 if speed is None else speed)
+            pace = 1.0 if speed is None else speed
+            at_terminal(ride, _history_file(), _note, speed=pace)
         else:
             through_pipe(ride, _lines(), _write, _note, speed=speed or 0.0, as_json=as_json)
 
@@ -149,14 +171,18 @@ def drive(
 @app.command()
 def serve(
     listen: Annotated[str, typer.Option(help="Endpoint.")] = "tcp/127.0.0.1:7447",
+    store: StoreFile = None,
+    keep_days: KeepDays = KEEP_DAYS,
     control: Control = False,
 ) -> None:
     """Run the dialogue service, and the hub that the others join."""
     from xavi_dialogue.app.hub import serve
+    from xavi_dialogue.app.memory import Memory
 
     with _errors():
         _note(f"serving at {listen}")
-        serve(listen, controlled=control)
+        memory = Memory(keeping_in(store, keep_days), lambda text: _note(f"warning: {text}"))
+        serve(listen, memory, controlled=control)
 
 
 @app.command()
@@ -295,6 +321,9 @@ def _write(text: str) -> None:
 
 def _note(text: str) -> None:
     print(f"xavi: {text}", file=sys.stderr, flush=True)
+
+
+add(app, _errors, _write)
 
 
 def main() -> NoReturn:

@@ -150,7 +150,8 @@ def test_what_looks_wrong_in_a_scenario_is_told_once(
     monkeypatch.setattr(chat, "through_pipe", lambda *_, **__: None)
     done = xavi(*arguments)
     assert done.exit_code == 0
-    assert done.stderr.splitlines() == ["xavi: warning: a road ends"] * told
+    warnings = [line for line in done.stderr.splitlines() if "warning" in line]
+    assert warnings == ["xavi: warning: a road ends"] * told
 
 
 @pytest.mark.parametrize(

@@ -1,18 +1,23 @@
 """The service within one process: reports and questions over the in-memory bus."""
 
 import json
+import sqlite3
+import time
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from planner import trace as plan_trace
 from tests.fakes import s1_moments, scripted_mind
 from xavi_dialogue.app.client import Client, ServiceLost
-from xavi_dialogue.app.desk import Answer
+from xavi_dialogue.app.desk import MAX_PAST, Answer
 from xavi_dialogue.app.ledger import InOrder
+from xavi_dialogue.app.memory import Keeping, Memory
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.service import Service
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.bus import (
     Bus,
     BusFailed,
@@ -30,12 +35,15 @@ from xavi_dialogue.transports.messages import (
     CancelReply,
     CancelRequest,
     Failure,
+    ForgetReply,
+    ForgetRequest,
     HistoryReply,
     HistoryRequest,
     WhatIfRequest,
     pack,
     unpack,
 )
+from xavi_dialogue.transports.store import DAY, NewTurn, Store
 
 KEYS = Keys()
 ASK = KEYS.of("@rpc/ask")
@@ -44,9 +52,9 @@ ASK = KEYS.of("@rpc/ask")
 class Bench:
     """A service, a car that reports, and passengers, on one in-memory hub."""
 
-    def __init__(self) -> None:
+    def __init__(self, memory: Memory | None = None) -> None:
         self.hub = MemoryHub()
-        self.service = Service(self.hub.connect(), KEYS, scripted_mind())
+        self.service = Service(self.hub.connect(), KEYS, scripted_mind(), memory)
         self.service.open()
         self.car = self.hub.connect()
         self.passenger: Bus = self.hub.connect()
@@ -54,7 +62,7 @@ class Bench:
     def drive(self, until: float = 7.0, *, appear: bool = True) -> None:
         if appear:
             self.car.appear(KEYS.of("alive/car"))
-        reporter = Reporter(self.car, KEYS)
+        reporter = Reporter(self.car, KEYS, "s1", 4)
         for moment in s1_moments():
             reporter.record(moment)
             reporter.show(moment, "ended" if moment.ending else "driving", 1.0)
@@ -76,6 +84,23 @@ class Bench:
         [came] = self.send(text, **more)
         assert isinstance(came, bytes)
         return unpack(came, AskReply).reply()
+
+    def forget(self, session: str) -> ForgetReply:
+        wanted = ForgetRequest(request="f1", session=session)
+        return unpack(self._call("@rpc/forget", pack(wanted)), ForgetReply)
+
+    def history(self) -> list[str]:
+        """What was asked in the session."""
+        wanted = HistoryRequest(session="ada")
+        reply = unpack(self._call("@rpc/history", pack(wanted)), HistoryReply)
+        return [turn.text for turn in reply.turns]
+
+    def _call(self, rpc: str, wanted: bytes) -> bytes:
+        came: list[bytes] = []
+        self.passenger.request(KEYS.of(rpc), wanted, 1.0, came.append)  # type: ignore[arg-type]
+        self.service.work()
+        [reply] = came
+        return reply
 
 
 @pytest.fixture
@@ -246,15 +271,10 @@ def test_the_history_of_a_session_can_be_read(bench: Bench) -> None:
     bench.drive()
     bench.ask("answer")
     bench.ask("refuse", request="q2")
-    came: list[bytes] = []
-    wanted = pack(HistoryRequest(session="ada"))
-    bench.passenger.request(KEYS.of("@rpc/history"), wanted, 1.0, came.append)  # type: ignore[arg-type]
-    bench.service.work()
-    turns = unpack(came[0], HistoryReply).turns
-    assert [turn.text for turn in turns] == ["answer", "refuse"]
+    assert bench.history() == ["answer", "refuse"]
 
 
-@pytest.mark.parametrize("rpc", ["ask", "history", "cancel"])
+@pytest.mark.parametrize("rpc", ["ask", "history", "forget", "cancel"])
 def test_nonsense_is_refused_with_its_reason(bench: Bench, rpc: str) -> None:
     came: list[object] = []
     bench.passenger.request(KEYS.of(f"@rpc/{rpc}"), b'{"schema": 3}', 1.0, came.append)
@@ -295,7 +315,7 @@ def test_one_name_one_question(bench: Bench) -> None:
 
 def test_the_service_tells_its_schemas(bench: Bench) -> None:
     told = [name for name in MESSAGES if KEYS.of(f"@schema/{name}") in bench.hub.servers]
-    assert {"ask", "reply", "history", "cancel", "whatif", "failure"} <= set(told)
+    assert {"ask", "reply", "history", "forget", "cancel", "whatif", "failure"} <= set(told)
     schema = json.loads(call(bench.passenger, KEYS.of("@schema/ask"), b"", 1.0))
     assert schema["properties"]["schema"] == {"const": "xavi.ask/1"}
 
@@ -304,3 +324,160 @@ def test_a_client_without_a_service_is_told_so(bench: Bench) -> None:
     alone = Client(MemoryHub().connect(), KEYS, "ada")
     with pytest.raises(ServiceLost, match="does not answer"):
         alone.ask("why?")
+
+
+@pytest.fixture
+def kept(tmp_path: Path) -> Keeping:
+    return Keeping(tmp_path / "dialogue.sqlite3", 30)
+
+
+def texts(keeping: Keeping, session: str = "ada") -> list[str]:
+    with Store(keeping.path) as store:
+        return [turn.text for turn in store.turns(session, 200)]
+
+
+def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Keeping) -> None:
+    bench = Bench(Memory(kept))
+    bench.drive()
+    seen: list[list[str]] = []
+    asked = AskRequest(request="q1", session="ada", text="answer")
+    bench.passenger.request(ASK, pack(asked), 1.0, lambda _: seen.append(texts(kept)))
+    bench.service.work()
+    assert seen == [["answer"]]
+
+
+def test_a_conversation_is_resumed_by_another_service(kept: Keeping) -> None:
+    first = Bench(Memory(kept))
+    first.drive()
+    first.ask("answer")
+    later = Bench(Memory(kept))
+    assert later.history() == ["answer"]  # before any car is heard of
+    later.drive()
+    later.ask("refuse")
+    turns = later.service.desk.dialogue.sessions["ada"].turns
+    assert [turn.text for turn in turns] == ["answer", "refuse"]
+    assert texts(kept) == ["answer", "refuse"]
+
+
+def test_a_conversation_goes_on_when_another_ride_begins() -> None:
+    bench = Bench()
+    bench.drive()
+    bench.ask("answer")
+    bench.drive(until=3.0, appear=False)
+    bench.ask("refuse", request="q2")
+    turns = bench.service.desk.dialogue.sessions["ada"].turns
+    assert [turn.text for turn in turns] == ["answer", "refuse"]
+
+
+def test_no_more_is_resumed_than_can_be_used(kept: Keeping) -> None:
+    reply = Reply(text="So.", kind="answer", sim_time=0.0)
+    with Store(kept.path) as store:
+        new = [Turn(text=str(k), query=None, reply=reply) for k in range(MAX_PAST + 5)]
+        store.keep(NewTurn("ada", None, time.time(), turn) for turn in new)
+    bench = Bench(Memory(kept))
+    bench.drive()
+    bench.ask("answer")
+    turns = bench.service.desk.dialogue.sessions["ada"].turns
+    assert [turn.text for turn in turns] == [*map(str, range(5, MAX_PAST + 5)), "answer"]
+
+
+def test_what_happens_is_kept_once_with_how_to_drive_it_again(kept: Keeping) -> None:
+    bench = Bench(Memory(kept))
+    bench.drive()
+    bench.ask("answer")
+    with Store(kept.path) as store:
+        [listed] = store.sessions()
+        lines = [json.loads(line) for line in store.export()]
+    assert (listed.scenario, listed.seed, listed.sim_time) == ("s1", 4, 7.0)
+    happened = [line["event"]["sim_time"] for line in lines if "event" in line]
+    assert happened == [event.sim_time for event in bench.service.desk.dialogue.events]
+    assert happened
+
+
+def test_a_conversation_is_forgotten_on_request(kept: Keeping) -> None:
+    bench = Bench(Memory(kept))
+    bench.drive()
+    bench.ask("answer")
+    bench.ask("answer", request="q2", session="bob")
+    assert bench.forget("ada") == ForgetReply(request="f1", session="ada", turns=1, forgotten=True)
+    assert (texts(kept), texts(kept, "bob")) == ([], ["answer"])
+    assert bench.history() == []
+    bench.ask("refuse", request="q3")
+    assert [turn.text for turn in bench.service.desk.dialogue.sessions["ada"].turns] == ["refuse"]
+    assert bench.forget("eve").turns == 0
+
+
+def test_forgetting_without_a_file_counts_what_was_said() -> None:
+    bench = Bench()
+    bench.drive()
+    bench.ask("answer")
+    told = bench.forget("ada")
+    assert (told.turns, told.forgotten) == (1, True)
+    assert bench.history() == []
+
+
+def test_who_is_forgotten_gets_no_answer_any_more(bench: Bench) -> None:
+    bench.drive()
+    held: list[Call] = []
+    bench.car.serve(KEYS.of("@rpc/whatif"), held.append)
+    came = bench.send("lack")
+    bench.forget("ada")
+    assert [type(one).__mro__[1] for one in came] == [NoAnswer]
+    held[0].reply(plan_trace.encode(bench.service.desk.dialogue.traces[0]))
+    bench.service.work()  # too late, and no harm done
+    assert bench.history() == []
+    assert bench.ask("answer").kind == "answer"
+
+
+def test_where_nothing_can_be_written_the_answer_comes_all_the_same(kept: Keeping) -> None:
+    warnings: list[str] = []
+    bench = Bench(Memory(kept, warnings.append))
+    bench.drive()
+    bench.ask("answer")
+    hog = sqlite3.connect(kept.path, isolation_level=None)
+    hog.execute("BEGIN IMMEDIATE")
+    assert bench.ask("refuse", request="q2").kind == "refusal"
+    assert bench.ask("huh", request="q3").kind == "refusal"
+    [warning] = warnings
+    assert "locked" in warning
+    assert not bench.forget("eve").forgotten
+    hog.execute("ROLLBACK")
+    hog.close()
+    bench.ask("answer", request="q4")
+    assert "again" in warnings[1]
+    assert texts(kept) == ["answer", "refuse", "huh", "answer"]
+
+
+def test_what_was_to_be_forgotten_is_erased_as_soon_as_it_can_be(kept: Keeping) -> None:
+    bench = Bench(Memory(kept))
+    bench.drive()
+    bench.ask("answer")
+    hog = sqlite3.connect(kept.path, isolation_level=None)
+    hog.execute("BEGIN IMMEDIATE")
+    assert bench.forget("ada").turns == 1
+    assert bench.history() == []
+    hog.execute("ROLLBACK")
+    hog.close()
+    assert texts(kept) == ["answer"]
+    bench.ask("refuse", request="q2")
+    assert texts(kept) == ["refuse"]
+
+
+def test_a_file_that_cannot_be_used_is_told_once_and_answers_come(kept: Keeping) -> None:
+    kept.path.write_bytes(b"no database at all" * 100)
+    warnings: list[str] = []
+    bench = Bench(Memory(kept, warnings.append))
+    bench.drive()
+    assert bench.ask("answer").kind == "answer"
+    assert bench.ask("answer", request="q2").kind == "answer"
+    [warning] = warnings
+    assert str(kept.path) in warning
+
+
+def test_what_is_too_old_goes_when_the_service_starts(kept: Keeping) -> None:
+    reply = Reply(text="So.", kind="answer", sim_time=0.0)
+    old = Turn(text="old", query=None, reply=reply)
+    with Store(kept.path) as store:
+        store.keep([NewTurn("ada", None, time.time() - 31 * DAY, old)])
+    Bench(Memory(kept)).service.work()
+    assert texts(kept) == []

@@ -14,6 +14,8 @@ from xavi_dialogue.transports.messages import (
     CancelRequest,
     EventReport,
     Failure,
+    ForgetReply,
+    ForgetRequest,
     Malformed,
     MessageError,
     SceneReport,
@@ -40,6 +42,8 @@ EXAMPLES = (
     CancelRequest(request="q1", session="ada"),
     WhatIfRequest(request="q1", trace_id=TRACE.trace_id, actions=("stop",)),
     Failure(reason="busy"),
+    ForgetRequest(request="q1", session="ada"),
+    ForgetReply(request="q1", session="ada", turns=2, forgotten=True),
     WhatIfRequest(
         request="q2", trace_id="t", vehicle=1, goal="exit-right", vehicle_actions=("exit-right",)
     ),

@@ -11,6 +11,7 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.cabin import RemoteCabin
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.convoy import Convoy, convoy, first_scene
+from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import Narrator
 from xavi_dialogue.app.piped import Piped, Write
@@ -26,6 +27,8 @@ class Ride:
     name: str  # of the scenario
     seed: int
     session: str
+    keeping: Keeping | None = None  # of what is said; None: it is not kept
+    resume: float | None = None  # [s] how far to drive before anything is asked
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
@@ -51,10 +54,13 @@ def through_pipe(
         ServiceLost: a question was not answered.
     """
     note(f"driving {ride.name}, seed {ride.seed}")
-    with convoy(ride.scenario, ride.seed, speed) as behind:
+    warn = _warner(note)
+    with convoy(ride.scenario, ride.seed, speed, ride.keeping, warn) as behind:
         client = Client(behind.bus, Keys(), ride.session)
         first_scene(behind, client)
         scene = behind.drive(client, control.Until(None), halt=True)
+        if ride.resume is not None and scene.sim_time < ride.resume:
+            scene = behind.drive(client, control.Until(ride.resume), halt=True)
         note(f"asking at {scene.sim_time:.1f} s")
         minutes = Minutes(client, ride.session, ride.header)
         piped = Piped(behind, client, minutes, write, note, as_json, scene, scene.sim_time)
@@ -63,23 +69,35 @@ def through_pipe(
                 return
 
 
-def at_terminal(ride: Ride, history: Path, *, speed: float) -> None:
+def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None:
     """Talk at the process's terminal while the car drives.
+
+    Args:
+        ride: what to drive.
+        history: file of what was typed.
+        note: takes notes before the conversation begins.
+        speed: simulated seconds per second; 0 is as fast as possible.
 
     Raises:
         ChildFailed: car or service ended, or did not start.
     """
-    with convoy(ride.scenario, ride.seed, speed) as behind:
-        asyncio.run(_talk(ride, behind, history))
+    told: list[Write] = []
+
+    def warn(text: str) -> None:
+        for tell in tuple(told) or (_warner(note),):
+            tell(text)
+
+    first = speed if ride.resume is None else 0.0
+    with convoy(ride.scenario, ride.seed, first, ride.keeping, warn) as behind:
+        asyncio.run(_talk(ride, behind, history, told, speed))
 
 
-async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
+async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], speed: float) -> None:
     # Deferred: a quarter of a second that only a terminal needs.
     from xavi_dialogue.transports.screen import Keyboard
     from xavi_dialogue.transports.terminal import TerminalChat
     from xavi_dialogue.transports.typed import TypedLines
 
-    told: list[Write] = []
     narrator = Narrator()
 
     def on_event(report: EventReport) -> None:
@@ -90,6 +108,10 @@ async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
 
     client = Client(behind.bus, Keys(), ride.session, on_event)
     await asyncio.to_thread(first_scene, behind, client)
+    if ride.resume is not None:
+        until = control.Until(ride.resume)
+        await asyncio.to_thread(behind.drive, client, until, halt=True)
+        behind.car.order(control.Speed(speed))
     history.parent.mkdir(parents=True, exist_ok=True)
     typed = TypedLines(history)
     minutes = Minutes(client, ride.session, ride.header, typed.forget)
@@ -101,3 +123,7 @@ async def _talk(ride: Ride, behind: Convoy, history: Path) -> None:
         loop.add_signal_handler(number, chat.end)
     behind.car.order(control.Resume())
     await chat.run()
+
+
+def _warner(note: Write) -> Write:
+    return lambda text: note(f"warning: {text}")

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -21,6 +21,7 @@ TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or inst
 REMEMBERED = 20  # lines of a child's standard error
 ORDERLY = 3.0  # [s] that a child may take to end by itself
 FORCED = 1.0  # [s] and after SIGTERM
+WARNING = "xavi: warning: "  # how lines begin that concern the passenger
 
 
 class ChildFailed(Exception):
@@ -30,12 +31,15 @@ class ChildFailed(Exception):
 class Child:
     """One process of ours, started with a command of `xavi`."""
 
-    def __init__(self, name: str, arguments: Sequence[str]) -> None:
+    def __init__(
+        self, name: str, arguments: Sequence[str], warn: Callable[[str], None] | None = None
+    ) -> None:
         """Start the process.
 
         Args:
             name: in messages: "the car".
             arguments: of `xavi`; `--control` is added.
+            warn: gets its warnings, on a thread.
         """
         self.name = name
         self.ordered = 0  # orders given
@@ -52,6 +56,7 @@ class Child:
             errors="replace",
             start_new_session=True,  # the terminal's signals are for the parent
         )
+        self._warn = warn
         self._said: deque[str] = deque(maxlen=REMEMBERED)
         self._ear = threading.Thread(target=self._listen, daemon=True)
         self._ear.start()
@@ -113,7 +118,10 @@ class Child:
     def _listen(self) -> None:
         assert self._process.stderr is not None
         with contextlib.suppress(ValueError):  # closed meanwhile
-            self._said.extend(line.rstrip() for line in self._process.stderr)
+            for line in self._process.stderr:
+                self._said.append(line.rstrip())
+                if self._warn is not None and line.startswith(WARNING):
+                    self._warn(line.removeprefix(WARNING).rstrip())
 
     def __enter__(self) -> Self:
         return self

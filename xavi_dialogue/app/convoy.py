@@ -2,13 +2,14 @@
 
 import socket
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.children import Child, ChildFailed
 from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.transports.bus import HubUnreachable
 from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
@@ -59,14 +60,28 @@ class Convoy:
 
 
 @contextmanager
-def convoy(scenario: str, seed: int, speed: float) -> Iterator[Convoy]:
+def convoy(
+    scenario: str,
+    seed: int,
+    speed: float,
+    keeping: Keeping | None = None,
+    warn: Callable[[str], None] | None = None,
+) -> Iterator[Convoy]:
     """Start service and car, the car waiting for the service; stop them in reverse.
+
+    Args:
+        scenario: name or folder.
+        seed: of the ride.
+        speed: simulated seconds per second; 0 is as fast as possible.
+        keeping: where and how long the service keeps what is said; None: not at all.
+        warn: gets the service's warnings, on a thread.
 
     Raises:
         ChildFailed: one does not come up.
     """
+    ride = ["--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
     with ExitStack() as stack:
-        yield _start(stack, ["--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)])
+        yield _start(stack, ride, _kept(keeping), warn)
 
 
 def first_scene(behind: Convoy, client: Client) -> SceneReport:
@@ -81,12 +96,20 @@ def first_scene(behind: Convoy, client: Client) -> SceneReport:
     return scene
 
 
-def _start(stack: ExitStack, ride: list[str]) -> Convoy:
+def _kept(keeping: Keeping | None) -> list[str]:
+    if keeping is None:
+        return ["--keep-days", "0"]
+    return ["--keep-days", str(keeping.days), "--store", str(keeping.path.absolute())]
+
+
+def _start(
+    stack: ExitStack, ride: list[str], kept: list[str], warn: Callable[[str], None] | None
+) -> Convoy:
     """Both processes and a connection to them, on a port that another process may snatch."""
     for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
         service = stack.enter_context(
-            Child("the dialogue service", ["serve", "--listen", endpoint])
+            Child("the dialogue service", ["serve", "--listen", endpoint, *kept], warn)
         )
         car = stack.enter_context(Child("the car", ["drive", *ride, "--connect", endpoint]))
         try:

@@ -6,7 +6,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
 from typing import TypeAlias
 
@@ -17,6 +16,7 @@ from sim.scenario import Scenario
 from sim.scene import EGO
 from xavi_dialogue.app import control
 from xavi_dialogue.app.car import Car, Pace, serve
+from xavi_dialogue.app.going_on import place_of
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Ending, Moment, clock, network_of, start
@@ -144,12 +144,4 @@ def _company(
     with join(endpoint, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
         planning = Replanner(pool)
         serve(bus, Keys(), planning)
-        yield Reporter(bus, Keys(), _again(scenario), seed), (planning.record,)
-
-
-def _again(scenario: Scenario) -> str | None:
-    """By what the scenario is loaded another time: its name if it is ours, else its folder."""
-    ours = Path(str(files("sim"))) / "scenarios" / scenario.name
-    place = scenario.name if ours.resolve() == scenario.folder.resolve() else str(scenario.folder)
-    # A folder whose name is no text cannot be told.
-    return place if place.isascii() or place.encode(errors="replace").decode() == place else None
+        yield Reporter(bus, Keys(), place_of(scenario), seed), (planning.record,)

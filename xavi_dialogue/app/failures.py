@@ -14,7 +14,9 @@ from xavi_dialogue.app.debug.files import TraceFileError
 from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.parsing import ParseUsageError
+from xavi_dialogue.app.sessions import SessionUsageError
 from xavi_dialogue.transports.bus import BusError
+from xavi_dialogue.transports.database import StoreError
 from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
@@ -23,12 +25,15 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
         (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
-            *(TreeError, QuestionFileError),
+            *(TreeError, QuestionFileError, SessionUsageError),
         ),
         ExitStatus.USAGE,
     ),
     (
-        (SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost, FaultFound),
+        (
+            *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
+            *(FaultFound, StoreError),
+        ),
         ExitStatus.FAILED,
     ),
 )

@@ -6,7 +6,6 @@ same, and warned once; what was missed is made up for as soon as the file can be
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from datetime import datetime
 from pathlib import Path
 
 from planner.events import Event
@@ -15,7 +14,6 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.database import StoreError
 from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
 
-KEEP_DAYS = 30
 PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
 EXPIRED_EVERY = 3600.0  # [s]
@@ -26,7 +24,7 @@ class Keeping:
     """Where and how long what is said is kept."""
 
     path: Path
-    days: int = KEEP_DAYS
+    days: int
 
 
 def default_path() -> Path:
@@ -147,8 +145,3 @@ class Memory:
         if not self._failing:
             self.warn(f"what is said is not kept until this is mended: {error}")
         self._failing = True
-
-
-def fresh_session(now: datetime, salt: str) -> str:
-    """A name for a conversation that nobody named, such as 20261121-164210-3f."""
-    return f"{now:%Y%m%d-%H%M%S}-{salt}"

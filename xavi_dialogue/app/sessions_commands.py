@@ -1,0 +1,119 @@
+"""The commands `xavi sessions` and `xavi forget`; what they need is imported when they run."""
+
+import sys
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import typer
+
+if TYPE_CHECKING:
+    from xavi_dialogue.app.memory import Keeping
+
+Errors: TypeAlias = Callable[[], AbstractContextManager[None]]  # tells what goes wrong
+Write: TypeAlias = Callable[[str], None]
+Command: TypeAlias = Callable[..., None]
+
+StoreFile = Annotated[
+    Path | None,
+    typer.Option("--store", dir_okay=False, help="File of what is kept. Default: the user's."),
+]
+KEEP_DAYS = 30
+KeepDays = Annotated[
+    int,
+    typer.Option(min=0, max=36500, help="Days after which what was said is erased; 0: not kept."),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
+
+def add(app: typer.Typer, errors: Errors, write: Write) -> None:
+    """Add the commands.
+
+    Args:
+        app: gets them.
+        errors: around all that may go wrong.
+        write: prints.
+    """
+    app.command("sessions")(_sessions(errors, write))
+    app.command("forget")(_forget(errors, write))
+
+
+def keeping_in(store: Path | None, days: int) -> "Keeping | None":
+    """Where and how long what is said is kept, if at all."""
+    from xavi_dialogue.app.memory import Keeping
+
+    return Keeping(store_file(store), days) if days else None
+
+
+def store_file(given: Path | None) -> Path:
+    """The file that is given, else the user's."""
+    from xavi_dialogue.app.memory import default_path
+
+    return default_path() if given is None else given
+
+
+def _sessions(errors: Errors, write: Write) -> Command:
+    def sessions(
+        session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
+        export: Annotated[
+            bool, typer.Option("--export", help="Print all that is kept, as lines of JSON.")
+        ] = False,
+        as_json: AsJson = False,
+        store: StoreFile = None,
+    ) -> None:
+        """List the conversations that are kept, or print them."""
+        from datetime import datetime
+
+        import msgspec
+
+        from xavi_dialogue.app import sessions as kept
+
+        with errors():
+            if export:
+                for line in kept.export(store_file(store), session):
+                    write(line)
+                return
+            found = kept.chosen(kept.kept(store_file(store)), session)
+            if as_json:
+                write(msgspec.json.encode(found).decode())
+            else:
+                write(kept.table(found, lambda at: datetime.fromtimestamp(at).astimezone()))
+
+    return sessions
+
+
+def _forget(errors: Errors, write: Write) -> Command:
+    def forget(
+        session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
+        everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
+        older_than: Annotated[
+            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only what is older.")
+        ] = None,
+        yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
+        store: StoreFile = None,
+    ) -> None:
+        """Erase conversations from the disk."""
+        import time
+
+        from xavi_dialogue.app import sessions as kept
+
+        with errors():
+            wanted = kept.Wanted(session, everything, older_than)
+            agreed = _agreed if not yes else lambda _: True
+            write(kept.forget(store_file(store), wanted, time.time(), agreed))
+
+    return forget
+
+
+def _agreed(question: str) -> bool:
+    """What is typed at the terminal.
+
+    Raises:
+        SessionUsageError: there is none.
+    """
+    from xavi_dialogue.app.sessions import SessionUsageError
+
+    if not sys.stdin.isatty():
+        raise SessionUsageError("without a terminal, --yes says that nobody is to be asked")
+    return typer.prompt(f"{question} y/n", err=True).strip().lower() in {"y", "yes"}
