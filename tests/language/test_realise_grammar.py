@@ -38,6 +38,7 @@ STARTS = {
         "FACTOR",
         "UNMOVED",
         "COMPARISON",
+        "AT_TIME",
     },
     "answer_refusals": {"REFUSAL", "CHOOSE"},
     "answer_questions": {"QUESTION"},

@@ -1,10 +1,15 @@
 """Deeds: whether the ego did what a question takes for granted, and what it did instead."""
 
+from typing import TypeAlias
+
 from sim.scene import EGO
 from xavi_dialogue.explain.actions import same
 from xavi_dialogue.explain.explanation import Facts, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Deed, Ride, Unanswered, planned
+from xavi_dialogue.explain.when import distance
+
+Span: TypeAlias = tuple[float, float]  # [s] start and end
 
 #: Descriptions that are read off the recorded speeds and not off the planner's choices.
 DRIVING: tuple[QueryAction, ...] = ("slow-down", "speed-up", "give-way", "stop")
@@ -18,8 +23,45 @@ MANOEUVRES: tuple[QueryAction, ...] = (
 
 
 def happened(ride: Ride, action: QueryAction) -> Deed | None:
-    """The last deed of the ego that may be called by a name."""
-    return next((deed for deed in reversed(ride.deeds) if same(action, deed.action)), None)
+    """The last deed of the ego that may be called by a name; at the time asked about, if any."""
+    return ride.meant(_called(ride, action))
+
+
+def occurrences(ride: Ride, vehicle: int, action: QueryAction) -> tuple[Span, ...]:
+    """All times [s] at which a vehicle did something, oldest first."""
+    seen = [sighting.span for sighting in ride.motion(vehicle).times(action)]
+    if vehicle != EGO:
+        return tuple(seen)
+    deeds = [(d.time, ride.now if d.ended is None else d.ended) for d in _called(ride, action)]
+    if action not in DRIVING:
+        return tuple(deeds)
+    if action == "give-way":
+        seen = [(e.sim_time, e.sim_time) for e in ride.events if e.kind == "gave-way"]
+    if action == "stop":  # who says brake may mean either
+        seen += deeds
+        seen = seen or list(occurrences(ride, EGO, "slow-down"))
+    return tuple(sorted(seen))
+
+
+def _called(ride: Ride, action: QueryAction) -> list[Deed]:
+    return [deed for deed in ride.deeds if same(action, deed.action)]
+
+
+def elsewhere(ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Facts:
+    """Where the question says when: that it was done, but at another time; else nothing.
+
+    Facts: `elsewhere`, with what was done and the time nearest to the one asked about; or, where
+    it was done less often than the question says, how many `times`, and when last.
+    """
+    focus = ride.past
+    done = [(span, action) for action in asked for span in occurrences(ride, vehicle, action)]
+    if focus is None or not done:
+        return {}
+    inside = [span for span, _ in done if focus.meets(*span)]
+    if inside and focus.counted:
+        return {"happened": done[-1][1:], "time": max(inside)[0], "times": len(inside)}
+    (start, _), action = min(done, key=lambda one: (distance(focus, *one[0]), one[0]))
+    return {"happened": (action,), "time": start, "elsewhere": True}
 
 
 def did_not_happen(ride: Ride, asked: tuple[QueryAction, ...]) -> Unanswered:
@@ -29,6 +71,9 @@ def did_not_happen(ride: Ride, asked: tuple[QueryAction, ...]) -> Unanswered:
     means to do it yet, which can then be asked about.
     """
     facts: Facts = {"vehicle": EGO, "asked": asked, "did": False}
+    found = elsewhere(ride, EGO, asked)
+    if found:
+        return Unanswered(NoExplanation(reason="did-not-happen", facts=facts | found))
     facts |= _instead(ride, asked)
     expected = [a for a in asked if a != "give-way"]  # which no plan foresees as such
     if ride.traces and any(same(a, step) for a in expected for step in planned(ride.latest)):

@@ -56,7 +56,7 @@ def directed(query: Query, ride: Ride) -> Query:
 def _present(query: Query, ride: Ride) -> Query:
     """The query in the present, where it asks why not, and the ego has but driven on so far."""
     past = query.type == "why_not" and query.tense == "past" and _ours(query)
-    if not past or query.factual or not query.counterfactual or ride.ended:
+    if not past or query.factual or not query.counterfactual or ride.ended or ride.past:
         return query
     if query.counterfactual[0] in TURNS and query.counterfactual[0] in planned(ride.latest):
         return query  # it is not done yet

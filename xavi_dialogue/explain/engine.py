@@ -1,6 +1,7 @@
 """The engine: a query and the record in; an explanation, a refusal or a request out."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import TypeAlias
 
 from msgspec.structs import replace
@@ -23,9 +24,13 @@ from xavi_dialogue.explain import (
 from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.direction import directed
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
+from xavi_dialogue.explain.premise import premise
 from xavi_dialogue.explain.query import Query, QueryType
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.ride import Ride, Unanswered, decline
+
+#: What is answered with the time that it is about.
+DATED = frozenset[QueryType](("why", "why_not", "what_if", "what", "where_goal"))
 
 Explainer: TypeAlias = Callable[[Query, Ride], Explanation]
 
@@ -64,7 +69,7 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
     """
     try:
         ride = Ride(record)
-        return _checked(query, ride, _explainer(query)(query, ride))
+        return _dated(query, ride, _checked(query, ride, _explainer(query)(query, ride)))
     except Unanswered as unanswered:
         return unanswered.result
     except CausalError:  # a record that contradicts itself explains nothing
@@ -97,6 +102,19 @@ def _checked(query: Query, ride: Ride, found: Explanation) -> Explanation:
     first = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
     part = Suspect(suspect, "main" if named[0] == suspect else "some")
     return replace(found, causes=tuple(first), suspect=part)
+
+
+def _dated(query: Query, ride: Ride, found: Explanation) -> Explanation:
+    """The explanation with the time that it is about, where the question speaks of one."""
+    if (ride.past is None and ride.ahead is None) or query.type not in DATED:
+        return found
+    moment = found.moment
+    if moment is None and ride.past is not None and not _of_another(found):
+        with suppress(Unanswered):
+            about = premise(ride, query)
+            if about.deed is not None and about.trace.sim_time == found.sim_time:
+                moment = about.deed.time if about.deed.action != "continue" else None
+    return replace(found, then=found.sim_time if moment is None else moment)
 
 
 def _of_another(found: Explanation) -> bool:

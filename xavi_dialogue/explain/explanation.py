@@ -170,6 +170,8 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     suspect: Suspect | None = None
     done: tuple[QueryAction, ...] = ()  # what the ego did, where the question calls it otherwise
     cleared: int | None = None  # a vehicle in our way without which all would have been the same
+    then: float | None = None  # [s] when that was or will be, where the question speaks of a time
+    instant: bool = False  # the activity is what goes on at that time, whenever it began
 
 
 class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
@@ -179,12 +181,15 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
 
     - did-not-happen: vehicle (0 is the ego), asked; did (True where the foil is what was done),
       happened and time [s] of what was done instead, planned (True where it is yet to come),
-      what (crash, where that is what did not happen).
+      what (crash, junction, roundabout, where that is what did not happen); elsewhere, where
+      `happened` is the same at another time than the one asked about; times, where it happened
+      less often than the question says.
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
     - unknown-vehicle: vehicle, known.
     - too-little-evidence: asked, distinct, needed, coverage, rollouts.
     - effect-too-small: asked, delta [s].
-    - outside-record, trace-gap: vehicle, time [s].
+    - outside-record, trace-gap: vehicle, time [s]; since and until [s] when there is a record;
+      ahead, where the plan does not go so far.
     - out-of-scope: what.
     """
 

@@ -37,6 +37,11 @@ class Sighting:
     start: float  # [s]
     end: float  # [s]
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """From when to when [s]."""
+        return self.start, self.end
+
 
 @dataclass(frozen=True, slots=True)
 class Motion:
@@ -73,9 +78,13 @@ class Motion:
         found = [*self._speeds(), *self._stops(), *self._turns(), *self._changes()]
         return tuple(sorted(found, key=lambda s: (s.start, s.end, s.action)))
 
+    def times(self, action: QueryAction) -> tuple[Sighting, ...]:
+        """All times that something was done, oldest first."""
+        return tuple(s for s in self.sightings() if s.action in _means(action))
+
     def last(self, action: QueryAction) -> Sighting | None:
         """The last time that something was done."""
-        return next((s for s in reversed(self.sightings()) if s.action in _means(action)), None)
+        return next(reversed(self.times(action)), None)
 
     def _speeds(self) -> list[Sighting]:
         return [

@@ -7,8 +7,9 @@ from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.actions import STRAIGHT, means, same, to_macros
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened, was_done
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.ride import ROUNDING, Deed, Ride, chose, planned
+from xavi_dialogue.explain.ride import ROUNDING, Deed, Ride, chose, decline, planned
 from xavi_dialogue.explain.slowing import decision_of
+from xavi_dialogue.explain.when import Focus
 
 TURNS: tuple[QueryAction, ...] = ("exit-left", "exit-right", "continue-next-exit")
 
@@ -31,6 +32,8 @@ def premise(ride: Ride, query: Query) -> Premise:
         Unanswered: it did not happen, or is not in the record.
     """
     if not query.factual:
+        if ride.past is not None:
+            return _then(ride, ride.past)
         if query.tense == "past" and ride.manoeuvre is not None:
             return Premise(ride.choice_of(ride.manoeuvre), ride.manoeuvre)
         return Premise(ride.latest, None)
@@ -66,9 +69,27 @@ def about_foil(ride: Ride, query: Query) -> Premise:
     others = [
         trace
         for trace in ride.traces
-        if _done(ride, trace) and _open(ride, trace, foil) and not _begins(trace, foil)
+        if _done(ride, trace)
+        and _open(ride, trace, foil)
+        and not _begins(trace, foil)
+        and (ride.past is None or ride.past.meets(trace.sim_time, trace.sim_time))
     ]
     return Premise(others[-1], None) if others else found
+
+
+def _then(ride: Ride, focus: Focus) -> Premise:
+    """The decision for the manoeuvre at the time asked about; else the one that held then.
+
+    Raises:
+        Unanswered: it is not in the record.
+    """
+    deed = ride.manoeuvre
+    if deed is not None and deed.action != "continue":
+        return Premise(ride.choice_of(deed), deed)
+    trace = ride.at(focus.moment)
+    if trace is None:
+        raise decline("trace-gap", time=focus.moment)
+    return Premise(trace, deed)
 
 
 def _premise_of(ride: Ride, action: QueryAction, query: Query) -> Premise:

@@ -4,22 +4,35 @@ from msgspec.structs import replace
 
 from sim.scene import EGO
 from xavi_dialogue.explain.contrast import arrival, evidence, factual, outcome
+from xavi_dialogue.explain.course import begins, expected, lines
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened
+from xavi_dialogue.explain.details import Step
 from xavi_dialogue.explain.explanation import (
     Activity,
     Destination,
     Evidence,
     Explanation,
 )
+from xavi_dialogue.explain.motion import LANE_TIME, TURN_TIME
 from xavi_dialogue.explain.premise import premise
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.ride import Ride, planned
+from xavi_dialogue.explain.ride import Deed, Ride, decline, planned
 from xavi_dialogue.explain.slowing import explain_driving
+from xavi_dialogue.explain.when import Focus
+
+GAP = 1.5  # [s] since the last sample after which nothing is known
+#: How long [s] what has begun still goes on; what is not among them has no end of its own.
+LASTING: dict[QueryAction, float] = {
+    **dict.fromkeys(("change-left", "change-right"), LANE_TIME),
+    **dict.fromkeys(("exit-left", "exit-right", "exit-straight"), TURN_TIME),
+}
 
 
 def what(query: Query, ride: Ride) -> Explanation:
-    """What the ego did, is doing, or will do."""
+    """What the ego did, is doing, or will do; at the time asked about, where there is one."""
     trace = ride.latest
+    if ride.ahead is not None and not query.factual:
+        return _to_come(ride, ride.ahead)
     driving = tuple(action for action in query.factual or () if action in DRIVING)
     if driving and not ("stop" in driving and happened(ride, "stop")):
         return explain_driving(ride, driving, query.tense)
@@ -29,6 +42,8 @@ def what(query: Query, ride: Ride) -> Explanation:
         moment = found.deed.time if found.deed else None
         return _activity(ride, actions, moment)
     deed = ride.manoeuvre
+    if ride.past is not None:
+        return _at(query, ride, ride.past, deed)
     if query.tense == "past" and deed is not None:
         return _activity(ride, (deed.action,), deed.time)
     if ride.arrived:
@@ -54,9 +69,72 @@ def where(query: Query, ride: Ride) -> Explanation:
     return replace(found, arrival=0.0) if ride.arrived else found
 
 
-def _activity(ride: Ride, actions: tuple[QueryAction, ...], moment: float | None) -> Explanation:
-    """Actions that are known, with the ego's speed now."""
+def _at(query: Query, ride: Ride, focus: Focus, deed: Deed | None) -> Explanation:
+    """The manoeuvre within a part of the ride, or else what was under way at its moment.
+
+    Raises:
+        Unanswered: it is not in the record.
+    """
+    on = deed is None or deed.action == "continue" or not focus.meets(*deed.span)
+    if deed is not None and not on and not focus.instant:
+        return _activity(ride, (deed.action,), deed.time, seen=deed.time)
+    seen = ride.motion(EGO).until(focus.moment).time
+    if not seen or focus.moment - seen[-1] > GAP:
+        raise decline("outside-record", vehicle=EGO, time=focus.moment)
+    then = what(replace(query, tense="present"), ride.back(focus.moment))
+    actions = then.activity.actions[:1] if then.activity is not None else ()
+    found = _activity(ride, actions, focus.moment, seen=focus.moment)
+    return replace(found, instant=True)
+
+
+def _to_come(ride: Ride, focus: Focus) -> Explanation:
+    """What the plan leads to in some part of the time ahead.
+
+    Raises:
+        Unanswered: the plan does not go so far.
+    """
+    steps = upcoming(ride)
+    ends = [line.time[-1] for line in lines(ride.latest).values() if line.time]
+    if not ends or focus.start > max(ends):
+        raise decline("outside-record", ahead=True)
+    moment = focus.moment
+    if focus.instant:
+        last = next((s for s in reversed(steps) if s.moment <= moment), None)
+        over = last is None or moment > last.moment + LASTING.get(last.action, moment)
+        actions: tuple[QueryAction, ...] = ("continue",) if last is None or over else (last.action,)
+    else:
+        inside = [step for step in steps if focus.start <= step.moment <= focus.end]
+        actions = tuple(step.action for step in inside)
+        moment = inside[0].moment if inside else moment
+        if not actions and focus.start > ride.now:
+            raise decline("outside-record", ahead=True)
+    found = _activity(ride, actions or ("continue",), moment)
+    return replace(found, instant=focus.instant)
+
+
+def upcoming(ride: Ride) -> tuple[Step, ...]:
+    """The actions of the latest plan that are still to begin, and when [s] they are expected to."""
+    trace = ride.latest
+    plan = factual(ride.model(trace), trace)
+    begun = ride.under_way
+    steps: list[Step] = []
+    for action in dict.fromkeys(plan.plan):
+        time = expected(trace, plan, begins(action, (action,)))
+        done = begun is not None and begun.action == action and begun.carried_out
+        if time is not None and not done:
+            steps.append(Step(action, max(time.moment, ride.now)))
+    return tuple(sorted(steps, key=lambda step: step.moment))
+
+
+def _activity(
+    ride: Ride,
+    actions: tuple[QueryAction, ...],
+    moment: float | None,
+    seen: float | None = None,
+) -> Explanation:
+    """Actions that are known, with the ego's speed now, or when it was `seen` [s]."""
     trace, motion = ride.latest, ride.motion(EGO)
+    motion = motion if seen is None else motion.until(seen)
     speed = motion.speed[-1] if motion.speed else None
     return Explanation(
         factual=planned(trace),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.explain.when import Focus
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,3 +18,4 @@ class Record:
     ended: bool = False
     extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
     refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing
+    focus: Focus | None = None  # the part of the ride that the question is about; None: not said

@@ -6,6 +6,7 @@ Errors:
     └── Unanswered   an answer other than an Explanation; carries it, and never leaves this room
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,6 +18,7 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.explain.explanation import Facts, NeedRollout, NoExplanation, Reason
 from xavi_dialogue.explain.motion import Motion, join
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.when import Focus, pick
 
 #: Evidence is enough if the samples behind it cover this share of the prior mass, so that what all
 #: agree on is likeliest, however few there are; all of them, where no more exist ...
@@ -66,6 +68,11 @@ class Deed:
         return self.started if self.committed is None else self.committed
 
     @property
+    def span(self) -> tuple[float, float]:
+        """From when to when it was done [s]; it has no end as long as it is under way."""
+        return self.time, math.inf if self.ended is None else self.ended
+
+    @property
     def carried_out(self) -> bool:
         """Whether it was done or is being done; a turn still to come is neither."""
         if self.committed is not None or self.action in ("continue", "stop"):
@@ -77,6 +84,7 @@ class Ride:
     """A record up to its `now`."""
 
     def __init__(self, record: Record) -> None:
+        self._record = record
         self.now = record.now
         self.traces = tuple(t for t in record.traces if t.sim_time <= record.now + ROUNDING)
         self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
@@ -109,9 +117,34 @@ class Ride:
 
     @property
     def manoeuvre(self) -> Deed | None:
-        """The last deed that was more than driving on; else the last one."""
+        """The last deed that was more than driving on; else the last one.
+
+        Where the question says when: the one at that time.
+        """
         moves = tuple(deed for deed in self.deeds if deed.action != "continue")
-        return next(reversed(moves or self.deeds), None)
+        if self.past is None:
+            return next(reversed(moves or self.deeds), None)
+        return self.meant(moves) or self.meant(self.deeds)
+
+    @property
+    def past(self) -> Focus | None:
+        """The part of the ride so far that the question is about; None where it does not say."""
+        focus = self._record.focus
+        return None if focus is None or focus.ahead else focus
+
+    @property
+    def ahead(self) -> Focus | None:
+        """What is to come that the question is about; None where it does not say."""
+        focus = self._record.focus
+        return focus if focus is not None and focus.ahead else None
+
+    def meant(self, deeds: Sequence[Deed]) -> Deed | None:
+        """Of some deeds, oldest first, the one that the question is about, else the last."""
+        return pick(self.past, deeds, lambda deed: deed.span)
+
+    def back(self, time: float) -> "Ride":
+        """The ride as it stood at an earlier time [s]."""
+        return Ride(replace(self._record, now=time, ended=False, focus=None))
 
     @cached_property
     def vehicles(self) -> tuple[int, ...]:

@@ -17,6 +17,7 @@ from xavi_dialogue.explain.motion import Motion, Sighting
 from xavi_dialogue.explain.necessity import proven
 from xavi_dialogue.explain.query import QueryAction, Tense
 from xavi_dialogue.explain.ride import Ride, Unanswered, chose, decline
+from xavi_dialogue.explain.when import pick
 
 RECENT = 2.0  # [s] since when something is still going on
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
@@ -98,12 +99,13 @@ def _find(
     found: list[tuple[Sighting, Event | None]] = []
     for action in asked:
         if action == "give-way":
-            found += [(Sighting(action, e.sim_time, e.sim_time), e) for e in waits[-1:]]
-        elif (sighting := motion.last(action)) is not None:
+            wait = pick(ride.past, waits, lambda event: (event.sim_time, event.sim_time))
+            found += [(Sighting(action, e.sim_time, e.sim_time), e) for e in (wait,) if e]
+        elif (sighting := pick(ride.past, motion.times(action), lambda s: s.span)) is not None:
             near = [e for e in waits if sighting.start - 3.0 <= e.sim_time <= sighting.end]
             waited = bool(near) and action != "speed-up"
             found.append((sighting, near[-1] if waited else None))
-    if tense != "past":
+    if tense != "past" and ride.past is None:
         found = [pair for pair in found if pair[0].end >= ride.now - RECENT]
     if not found and "stop" in asked:  # who says brake may mean either
         with suppress(Unanswered):

@@ -7,11 +7,13 @@ from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Choice
 from xavi_dialogue.explain import hindered
 from xavi_dialogue.explain.causes import expected_actions
+from xavi_dialogue.explain.deeds import elsewhere
 from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
 from xavi_dialogue.explain.motion import foresees
 from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.ride import Ride, Unanswered, decline, prediction
+from xavi_dialogue.explain.ride import ROUNDING, Ride, Unanswered, decline, prediction
+from xavi_dialogue.explain.sighted import last_time, sighted
 
 EXPECTED = 0.3  # probability from which something may be said to be expected
 NEARLY = 0.7  # of the likeliest goal's probability, from which another must be told as well
@@ -47,6 +49,8 @@ def what(query: Query, ride: Ride) -> Explanation:
         return _why(query, ride, vehicle, query.factual)
     motion = ride.motion(vehicle)
     trace = last_with(ride, vehicle)
+    if ride.past is not None:
+        return sighted(ride, ride.past, vehicle, trace)
     seen = motion.sightings()
     if query.tense != "past" or not seen:
         found = _expectation(ride, trace, vehicle, ())
@@ -120,7 +124,7 @@ def when(query: Query, ride: Ride) -> Explanation:
     vehicle = actor_of(query, ride)
     asked = query.factual or ()
     motion = ride.motion(vehicle)
-    found = [motion.last(action) for action in asked] or list(motion.sightings()[-1:])
+    found = [last_time(ride, vehicle, a) for a in asked] or list(motion.sightings()[-1:])
     trace = last_with(ride, vehicle)
     if not found or not all(found):
         model = ride.model(trace)
@@ -204,8 +208,7 @@ def actor_of(query: Query, ride: Ride) -> int:
 
 
 def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Explanation:
-    motion = ride.motion(vehicle)
-    found = [motion.last(action) for action in asked]
+    found = [last_time(ride, vehicle, action) for action in asked]
     if query.tense == "present":
         found = [s if s and s.end >= ride.now - RECENT else None for s in found]
     if asked and query.tense != "future" and all(found):
@@ -235,6 +238,9 @@ def _not_seen(
     ride: Ride, trace: PlanTrace, vehicle: int, asked: tuple[QueryAction, ...], chance: float
 ) -> Unanswered:
     seen = ride.motion(vehicle).sightings()
+    another = elsewhere(ride, vehicle, asked)
+    if another:
+        return decline("did-not-happen", vehicle=vehicle, asked=asked, did=False, **another)
     return decline(
         "did-not-happen",
         vehicle=vehicle,
@@ -248,15 +254,16 @@ def _not_seen(
 
 
 def last_with(ride: Ride, vehicle: int) -> PlanTrace:
-    """The last decision that expects something of a vehicle.
+    """The last decision that expects something of a vehicle; by the time asked about, if any.
 
     Raises:
         Unanswered: none does.
     """
+    time = ride.now if ride.past is None else ride.past.moment
     for trace in reversed(ride.traces):
-        if prediction(trace, vehicle) is not None:
+        if trace.sim_time <= time + ROUNDING and prediction(trace, vehicle) is not None:
             return trace
-    raise decline("outside-record", vehicle=vehicle, time=ride.now)
+    raise decline("outside-record", vehicle=vehicle, time=time)
 
 
 def last_seen(ride: Ride, vehicle: int) -> float | None:

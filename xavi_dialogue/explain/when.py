@@ -42,16 +42,12 @@ class Focus(msgspec.Struct, frozen=True, kw_only=True):
 
     start: float  # [s]
     end: float  # [s]
-    moment: float | None = None  # [s] the instant that is meant, where the words name one
+    moment: float  # [s] within it: the instant that is meant, or that stands for all of it
+    instant: bool = False  # the words name that instant
     nth: int | None = None  # which of several is meant; None: the last
     counted: bool = False  # the passenger said which
     rough: bool = False  # what lies before it will do as well
     ahead: bool = False  # it is yet to come
-
-    @property
-    def middle(self) -> float:
-        """The instant [s] that stands for all of it."""
-        return (self.start + self.end) / 2.0 if self.moment is None else self.moment
 
     def meets(self, start: float, end: float) -> bool:
         """Whether something from `start` to `end` [s] lies within it, at least in part."""

@@ -172,4 +172,6 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         outcome=found.outcome.name if found.outcome else None,
         gone=Quantity(found.seen, "clock") if gone and found.seen is not None else None,
         held=None if mine or tense != "present" else in_the_way(query.tense, found, actor, ()),
+        instant=found.instant,
+        planned=found.then is not None and query.tense == "future",
     )

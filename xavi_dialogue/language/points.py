@@ -193,6 +193,8 @@ class ActivityPoint:
     outcome: str | None
     gone: Quantity | None = None  # when it was seen last, where it is out of view
     held: InTheWay | None = None
+    instant: bool = False  # what goes on at a time that the question speaks of
+    planned: bool = False  # that time is yet to come
 
 
 @dataclass(frozen=True, slots=True)

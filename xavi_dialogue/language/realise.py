@@ -16,7 +16,7 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.content import select
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.generator import Token, expand
-from xavi_dialogue.language.morphology import inflect
+from xavi_dialogue.language.morphology import Quantity, inflect
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
 from xavi_dialogue.language.paper import PaperContent, select_paper
 from xavi_dialogue.language.points import (
@@ -125,7 +125,11 @@ def _budgets(context: SpeechContext) -> Iterator[Budget]:
 
 def _passenger(query: Query, found: Explanation, context: SpeechContext, budget: Budget) -> Stages:
     content = select(query, found, budget, context.now)
-    tokens = expand(load_grammar("answer_passenger"), _rule(content), content)
+    grammar = load_grammar("answer_passenger")
+    tokens = expand(grammar, _rule(content), content)
+    if found.then is not None and found.suspect is None:
+        at = Quantity(found.then, "clock")
+        tokens = (*expand(grammar, "AT_TIME", at, query.tense), *tokens)
     words, mentioned = inflect(tokens, context, describe=budget.describe)
     text = capitalise(rewrite(join(words), "passenger"))
     return Stages(content, tokens, words, text, mentioned)

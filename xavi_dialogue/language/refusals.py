@@ -47,6 +47,13 @@ class Refusal:
     planned: bool = False  # what was asked about is yet to come ...
     probability: float | None = None  # ... and how probably
     at: Quantity | None = None  # when that was
+    landmark: bool = False  # the topic is a place at which it was
+    elsewhere: bool = False  # what happened is what was asked about, at another time
+    once: bool = False  # it happened just once, ...
+    times: Quantity | None = None  # ... or so many times
+    since: Quantity | None = None  # the record goes from here ...
+    until: Quantity | None = None  # ... to here
+    beyond: bool = False  # it is asked about what the plan does not reach
     clause: str | None = None  # the planner's reason
     known: tuple[Vehicle, ...] = ()  # some of them, where they are many ...
     many: Quantity | None = None  # ... and then how many there are
@@ -172,6 +179,13 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
         planned=facts.get("planned") is True,
         probability=_number_of(facts, "probability"),
         at=_quantity(facts, "time", "clock"),
+        landmark=facts.get("what") in ("junction", "roundabout"),
+        elsewhere=facts.get("elsewhere") is True,
+        once=facts.get("times") == 1,
+        times=_quantity(facts, "times", "count"),
+        since=_quantity(facts, "since", "clock"),
+        until=_quantity(facts, "until", "clock"),
+        beyond=facts.get("ahead") is True,
         clause=clause if clause is None or actor else rewrite(clause, "own"),
         known=_vehicles(facts),
         seen=facts.get("seen") is not False,
