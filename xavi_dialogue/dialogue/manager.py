@@ -116,7 +116,11 @@ def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) 
     found = respond(now, understood)
     if isinstance(found, NeedRollout):
         known = dialogue.planned.get(found)
-        if len(extra) >= MAX_ROUNDS or known in extra:
+        endless = len(extra) >= MAX_ROUNDS or known in extra
+        if endless and understood.aim == "quiz":  # there are other questions to put
+            question = replace(question, refused=(*question.refused, found))
+            return _think(mind, dialogue, session, question)
+        if endless:
             found = refuse(now, understood.query, NoExplanation(reason="too-little-evidence"))
         elif found in question.refused:  # there is no answer without it
             found = refuse(now, understood.query, NoExplanation(reason=question.why))

@@ -6,7 +6,6 @@ that there is none to ask for, and `judged` compares a reply with it. All are pu
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from typing import Literal, TypeAlias
 
 import msgspec
 
@@ -16,7 +15,7 @@ from xavi_dialogue.dialogue.bearings import Vehicles
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.referents import PREFIX, Scope
 from xavi_dialogue.dialogue.referents import candidates as fitting
-from xavi_dialogue.dialogue.turn import Quiz
+from xavi_dialogue.dialogue.turn import Judgement, Quiz
 from xavi_dialogue.explain.explanation import Cause, Explanation
 from xavi_dialogue.explain.query import Query, QueryAction, Tense
 from xavi_dialogue.explain.record import Record
@@ -24,9 +23,6 @@ from xavi_dialogue.language.content import select
 from xavi_dialogue.language.doings import LANE_CHANGES, vehicle_of
 from xavi_dialogue.language.points import Budget, Constraint, Contrast, Supposition
 from xavi_dialogue.language.retorts import Named, Retort, retort
-
-#: What a reply comes to; "passed": the passenger does not know, or does not commit to one answer.
-Judgement: TypeAlias = Literal["right", "wrong", "passed"]
 
 CLEAR = 1.0  # [s] a difference in time that is fit to be asked for
 LIKELY = 0.5  # a cause that is less probable is no answer
@@ -149,7 +145,9 @@ def _deed(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None
             return _right(said.same is quiz.same)
         return "passed"  # something else, but not what
     if said.denied:
-        return "wrong" if ours & set(said.denied[0]) else "passed"
+        denied = set(said.denied[0])
+        stays = "continue" in ours and not denied.isdisjoint(LANE_CHANGES)
+        return "wrong" if ours & denied else "right" if stays else "passed"
     if said.sooner is not None:
         return _right(bool(quiz.same) and quiz.sooner is said.sooner)
     return None

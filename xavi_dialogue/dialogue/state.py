@@ -8,7 +8,7 @@ from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.states import Phase, RidePhase
-from xavi_dialogue.dialogue.turn import Quiz, Turn
+from xavi_dialogue.dialogue.turn import Judgement, Quiz, Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
@@ -24,7 +24,7 @@ class Understood:
     query: Query
     aim: Literal["answer", "quiz", "verdict"] = "answer"
     quiz: Quiz | None = None  # of a verdict: the question that was answered ...
-    right: bool | None = None  # ... and how; None: the passenger does not know
+    judgement: Judgement | None = None  # ... and how
 
 
 @dataclass(frozen=True, slots=True)

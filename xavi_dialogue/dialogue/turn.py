@@ -9,6 +9,8 @@ from xavi_dialogue.explain.query import Query, QueryAction
 
 #: What kind of thing the passenger is asked for.
 QuizKind = Literal["vehicle", "deed", "sooner"]
+#: What a reply comes to; "passed": the passenger does not know, or does not commit to one answer.
+Judgement = Literal["right", "wrong", "passed"]
 
 
 class Quiz(msgspec.Struct, frozen=True, kw_only=True):

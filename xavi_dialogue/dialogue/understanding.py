@@ -7,6 +7,7 @@ from xavi_dialogue.dialogue.chain import BOTTOM, deeper, evidence_for, meant_veh
 from xavi_dialogue.dialogue.choices import chosen
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
+from xavi_dialogue.dialogue.quiz import judged
 from xavi_dialogue.dialogue.referents import PREFIX, Scope, candidates, described, scenes_of
 from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Turn
@@ -35,6 +36,11 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     pick = chosen(text, len(offered)) if offered else None
     if pick is not None:
         return _refer(now, offered[pick])
+    if before is not None and before.quiz is not None:
+        about = before.quiz.about
+        judgement = judged(before.quiz, text, _scenes(about, now.record))
+        if judgement is not None:
+            return Understood(text, about, "verdict", before.quiz, judgement)
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
