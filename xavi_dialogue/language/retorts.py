@@ -40,9 +40,13 @@ _ALIKE: dict[str, tuple[str, ...]] = {
 _SIDELESS = {"change": ("change-left", "change-right"), "exit": ("exit-left", "exit-right")}
 _DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "LEFT", "RIGHT", "KIND")
 _VAGUE = frozenset({"CAR", "OTHER"})
+_VAGUELY = "other"
 _APART = frozenset({"BECAUSE", "IF", "SUBORD"})  # what comes behind is no part of the answer
 _ASIDE = frozenset({"SMALL", "NOISE", "BREAK", "CONJ", "AND", "THINK"})
-_PARTS = frozenset({BREAK, "but", "though", "although", "however"})
+_PARTS = frozenset({BREAK, "but", "though", "although", "however", "or"})
+#: Who is no single other vehicle, and the words around a reply that names nobody else.
+_NOBODY = frozenset({"EGO", "ME", "BOTH", "NOBODY"})
+_FRAME = _ASIDE | {"IT", "THAT", "BE", "DO", "WOULD", "BECAUSE"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +74,10 @@ class Retort:
 
 def retort(text: str) -> Retort | None:
     """What a text says in reply to a question; None where it asks something itself."""
-    if len(text) > MAX_INPUT:
+    if len(text) > MAX_INPUT or text.lstrip().startswith("/"):
         return None
-    words = hear(normalise(text), frozenset()).words
+    heard = hear(normalise(text), frozenset()).words
+    words = tuple("would" if word == "had" else word for word in heard)  # "you'd have stayed"
     parts = [part for part in _split(words) if part]
     said: list[_Part] = []
     for part in parts:
@@ -84,7 +89,7 @@ def retort(text: str) -> Retort | None:
         said.append(one)
     if not said:
         return None
-    return _joined(said, _number_alone(words))
+    return _joined(said, words)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +102,6 @@ class _Part:
     ourselves: bool
     deeds: tuple[tuple[str, ...], ...]
     denied: tuple[tuple[str, ...], ...]
-    torn: bool
 
     @property
     def tells(self) -> bool:
@@ -118,32 +122,32 @@ def _heard(words: tuple[str, ...]) -> _Part:
     lattice = build(words)
     tokens = tuple(edge.token for _, edge in lattice.main())
     said = _clauses(build(_without(words, found)))
-    deeds = tuple(kind for c in said if c.role != "denied" for kind in _kinds(c))
-    torn = len(deeds) > 1 and any(t.terminal == "OR" for t in tokens)
+    terminals = {t.terminal for t in tokens} - _FRAME
     return _Part(
         signs=signs,
         asks=_asks(words, found, lattice),
         vehicles=_vehicles(tokens),
-        ourselves=any(t.terminal == "EGO" for t in tokens),
-        deeds=deeds,
+        ourselves=not signs and bool(terminals) and terminals <= _NOBODY,
+        deeds=tuple(kind for c in said if c.role != "denied" for kind in _kinds(c)),
         denied=tuple(kind for c in said if c.role == "denied" for kind in _kinds(c)),
-        torn=torn,
     )
 
 
-def _joined(parts: list[_Part], number: str | None) -> Retort:
+def _joined(parts: list[_Part], words: tuple[str, ...]) -> Retort:
     directions = {d for part in parts for d in _directions(part.signs)}
     signs = {sign for part in parts for sign in part.signs}
     vehicles = tuple(named for part in parts for named in part.vehicles)
-    if number is not None and not vehicles:
+    number = _number_alone(words)
+    if number is not None and all(named.descriptions == (_VAGUELY,) for named in vehicles):
         vehicles = (Named((number,)),)
+    hedged = "or" in words and sum(bool(part.deeds) for part in parts) > 1
     first = next((s for part in parts for s in part.signs if s in ("yes", "no")), None)
     return Retort(
         passed="passed" in signs,
         same=False if "other" in signs else "same" in signs or None,
         sooner=next(iter(directions)) if len(directions) == 1 else None,
         yes=None if first is None else first == "yes",
-        torn=len(directions) > 1 or any(part.torn for part in parts),
+        torn=len(directions) > 1 or hedged,
         vehicles=vehicles,
         nobody="nobody" in signs or any(part.ourselves for part in parts),
         deeds=tuple(deed for part in parts for deed in part.deeds),
@@ -190,12 +194,10 @@ def _asks(
         if edge.token.terminal not in _ASIDE:
             begin = at
             break
-    heads = [start for start, _, sign in found if sign == "question"]
-    if any(start <= begin for start in heads):
-        return True
     passes = [end for _, end, sign in found if sign == "passed"]
-    behind = words[passes[0] :] if passes else ()
-    return bool({"why", "how", "mean", "where"} & set(behind))
+    if passes:
+        return bool({"why", "how", "mean", "where"} & set(words[passes[0] :]))
+    return any(start <= begin for start, _, sign in found if sign == "question")
 
 
 def _without(words: tuple[str, ...], found: tuple[tuple[int, int, Sign], ...]) -> tuple[str, ...]:
@@ -262,7 +264,7 @@ def _vehicles(tokens: tuple[Token, ...]) -> tuple[Named, ...]:
     if current:
         named.append(Named(tuple(current), denied))
     if not named and vague:
-        return (Named(("other",), denied),)
+        return (Named((_VAGUELY,), denied),)
     return tuple(named)
 
 
