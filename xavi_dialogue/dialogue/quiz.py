@@ -88,6 +88,8 @@ def filled(quiz: Quiz, found: Explanation) -> Quiz | None:
 def judged(quiz: Quiz, text: str, scenes: tuple[Vehicles, ...]) -> Judgement | None:
     """What a reply to a question of ours comes to; None where it is no reply to it.
 
+    It is "passed" where the passenger does not know, or does not settle on one answer.
+
     Args:
         quiz: the question, with its answer.
         text: what was typed.
