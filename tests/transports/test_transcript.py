@@ -94,6 +94,7 @@ def test_a_recorded_ride_comes_back_whole() -> None:
         list(ride.events),
         7.0,
         {ride_file.key(need): ride.traces[0]},
+        {"0123456789abcdef": "it cannot stop there"},
     )
     data = ride_file.dump(recorded)
     assert ride_file.load(data) == recorded

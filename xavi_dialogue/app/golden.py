@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner.trace import PlanTrace
+from planner.whatif import WhatIfError
 from sim.scenario import load as load_scenario
 from xavi_dialogue.app.local import Conversation, Replan, drive_to, make_mind, planner_for
 from xavi_dialogue.app.play import Played, latest, play
@@ -100,10 +101,12 @@ def replay_recorded(transcript: Transcript, ride: RecordedRide, mind: Mind) -> P
     """
 
     def again(_: PlanTrace, need: NeedRollout) -> PlanTrace:
-        try:
-            return ride.whatifs[ride_file.key(need)]
-        except KeyError:
-            raise RideFileError(f"the recording holds no plan for {need}; accept it anew") from None
+        name = ride_file.key(need)
+        if name in ride.failures:
+            raise WhatIfError(ride.failures[name])
+        if name not in ride.whatifs:
+            raise RideFileError(f"the recording holds no plan for {need}; accept it anew")
+        return ride.whatifs[name]
 
     return play(transcript, mind, inputs_of(ride), ride.halt, again)
 
@@ -129,7 +132,7 @@ def replay_driven(written: Sequence[Written]) -> Replayed:
         events=list(known.dialogue.events),
         ended=known.dialogue.ended_at,
     )
-    again = _keeping(known.again, recorded.whatifs)
+    again = _keeping(known.again, recorded)
     inputs = inputs_of(recorded)
     played = (play(one.transcript, mind, inputs, halt, again) for one in written)
     return Replayed(tuple(write(one.transcript) for one in played), recorded)
@@ -181,14 +184,18 @@ def _open(path: Path) -> Written:
         raise TranscriptError(f"{path}: {error}") from error
 
 
-def _keeping(again: Replan, kept: dict[str, PlanTrace]) -> Replan:
-    """Plan again, and keep what comes of it."""
+def _keeping(again: Replan, ride: RecordedRide) -> Replan:
+    """Plan again, and keep in the ride what comes of it."""
 
     def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         name = ride_file.key(need)
-        if name not in kept:
-            kept[name] = again(trace, need)
-        return kept[name]
+        if name not in ride.whatifs:
+            try:
+                ride.whatifs[name] = again(trace, need)
+            except WhatIfError as error:
+                ride.failures[name] = str(error)
+                raise
+        return ride.whatifs[name]
 
     return planned
 

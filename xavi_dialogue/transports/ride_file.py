@@ -18,7 +18,7 @@ class RideFileError(ValueError):
 
 
 class _Line(msgspec.Struct, omit_defaults=True):
-    """One line; exactly one of its fields is there, but `whatif` comes with `trace`."""
+    """One line; one of its fields is there, but `whatif` comes with `trace` or `failure`."""
 
     scenario: str | None = None
     seed: int | None = None
@@ -26,6 +26,7 @@ class _Line(msgspec.Struct, omit_defaults=True):
     event: Event | None = None
     ended: float | None = None  # [s]
     whatif: str | None = None  # key of a request, see `key`
+    failure: str | None = None  # why nothing came of it
     trace: PlanTrace | None = None
 
 
@@ -40,6 +41,7 @@ class RecordedRide:
     events: list[Event] = field(default_factory=list)
     ended: float | None = None  # [s]
     whatifs: dict[str, PlanTrace] = field(default_factory=dict)
+    failures: dict[str, str] = field(default_factory=dict)  # why there is no plan, by key
 
 
 def key(need: NeedRollout) -> str:
@@ -54,6 +56,7 @@ def dump(ride: RecordedRide) -> bytes:
     lines += [_Line(event=event) for event in ride.events]
     lines += [_Line(ended=ride.ended)] if ride.ended is not None else []
     lines += [_Line(whatif=name, trace=trace) for name, trace in sorted(ride.whatifs.items())]
+    lines += [_Line(whatif=name, failure=why) for name, why in sorted(ride.failures.items())]
     text = b"".join(msgspec.json.encode(line) + b"\n" for line in lines)
     return gzip.compress(text, mtime=0)
 
@@ -87,6 +90,8 @@ def load(data: bytes) -> RecordedRide:
     for line in rest:
         if line.whatif is not None and line.trace is not None:
             ride.whatifs[line.whatif] = line.trace
+        elif line.whatif is not None and line.failure is not None:
+            ride.failures[line.whatif] = line.failure
         elif line.trace is not None:
             ride.traces.append(line.trace)
         elif line.event is not None:

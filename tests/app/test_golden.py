@@ -1,0 +1,66 @@
+"""Golden conversations in a folder: which ride they are about, and what is wrong with them."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.traces import s1_ride
+from xavi_dialogue.app.golden import by_ride, recording, replay_recorded, transcripts_in
+from xavi_dialogue.app.local import make_mind
+from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.transports import ride_file
+from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
+from xavi_dialogue.transports.transcript import TranscriptError
+
+QUESTION = "\n> What if vehicle 1 hadn't been there?\n"
+
+
+def folder_of(folder: Path, **texts: str) -> Path:
+    for name, text in texts.items():
+        (folder / f"{name}.txt").write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_transcripts_about_one_ride_share_its_recording(tmp_path: Path) -> None:
+    head = "scenario: {}\nseed: {}\n\n> Hello!\n"
+    texts = {"a": ("s1", 0), "b": ("s2", 0), "c": ("s1", 0), "d": ("s1", 3), "e": ("/maps/s2", 0)}
+    folder = folder_of(tmp_path, **{name: head.format(*what) for name, what in texts.items()})
+    found = by_ride(transcripts_in(folder))
+    assert {path.name: [one.path.stem for one in about] for path, about in found.items()} == {
+        "s1-0.ride.jsonl.gz": ["a", "c"],
+        "s1-3.ride.jsonl.gz": ["d"],
+        "s2-0.ride.jsonl.gz": ["b", "e"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("colour: blue\n", r"bad\.txt: line 1"),
+        ("seed: 1\n", r"bad\.txt: the header lacks 'scenario'"),
+        ("scenario: s1\nseed: one\n", r"bad\.txt: 'one' is no seed"),
+    ],
+)
+def test_a_wrong_transcript_is_named(text: str, problem: str, tmp_path: Path) -> None:
+    with pytest.raises(TranscriptError, match=problem):
+        by_ride(transcripts_in(folder_of(tmp_path, bad=text)))
+
+
+def test_an_empty_folder_and_a_missing_recording_are_told(tmp_path: Path) -> None:
+    with pytest.raises(TranscriptError, match="no transcripts"):
+        transcripts_in(tmp_path)
+    with pytest.raises(RideFileError, match="cannot read"):
+        recording(tmp_path / "s1-0.ride.jsonl.gz")
+
+
+def test_plans_come_from_the_recording_and_failures_too(tmp_path: Path) -> None:
+    [one] = transcripts_in(folder_of(tmp_path, one=f"scenario: s1\nseed: 0\n{QUESTION}"))
+    ride = s1_ride()
+    recorded = RecordedRide("s1", 0, 7.0, list(ride.traces), list(ride.events))
+    with pytest.raises(RideFileError, match="holds no plan for NeedRollout") as missing:
+        replay_recorded(one.transcript, recorded, make_mind())
+    assert "removed=1" in str(missing.value)
+    wanted = (NeedRollout(trace_id=trace.trace_id, removed=1) for trace in ride.traces)
+    recorded.failures.update({ride_file.key(need): "no way" for need in wanted})
+    [failed] = replay_recorded(one.transcript, recorded, make_mind()).replies
+    assert failed.reason == "planner-failed"
