@@ -46,7 +46,7 @@ def answer(now: Situation, understood: Understood) -> Said | NeedRollout:
     reply = reply_of(now.record, utterance, None, query)
     trace_id = found.evidence.traces[0] if found.evidence.traces else None
     reply = msgspec.structs.replace(reply, explanation=found, trace_id=trace_id)
-    return Said(query, reply, mentioned=topics(query, utterance))
+    return Said(query, reply, focus=now.record.focus, mentioned=topics(query, utterance))
 
 
 def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
@@ -61,7 +61,7 @@ def _chat(now: Situation, query: Query) -> Said:
     last = now.memory.last
     if query.event == "repeat" and last is not None:
         reply = msgspec.structs.replace(last.reply, sim_time=now.record.now)
-        return Said(last.query, reply, last.leans, last.mentioned, last.choices)
+        return Said(last.query, reply, last.leans, last.focus, last.mentioned, last.choices)
     context = inviting(now, speech(now))
     reason: Reason | None = None
     if query.type == "smalltalk":

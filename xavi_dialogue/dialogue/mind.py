@@ -16,6 +16,7 @@ from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.when import Focus
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.realise import realise
 from xavi_dialogue.language.suggestions import about_vehicle, from_situation
@@ -60,6 +61,7 @@ class Said:
     query: Query | None
     reply: Reply
     leans: Query | None = None
+    focus: Focus | None = None
     mentioned: tuple[int, ...] = ()
     choices: tuple[Query, ...] = ()
     quiz: Quiz | None = None
@@ -75,6 +77,7 @@ class Said:
             reply=self.reply,
             ride=ride,
             leans=self.leans,
+            focus=self.focus,
             mentioned=self.mentioned,
             choices=self.choices,
             quiz=self.quiz,
@@ -104,7 +107,7 @@ def speech(now: Situation, trace: PlanTrace | None = None) -> SpeechContext:
 def inviting(now: Situation, context: SpeechContext, more: tuple[Query, ...] = ()) -> SpeechContext:
     """The situation with what of all that might be suggested would be declined."""
     offered = (*more, *from_situation(context))
-    explain, record = now.mind.explain, now.record
+    explain, record = now.mind.explain, replace(now.record, focus=None)
     closed = [q for q in offered if isinstance(explain(q, record), NoExplanation)]
     return replace(context, closed=tuple(closed))
 
@@ -115,7 +118,13 @@ def refuse(now: Situation, query: Query, why: NoExplanation) -> Said:
     more = (*why.suggestions, *about_vehicle(query, context))
     utterance = realise(query, why, inviting(now, context, more))
     reply = reply_of(now.record, utterance, why.reason, query)
-    return Said(query, reply, leans=_corrected(query, why), mentioned=topics(query, utterance))
+    return Said(
+        query,
+        reply,
+        leans=_corrected(query, why),
+        focus=now.record.focus,
+        mentioned=topics(query, utterance),
+    )
 
 
 def turn_away(now: Situation, reason: Reason) -> Said:

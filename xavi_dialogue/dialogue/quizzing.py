@@ -1,11 +1,13 @@
 """What is said to what was understood: an answer, a question of ours, or a verdict. Pure."""
 
+from dataclasses import replace
+
 import msgspec
 
 from xavi_dialogue.dialogue.answering import answer, explained_trace
 from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
 from xavi_dialogue.dialogue.quiz import candidates, filled
-from xavi_dialogue.dialogue.state import Understood
+from xavi_dialogue.dialogue.state import Understood, up_to
 from xavi_dialogue.dialogue.turn import Judgement, Quiz
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
 from xavi_dialogue.explain.query import Query
@@ -14,11 +16,14 @@ from xavi_dialogue.language.quizzing import realise_no_quiz, realise_quiz, reali
 
 def respond(now: Situation, understood: Understood) -> Said | NeedRollout:
     """The reply to what was understood, or what it takes to find it."""
+    quiz, judgement, posed_at = understood.quiz, understood.judgement, understood.posed_at
     if understood.aim == "quiz":
         return _pose(now, understood.query)
-    if understood.quiz is not None and understood.judgement is not None:
-        return _conclude(now, understood.quiz, understood.judgement)
-    return answer(now, understood)
+    if quiz is not None and judgement is not None and posed_at is not None:
+        then = replace(now, record=up_to(now.record, posed_at))
+        return _conclude(then, quiz, judgement)
+    focused = replace(now.record, focus=understood.focus)
+    return answer(replace(now, record=focused), understood)
 
 
 def _pose(now: Situation, query: Query) -> Said | NeedRollout:

@@ -1,7 +1,7 @@
 """The state of all conversations about one ride: a value, folded from inputs."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from planner.events import Event
@@ -12,6 +12,7 @@ from xavi_dialogue.dialogue.turn import Judgement, Quiz, Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.when import Focus
 
 EPSILON = 1e-6  # [s] times nearer than this are the same
 
@@ -22,9 +23,11 @@ class Understood:
 
     text: str  # see Turn
     query: Query
+    focus: Focus | None = None  # the part of the ride that it is about; None: what fits best
     aim: Literal["answer", "quiz", "verdict"] = "answer"
     quiz: Quiz | None = None  # of a verdict: the question that was answered ...
     judgement: Judgement | None = None  # ... and how
+    posed_at: float | None = None  # ... and when [s] it was put
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +82,16 @@ class Dialogue:
         """
         ended = self.ended_at is not None and at >= self.ended_at - EPSILON
         now = self.ended_at if ended and self.ended_at is not None else at
-        return Record(
-            now=now,
-            traces=tuple(t for t in self.traces if t.sim_time <= now + EPSILON),
-            events=tuple(e for e in self.events if e.sim_time <= now + EPSILON),
-            ended=ended,
-            extra=extra,
-            refused=refused,
-        )
+        whole = Record(now, self.traces, self.events, ended, extra, refused)
+        return up_to(whole, now)
+
+
+def up_to(record: Record, time: float) -> Record:
+    """What was known at an earlier moment [s] of a record."""
+    return replace(
+        record,
+        now=time,
+        traces=tuple(t for t in record.traces if t.sim_time <= time + EPSILON),
+        events=tuple(e for e in record.events if e.sim_time <= time + EPSILON),
+        ended=record.ended and time >= record.now - EPSILON,
+    )

@@ -6,6 +6,7 @@ import msgspec
 
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.when import Focus
 
 #: What kind of thing the passenger is asked for.
 QuizKind = Literal["vehicle", "deed", "sooner"]
@@ -32,6 +33,7 @@ class Turn(msgspec.Struct, frozen=True, kw_only=True):
     reply: Reply
     ride: str | None = None  # id of the first trace of the ride that it is about
     leans: Query | None = None  # what a follow-up leans on, where that is not the query
+    focus: Focus | None = None  # the part of the ride that it is about
     mentioned: tuple[int, ...] = ()  # vehicles that question and reply name, the latest last
     choices: tuple[Query, ...] = ()  # offered by the reply
     quiz: Quiz | None = None  # put by the reply

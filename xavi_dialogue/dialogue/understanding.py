@@ -1,5 +1,7 @@
 """What is asked, or what to say where that is not clear. Pure."""
 
+from dataclasses import replace
+
 import msgspec
 
 from xavi_dialogue.dialogue.bearings import Vehicles
@@ -9,11 +11,13 @@ from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
 from xavi_dialogue.dialogue.quiz import judged
 from xavi_dialogue.dialogue.referents import PREFIX, Scope, candidates, described, scenes_of
-from xavi_dialogue.dialogue.state import Understood
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state import Understood, up_to
+from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import NoExplanation, Reason
+from xavi_dialogue.explain.focus import resolve, tensed
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.explain.when import Focus
 from xavi_dialogue.language.followup import AGAIN
 from xavi_dialogue.language.questions import question, questions
 from xavi_dialogue.language.refusals import (
@@ -22,6 +26,7 @@ from xavi_dialogue.language.refusals import (
     realise_not_understood,
     realise_smalltalk,
 )
+from xavi_dialogue.language.times import when_said
 
 
 def understand(now: Situation, before: Turn | None) -> Understood | Said:
@@ -37,18 +42,64 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     if pick is not None:
         return _refer(now, offered[pick])
     if before is not None and before.quiz is not None:
-        about = before.quiz.about
-        judgement = judged(before.quiz, text, _scenes(about, now.record))
-        if judgement is not None:
-            return Understood(text, about, "verdict", before.quiz, judgement)
+        found = _verdict(now, before, before.quiz)
+        if found is not None:
+            return found
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
         return _ask_back(now, parsed.cause, parsed.readings)
     if parsed.type == "smalltalk" and parsed.event == "quiz":
-        return Understood(text, parsed, "quiz")
-    found = _in_conversation(now, parsed)
-    return found if isinstance(found, Said) else _refer(now, found)
+        return Understood(text, parsed, aim="quiz")
+    asked = _in_conversation(now, parsed)
+    if isinstance(asked, Said):
+        return asked
+    meant = _refer(now, asked)
+    if isinstance(meant, Said):
+        return meant
+    behind = asked.actor not in (parsed.actor, "ego") and asked.type in ("why", "how")
+    return _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
+
+
+def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:
+    """The reply to a question of ours; None where it is no such thing."""
+    record = up_to(now.record, before.reply.sim_time)
+    scenes = (*_scenes(quiz.about, record)[:1], *scenes_of(now.record.traces[-1:]))
+    judgement = judged(quiz, now.asked.text, scenes)
+    if judgement is None:
+        return None
+    return Understood(
+        now.asked.text,
+        quiz.about,
+        aim="verdict",
+        quiz=quiz,
+        judgement=judgement,
+        posed_at=before.reply.sim_time,
+    )
+
+
+def _timed(now: Situation, meant: Understood) -> Understood | Said:
+    """The question with the part of the ride that it is about: what it says, or that before it."""
+    query, last = meant.query, now.memory.last
+    when = when_said(now.asked.text)
+    if when is None:
+        if last is None or not query.refers_to_previous or query.tense != "past":
+            return replace(meant, focus=None)
+        return replace(meant, focus=last.focus or meant.focus)
+    found = resolve(when, now.record, query)
+    if isinstance(found, NoExplanation):
+        return refuse(now, query, found)
+    if found is None:
+        return meant
+    return replace(meant, query=tensed(query, found), focus=found)
+
+
+def _decision(last: Turn | None) -> Focus | None:
+    """When the decision was taken that the last answer is about: what was expected then counts."""
+    found = None if last is None else last.reply.explanation
+    if found is None:
+        return None
+    return Focus(start=found.sim_time, end=found.sim_time, moment=found.sim_time, instant=True)
 
 
 def _ask_back(now: Situation, cause: str, readings: tuple[Query, ...]) -> Said:
