@@ -10,8 +10,9 @@ from sim.scene import EGO
 from xavi_dialogue.explain.actions import same
 from xavi_dialogue.explain.deeds import Span, occurrences
 from xavi_dialogue.explain.explanation import NoExplanation
+from xavi_dialogue.explain.landmarks import crossing_ahead, junctions, roundabouts
 from xavi_dialogue.explain.present import upcoming
-from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.ride import ROUNDING, Ride, Unanswered, decline
 from xavi_dialogue.explain.vehicles import check_known, number_of
@@ -22,11 +23,7 @@ AROUND = 2.0  # [s] before and after what somebody did that are "when" it was do
 APPROACH = 8.0  # [s] before a turn that are "at the junction"
 EDGE = 5.0  # [s] at either end of the ride that are "at the start" and "at the end"
 BEFORE = 1.0  # [s] before something at which it was not yet begun
-SAME_JUNCTION = 15.0  # [s] between giving way and the turn that it was for
 WHAT = Query(type="what")
-CROSSINGS: tuple[QueryAction, ...] = (
-    *("exit-left", "exit-right", "exit-straight", "continue-next-exit"),
-)
 #: What was done, where its side is left open.
 SIDELESS: dict[str, str] = {"change-left": "change-lanes", "exit-left": "turn"}
 
@@ -207,31 +204,10 @@ class _Resolver:
             case "end":
                 return [(max(self.last - EDGE, self.first), self.last)]
             case "junction":
-                return self._junctions()
+                return junctions(self.ride, self.last)
             case "roundabout":
-                return [span for span in self._junctions() if self._is_ring(span[0])]
+                return roundabouts(self.ride, self.last)
         return self._deeds()
-
-    def _junctions(self) -> list[Span]:
-        """The turns, and where way was given without one."""
-        turns = [
-            (deed.time, self.last if deed.ended is None else deed.ended)
-            for deed in self.ride.deeds
-            if deed.action in CROSSINGS
-        ]
-        waits = [
-            (event.sim_time, event.sim_time)
-            for event in self.ride.events
-            if event.kind == "gave-way"
-            and not any(s - SAME_JUNCTION <= event.sim_time <= e for s, e in turns)
-        ]
-        return sorted([*turns, *waits])
-
-    def _is_ring(self, time: float) -> bool:
-        """Whether the roads that others may take were then exits of a roundabout."""
-        trace = self.ride.at(time)
-        known = () if trace is None else trace.predictions
-        return any("roundabout" in goal.place for one in known for goal in one.goals)
 
     def _deeds(self) -> list[Span]:
         """When the vehicle did so; one that is only described is any that did.
@@ -274,24 +250,23 @@ class _Resolver:
 
     def _ahead(self) -> Focus | None:
         """What the plan leads to at, before or after that; None where it is not in the plan."""
-        named = CROSSINGS if self._is_place else self.when.deeds
-        steps = upcoming(self.ride)
-        begun = [s.moment for s in steps if any(same(name, s.action) for name in named)]
-        mine = self.when.actor in (None, "ego")
-        if not begun or not mine or (self.when.landmark == "roundabout" and not self._ring_ahead()):
+        if self.when.actor not in (None, "ego"):
             return None
-        time = begun[0]
-        before, after = self.when.relation == "before", self.when.relation == "after"
-        return Focus(
-            start=time + ROUNDING * 10 if after else self.now if before else time,
-            end=max(step.moment for step in steps) + 1.0 if after else time,
-            moment=time,
-            instant=before,
-            ahead=True,
-        )
-
-    def _ring_ahead(self) -> bool:
-        return self._is_ring(self.now)
+        steps = upcoming(self.ride)
+        if self._is_place:
+            span = crossing_ahead(self.ride, ring=self.when.landmark == "roundabout")
+        else:
+            named = [s for s in steps if any(same(deed, s.action) for deed in self.when.deeds)]
+            span = (named[0].moment, named[0].moment) if named else None
+        if span is None:
+            return None
+        start, end = span
+        if self.when.relation == "before":
+            moment = max(start - BEFORE, self.now)
+            return Focus(start=self.now, end=moment, moment=moment, ahead=True)
+        if self.when.relation == "after":
+            start, end = end + ROUNDING * 10, max(step.moment for step in steps) + BEFORE
+        return Focus(start=start, end=end, moment=start, ahead=True)
 
     # --- Refusals ---------------------------------------------------------------------------------
 

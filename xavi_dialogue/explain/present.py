@@ -20,6 +20,10 @@ from xavi_dialogue.explain.ride import Deed, Ride, decline, planned
 from xavi_dialogue.explain.slowing import explain_driving
 from xavi_dialogue.explain.when import Focus
 
+#: What leads through a junction; on the way there the ego only follows its lane.
+CROSSINGS: tuple[QueryAction, ...] = (
+    *("exit-left", "exit-right", "exit-straight", "continue-next-exit"),
+)
 GAP = 1.5  # [s] since the last sample after which nothing is known
 #: How long [s] what has begun still goes on; what is not among them has no end of its own.
 LASTING: dict[QueryAction, float] = {
@@ -43,7 +47,7 @@ def what(query: Query, ride: Ride) -> Explanation:
         return _activity(ride, actions, moment)
     deed = ride.manoeuvre
     if ride.past is not None:
-        return _at(query, ride, ride.past, deed)
+        return _at(ride, ride.past, deed)
     if query.tense == "past" and deed is not None:
         return _activity(ride, (deed.action,), deed.time)
     if ride.arrived:
@@ -69,22 +73,31 @@ def where(query: Query, ride: Ride) -> Explanation:
     return replace(found, arrival=0.0) if ride.arrived else found
 
 
-def _at(query: Query, ride: Ride, focus: Focus, deed: Deed | None) -> Explanation:
+def _at(ride: Ride, focus: Focus, deed: Deed | None) -> Explanation:
     """The manoeuvre within a part of the ride, or else what was under way at its moment.
 
     Raises:
         Unanswered: it is not in the record.
     """
-    on = deed is None or deed.action == "continue" or not focus.meets(*deed.span)
-    if deed is not None and not on and not focus.instant:
+    if deed is not None and not focus.instant and _moved(deed) and focus.meets(*deed.span):
         return _activity(ride, (deed.action,), deed.time, seen=deed.time)
     seen = ride.motion(EGO).until(focus.moment).time
     if not seen or focus.moment - seen[-1] > GAP:
         raise decline("outside-record", vehicle=EGO, time=focus.moment)
-    then = what(replace(query, tense="present"), ride.back(focus.moment))
-    actions = then.activity.actions[:1] if then.activity is not None else ()
+    under_way = ride.back(focus.moment).under_way
+    actions: tuple[QueryAction, ...] = ()
+    if under_way is not None:
+        on_the_way = under_way.action in CROSSINGS and under_way.committed is None
+        actions = ("continue",) if on_the_way else (under_way.action,)
     found = _activity(ride, actions, focus.moment, seen=focus.moment)
     return replace(found, instant=True)
+
+
+def _moved(deed: Deed) -> bool:
+    """Whether it was more than driving on, or than being about to."""
+    if deed.action in ("continue", "stop"):
+        return deed.action == "stop"
+    return deed.committed is not None or deed.ended is not None
 
 
 def _to_come(ride: Ride, focus: Focus) -> Explanation:
@@ -120,7 +133,10 @@ def upcoming(ride: Ride) -> tuple[Step, ...]:
     steps: list[Step] = []
     for action in dict.fromkeys(plan.plan):
         time = expected(trace, plan, begins(action, (action,)))
-        done = begun is not None and begun.action == action and begun.carried_out
+        if begun is not None and begun.action == action and begun.carried_out:
+            done = begun.committed is not None or action != "continue-next-exit"
+        else:
+            done = False
         if time is not None and not done:
             steps.append(Step(action, max(time.moment, ride.now)))
     return tuple(sorted(steps, key=lambda step: step.moment))
