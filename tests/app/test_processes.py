@@ -149,16 +149,6 @@ def test_when_the_car_dies_the_record_can_be_asked_about_but_not_driven_on(chat:
     assert "Traceback" not in err
 
 
-def test_when_the_service_dies_the_chat_says_so(chat: Chat) -> None:
-    service = next(pid for pid in children(chat.process.pid) if b"serve" in command(pid))
-    os.kill(service, signal.SIGKILL)
-    chat.say("What are you doing?")
-    status, out, err = chat.end()
-    assert (status, out) == (1, "")
-    assert "dialogue service" in err
-    assert "Traceback" not in err
-
-
 def test_a_child_that_cannot_start_is_named(root: Path, tmp_path: Path) -> None:
     folder = tmp_path / "mine"
     shutil.copytree(root / "sim" / "scenarios" / "s1", folder)

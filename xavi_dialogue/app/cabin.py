@@ -5,6 +5,7 @@ from contextlib import suppress
 from datetime import datetime
 
 from xavi_dialogue.app import control
+from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import Client, ServiceLost, new_request
 from xavi_dialogue.app.convoy import Convoy
 from xavi_dialogue.app.minutes import Minutes
@@ -21,6 +22,7 @@ PHRASES = (
     *("change left", "change right", "turn left", "turn right", "stop", "slow down", "give way"),
 )
 COMMANDS = forms("terminal")
+LOST = "I cannot answer now:"
 ALONE = "There is no other vehicle in view."
 
 
@@ -55,7 +57,15 @@ class RemoteCabin:
         return (*commands, *(f"vehicle {name}" for name in names), *PHRASES)
 
     async def ask(self, text: str, request: str) -> str:
-        """The answer to a question."""
+        """The answer to a question; asked once more where the service had to be started anew."""
+        reply = await self._sent(text, request)
+        if isinstance(reply, ServiceLost):
+            with suppress(ChildFailed):  # which the next check tells
+                if await asyncio.to_thread(self._behind.recover, self._client):
+                    reply = await self._sent(text, request)
+        return f"{LOST} {reply}." if isinstance(reply, ServiceLost) else reply.text
+
+    async def _sent(self, text: str, request: str) -> Reply | ServiceLost:
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[Reply | ServiceLost] = loop.create_future()
 
@@ -68,8 +78,7 @@ class RemoteCabin:
                 loop.call_soon_threadsafe(settle, reply)
 
         self._client.send(text, done, at=self._client.now(), request=request)
-        reply = await answer
-        return f"({reply}.)" if isinstance(reply, ServiceLost) else reply.text
+        return await answer
 
     async def why(self) -> str:
         """The question why, as it has to be asked now."""

@@ -135,5 +135,52 @@ class Child:
         self.stop()
 
 
+class Steady:
+    """A child that is started anew when it has ended by itself."""
+
+    def __init__(self, start: Callable[[], Child]) -> None:
+        """Start it.
+
+        Args:
+            start: starts it.
+        """
+        self.spare = 0  # times that it may still be started anew
+        self._start, self._child = start, start()
+        self._lock = threading.Lock()
+
+    @property
+    def pid(self) -> int:
+        """The number of the present process."""
+        return self._child.pid
+
+    def check(self) -> None:
+        """Make sure that there is a process.
+
+        Raises:
+            ChildFailed: it has ended too often.
+        """
+        with self._lock:
+            try:
+                self._child.check()
+            except ChildFailed:
+                if self.spare == 0:
+                    raise
+                self.spare -= 1
+                self._child.stop()
+                self._child = self._start()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.spare = 0
+        self._child.stop()
+
+
 def _manner(code: int) -> str:
     return f"signal {-code}" if code < 0 else f"exit status {code}"

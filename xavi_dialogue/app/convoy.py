@@ -5,10 +5,11 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import partial
 
 from xavi_dialogue.app import control
-from xavi_dialogue.app.children import Child, ChildFailed
-from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.children import Child, ChildFailed, Steady
+from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.transports.bus import HubUnreachable
 from xavi_dialogue.transports.messages import SceneReport
@@ -17,6 +18,8 @@ from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
 ATTEMPTS = 3  # to find a port that stays free until the service listens at it
 RETRY = 0.2  # [s] between looks at whether the service is still coming up
 START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
+SPARE = 5  # times that a service which has died is started anew
+BACK = 15.0  # [s] until it must answer then
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
 
@@ -25,17 +28,34 @@ class Convoy:
     """The processes behind a chat, and its own connection to them."""
 
     car: Child
-    service: Child
+    service: Steady
     bus: ZenohBus
 
     def check(self) -> None:
-        """Make sure that both are there.
+        """Make sure that both are there; start the service anew if it is not.
 
         Raises:
-            ChildFailed: one has ended.
+            ChildFailed: the car has ended, or the service once too often.
         """
         self.service.check()
         self.car.check()
+
+    def recover(self, client: Client) -> bool:
+        """See to it that there is a service that answers; whether there is.
+
+        Raises:
+            ChildFailed: see `check`.
+        """
+        give_up = time.monotonic() + BACK
+        while time.monotonic() < give_up:
+            self.service.check()
+            try:
+                client.history()
+            except ServiceLost:
+                time.sleep(RETRY)
+            else:
+                return True
+        return False
 
     def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
         """Give the car an order, and wait until it has obeyed it.
@@ -108,9 +128,8 @@ def _start(
     """Both processes and a connection to them, on a port that another process may snatch."""
     for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
-        service = stack.enter_context(
-            Child("the dialogue service", ["serve", "--listen", endpoint, *kept], warn)
-        )
+        serve = ["serve", "--listen", endpoint, *kept]
+        service = stack.enter_context(Steady(partial(Child, "the dialogue service", serve, warn)))
         car = stack.enter_context(Child("the car", ["drive", *ride, "--connect", endpoint]))
         try:
             bus = stack.enter_context(_join(service, endpoint))
@@ -119,11 +138,12 @@ def _start(
                 raise
             stack.close()
         else:
+            service.spare = SPARE
             return Convoy(car, service, bus)
     raise AssertionError("the last attempt returns or raises")
 
 
-def _join(service: Child, endpoint: str) -> ZenohBus:
+def _join(service: Steady, endpoint: str) -> ZenohBus:
     give_up = time.monotonic() + START_PATIENCE
     while True:
         try:

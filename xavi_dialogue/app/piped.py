@@ -7,10 +7,10 @@ from typing import TypeAlias
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.cabin import plan_told, vehicles_in_words
-from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.convoy import Convoy
 from xavi_dialogue.app.minutes import Minutes
-from xavi_dialogue.dialogue.reply import encode
+from xavi_dialogue.dialogue.reply import Reply, encode
 from xavi_dialogue.transports import commands
 from xavi_dialogue.transports.commands import Command, CommandError
 from xavi_dialogue.transports.messages import MAX_TEXT, SceneReport
@@ -66,8 +66,16 @@ class Piped:
     def _ask(self, text: str) -> None:
         if len(text) > MAX_TEXT:
             self.note(f"only the first {MAX_TEXT} characters of a question are asked")
-        reply = self.client.ask(text[:MAX_TEXT], self.at)
+        reply = self._reply(text[:MAX_TEXT])
         self.write(encode(reply) if self.as_json else reply.text)
+
+    def _reply(self, text: str) -> Reply:
+        try:
+            return self.client.ask(text, self.at)
+        except ServiceLost:
+            if not self.behind.recover(self.client):
+                raise
+        return self.client.ask(text, self.at)
 
     def _obey(self, command: Command) -> bool:
         match command.name:

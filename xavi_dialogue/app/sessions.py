@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
+from textwrap import shorten
 
 from xavi_dialogue.app.narration import clock
 from xavi_dialogue.transports.store import DAY, Store, Summary
@@ -126,7 +127,5 @@ def _row(one: Summary, zone: Callable[[float], datetime]) -> tuple[str, ...]:
     ride = ""
     if one.scenario is not None and one.sim_time is not None:
         ride = f"{Path(one.scenario).name} {one.seed} at {clock(one.sim_time)}"
-    question = one_line(one.question)
-    if len(question) > WIDEST:
-        question = question[: WIDEST - 4].rstrip() + " ..."
+    question = shorten(one_line(one.question), WIDEST, placeholder=" ...")
     return (one.name, str(one.turns), f"{zone(one.last):%Y-%m-%d %H:%M}", ride, question)

@@ -1,0 +1,316 @@
+"""Conversations outlive their processes: listed, gone on with, forgotten; killed at any moment."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from planner.events import Event
+from sim.scenario import load
+from tests.app.desk import children, there, until
+from xavi_dialogue.__main__ import app
+from xavi_dialogue.app import going_on
+from xavi_dialogue.app.children import Child, ChildFailed, Steady
+from xavi_dialogue.app.memory import Keeping
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.transports.store import DAY, NewEvent, NewTurn, RideName, Store
+
+PATIENCE = 120.0  # [s] before a test gives up on what never comes
+WHY = "Why did you do that?"
+SURE = "Are you sure?"
+RIDE = ("--scenario", "s1", "--seed", "4")
+
+
+def xavi(*arguments: str, stdin: str | None = None) -> Result:
+    return CliRunner().invoke(app, list(arguments), input=stdin)
+
+
+def new(
+    session: str, text: str, ride: RideName | None, wall: float = 0.0, at: float = 8.0
+) -> NewTurn:
+    reply = Reply(text="So.", kind="answer", sim_time=at)
+    return NewTurn(session, ride, wall or time.time(), Turn(text=text, query=None, reply=reply))
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    """A file with two conversations."""
+    file = tmp_path / "dialogue.sqlite3"
+    ride, other = RideName("r1", "s1", 4), RideName("r2", "town", 0)
+    with Store(file) as store:
+        store.keep([new("ada", "Why?", ride, time.time() - 9 * DAY), new("ada", SURE, ride)])
+        store.keep([NewEvent(ride, 0, 1.0, Event("arrived", 9.0))])
+        store.keep([new("bob", "Tell me " + "more " * 30, other)])
+    return file
+
+
+def test_conversations_are_listed(path: Path) -> None:
+    lines = xavi("sessions", "--store", str(path)).stdout.splitlines()
+    assert lines[0].split()[:3] == ["session", "turns", "last"]
+    assert [line.split()[:2] for line in lines[1:]] == [["ada", "2"], ["bob", "1"]]
+    assert lines[1].split()[4:] == ["s1", "4", "at", "0:08", *SURE.split()]
+    assert lines[2].endswith(" more ...")
+    listed = json.loads(xavi("sessions", "--json", "--store", str(path)).stdout)
+    assert [(one["name"], one["turns"], one["scenario"]) for one in listed] == [
+        *(("ada", 2, "s1"), ("bob", 1, "town"))
+    ]
+
+
+def test_where_nothing_is_kept_nothing_is_made(tmp_path: Path) -> None:
+    file = tmp_path / "none.sqlite3"
+    assert xavi("sessions", "--store", str(file)).stdout == "No conversation is kept.\n"
+    assert xavi("sessions", "--json", "--store", str(file)).stdout == "[]\n"
+    assert xavi("sessions", "--export", "--store", str(file)).stdout == ""
+    assert "Nothing" in xavi("forget", "--all", "--yes", "--store", str(file)).stdout
+    assert not file.exists()
+
+
+def test_conversations_are_exported(path: Path) -> None:
+    every = xavi("sessions", "--export", "--store", str(path)).stdout.splitlines()
+    bobs = xavi("sessions", "bob", "--export", "--store", str(path)).stdout.splitlines()
+    assert [json.loads(line).get("session") for line in every] == ["ada", "ada", "bob", None]
+    assert bobs == every[2:3]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "erased", "left"),
+    [
+        (["ada"], "2 turns were", ["bob"]),
+        (["bob"], "1 turn was", ["ada"]),
+        (["--all"], "3 turns were", []),
+        (["--older-than", "7"], "1 turn was", ["ada", "bob"]),
+        (["ada", "--older-than", "0"], "2 turns were", ["bob"]),
+    ],
+)
+def test_conversations_are_forgotten(
+    path: Path, arguments: list[str], erased: str, left: list[str]
+) -> None:
+    done = xavi("forget", *arguments, "--yes", "--store", str(path))
+    assert (done.exit_code, done.stdout) == (0, f"{erased} erased.\n")
+    with Store(path) as store:
+        assert [one.name for one in store.sessions()] == left
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["forget"], "name a session"),
+        (["forget", "ada"], "--yes"),  # there is no terminal
+        (["forget", "--all", "--older-than", "3", "--yes"], "--all"),
+        (["forget", "--all", "ada", "--yes"], "--all"),
+        (["forget", "eve", "--yes"], "there are: ada, bob"),
+        (["sessions", "eve"], "there are: ada, bob"),
+        (["sessions", "eve", "--export"], "there are: ada, bob"),
+    ],
+)
+def test_what_makes_no_sense_erases_nothing(path: Path, arguments: list[str], told: str) -> None:
+    done = xavi(*arguments, "--store", str(path))
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert told in done.stderr
+    with Store(path) as store:
+        assert [one.turns for one in store.sessions()] == [2, 1]
+
+
+@pytest.mark.parametrize(
+    "arguments", [["sessions"], ["forget", "--all", "--yes"], ["chat", "--session", "ada"]]
+)
+def test_a_damaged_file_is_one_clear_line(tmp_path: Path, arguments: list[str]) -> None:
+    file = tmp_path / "broken"
+    file.write_bytes(b"no database at all " * 500)
+    done = xavi(*arguments, "--store", str(file))
+    assert (done.exit_code, done.stdout) == (1, "")
+    [line] = done.stderr.splitlines()
+    assert str(file) in line
+    assert "--store" in line
+
+
+def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
+    keeping, s1 = Keeping(path, 30), load("s1")
+    going = going_on.find(keeping, "ada")
+    assert (going.place(None), going.place("s2")) == ("s1", "s2")
+    assert (going.seed(None, s1), going.seed(7, s1)) == (4, 7)
+    assert going.seed(None, load("s2")) == load("s2").seed
+    assert (going.moment(s1, 4), going.moment(s1, 7)) == (8.0, None)
+    assert going.moment(load("s2"), 4) is None
+    assert going.note(8.0, keeping) == "going on with ada: 2 turns, at 0:08"
+    assert "of another ride" in going.note(None, keeping)
+
+
+def test_a_conversation_that_nobody_knows_begins(path: Path) -> None:
+    going = going_on.find(Keeping(path, 30), "eve")
+    assert (going.place(None), going.before) == ("s1", None)
+    assert going.seed(None, load("s1")) == load("s1").seed
+    fresh = going_on.fresh(datetime(2026, 11, 21, 16, 42, 10, tzinfo=UTC), "3f9c")
+    assert fresh.session == "20261121-164210-3f9c"
+    assert "--session 20261121-164210-3f9c" in fresh.note(None, Keeping(path, 30))
+    assert "nothing" in fresh.note(None, None)
+
+
+def test_a_scenario_is_found_again_by_name_or_folder(root: Path, tmp_path: Path) -> None:
+    assert going_on.place_of(load("s1")) == "s1"
+    assert going_on.place_of(load(root / "sim" / "scenarios" / "s1")) == "s1"
+    for source in (root / "sim" / "scenarios" / "s1").iterdir():
+        if source.is_file():
+            (tmp_path / source.name).write_bytes(source.read_bytes())
+    assert going_on.place_of(load(tmp_path)) == str(tmp_path)  # though it says that it is s1
+
+
+class Chat:
+    """A chat through a pipe, with the file it keeps its words in."""
+
+    def __init__(self, store: Path, *arguments: str) -> None:
+        command = [sys.executable, "-m", "xavi_dialogue", "chat", "--store", str(store)]
+        self.process = subprocess.Popen(
+            [*command, *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+
+    def say(self, line: str) -> None:
+        assert self.process.stdin is not None
+        self.process.stdin.write(line + "\n")
+        self.process.stdin.flush()
+
+    def ask(self, line: str) -> str:
+        self.say(line)
+        assert self.process.stdout is not None
+        return self.process.stdout.readline().rstrip("\n")
+
+    def kill(self) -> str:
+        """End the chat and all that it has started, at once; what it had still printed."""
+        pids = [self.process.pid, *children(self.process.pid)]
+        for pid in pids:
+            os.kill(pid, signal.SIGKILL)
+        out, _ = self.process.communicate()
+        assert until(lambda: not any(map(there, pids)))
+        return out
+
+    def end(self) -> tuple[int, str, str]:
+        out, err = self.process.communicate(timeout=PATIENCE)
+        return self.process.returncode, out, err
+
+
+@pytest.fixture
+def chats(tmp_path: Path) -> Iterator[list[Chat]]:
+    """Those that are to be ended in the end."""
+    begun: list[Chat] = []
+    yield begun
+    for chat in begun:
+        chat.process.kill()
+        chat.process.communicate()
+
+
+@pytest.fixture(scope="module")
+def wanted(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """What is answered where nothing is killed."""
+    calm = Chat(tmp_path_factory.mktemp("calm") / "dialogue.sqlite3", *RIDE)
+    answers = [calm.ask(line) for line in (WHY, SURE, SURE)]
+    calm.end()
+    return answers
+
+
+def kept(store: Path, session: str) -> list[tuple[str, str]]:
+    """Questions and answers on disk."""
+    with Store(store) as file:
+        return [(turn.text, turn.reply.text) for turn in file.turns(session, 200)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("moment", range(3))
+def test_what_was_shown_is_there_after_a_kill_and_leant_on(
+    tmp_path: Path, chats: list[Chat], wanted: list[str], moment: int
+) -> None:
+    store = tmp_path / "dialogue.sqlite3"
+    first = Chat(store, *RIDE, "--session", "ada")
+    chats.append(first)
+    shown = [first.ask(WHY)]
+    first.say(SURE)
+    time.sleep(random.Random(moment).uniform(0.0, 0.1))
+    shown += first.kill().splitlines()
+    known = kept(store, "ada")
+    assert known[: len(shown)] == list(zip((WHY, SURE), shown, strict=False))
+    lines = xavi("sessions", "ada", "--export", "--store", str(store)).stdout.splitlines()
+    said = [line["turn"] for line in map(json.loads, lines) if "turn" in line]
+    assert [turn["reply"]["text"] for turn in said] == wanted[: len(known)]
+    later = Chat(store, "--session", "ada")
+    chats.append(later)
+    assert later.ask(SURE) == wanted[len(known)]
+    status, _, err = later.end()
+    assert status == 0
+    assert "driving s1, seed 4" in err
+    assert "going on with ada" in err
+
+
+@pytest.mark.slow
+def test_when_the_service_is_killed_the_conversation_goes_on(
+    tmp_path: Path, chats: list[Chat], wanted: list[str]
+) -> None:
+    store = tmp_path / "dialogue.sqlite3"
+    chat = Chat(store, *RIDE, "--session", "ada")
+    chats.append(chat)
+    said = [chat.ask(WHY)]
+    for pid in children(chat.process.pid):
+        if b"serve" in Path(f"/proc/{pid}/cmdline").read_bytes():
+            os.kill(pid, signal.SIGKILL)
+    said.append(chat.ask(SURE))
+    status, _, _ = chat.end()
+    assert (status, said) == (0, wanted[:2])
+    assert kept(store, "ada") == list(zip((WHY, SURE), said, strict=True))
+
+
+@pytest.mark.slow
+def test_nothing_is_written_where_nothing_is_to_be_kept(tmp_path: Path, chats: list[Chat]) -> None:
+    store = tmp_path / "dialogue.sqlite3"
+    chat = Chat(store, "--scenario", "s1", "--keep-days", "0")
+    chats.append(chat)
+    assert chat.ask("Hello!")
+    status, _, err = chat.end()
+    assert (status, store.exists()) == (0, False)
+    assert "nothing of this conversation is kept" in err
+
+
+@pytest.mark.slow
+def test_the_passenger_is_warned_where_nothing_can_be_kept(
+    tmp_path: Path, chats: list[Chat]
+) -> None:
+    store = tmp_path / "dialogue.sqlite3"
+    store.write_bytes(b"no database at all " * 500)
+    chat = Chat(store, "--scenario", "s1")
+    chats.append(chat)
+    assert chat.ask("Hello!")
+    status, _, err = chat.end()
+    assert status == 0
+    [warning] = [line for line in err.splitlines() if "warning" in line]
+    assert str(store) in warning
+
+
+@pytest.mark.slow
+def test_a_child_is_started_anew_only_so_often() -> None:
+    def gone() -> bool:
+        try:
+            steady.check()
+        except ChildFailed as error:
+            return str(error).startswith("the hub has ended")
+        return False
+
+    with Steady(lambda: Child("the hub", ["serve", "--listen", "nonsense"])) as steady:
+        first = steady.pid
+        assert until(gone)
+        assert steady.pid == first
+        steady.spare = 1
+        steady.check()
+        assert steady.pid != first
+        assert until(gone)
