@@ -58,6 +58,8 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
         known = found.get((parse.rule, query))
         if cost <= limit and (known is None or cost < known.cost):
             kind = kind_of(query, previous)
+            if kind == LEAN and parse.rule == query.type and _says_nothing(reading):
+                kind = query.type  # it is worded as such, whatever was asked before
             found[parse.rule, query] = Candidate(parse.rule, query, kind, cost, tree=parse.tree)
     return list(found.values())
 
