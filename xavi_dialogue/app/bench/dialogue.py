@@ -1,6 +1,8 @@
 """`xavi bench dialogue`: how long answers take, within one process and over the bus."""
 
 import time
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from sim.network import Network
 from sim.scenario import load
@@ -9,6 +11,7 @@ from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.control import Until
 from xavi_dialogue.app.convoy import convoy, first_scene
 from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.ride import network_of, start
 from xavi_dialogue.transports.bus import Keys
 
@@ -43,7 +46,10 @@ def measure() -> Figures:
             again = len(conversation.dialogue.planned) > planned
             kind = "planned again" if again else "from the record"
             watch.taken.setdefault(f"{name} {kind}", []).append(taken)
-    _over_the_bus(watch)
+    _over_the_bus(watch, "over the bus", None)
+    with TemporaryDirectory() as folder:
+        keeping = Keeping(Path(folder) / "dialogue.sqlite3", days=1)
+        _over_the_bus(watch, "over the bus, kept on disk", keeping)
     return Figures("dialogue", watch.figures())
 
 
@@ -57,13 +63,13 @@ def ride(name: str) -> tuple[Conversation, Network]:
     return conversation, network
 
 
-def _over_the_bus(watch: Watch) -> None:
+def _over_the_bus(watch: Watch, how: str, keeping: Keeping | None) -> None:
     """The same, from a passenger's process through the service's."""
     name = SCENARIOS[0]
-    with convoy(name, SEED, 0.0) as behind:
+    with convoy(name, SEED, 0.0, keeping) as behind:
         client = Client(behind.bus, Keys(), "bench")
         first_scene(behind, client)
         at = behind.drive(client, Until(None), halt=True).sim_time
         for question in QUESTIONS * ROUNDS:
-            with watch.time(f"{name} over the bus"):
+            with watch.time(f"{name} {how}"):
                 client.ask(question, at)
