@@ -26,11 +26,14 @@ LEAST_FIT = 1e-3  # relative likelihood below which a path does not fit at all
 def how(query: Query, ride: Ride) -> Explanation:
     """How we came to know what a vehicle would do, or what it is most likely to do.
 
-    Where it did so, the decisions up to then count; else all of them.
+    Where it did so, the decisions up to then count; else all of them, or those up to the moment
+    that the question is about.
 
     Raises:
         Unanswered: the vehicle is unknown, or no decision expects anything of it.
     """
+    if ride.past is not None and ride.past.instant:
+        return how(query, ride.back(ride.past.moment))
     vehicle = actor_of(query, ride)
     latest = last_with(ride, vehicle)
     asked = query.factual or query.counterfactual or ()
