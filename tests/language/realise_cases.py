@@ -9,9 +9,15 @@ from planner.trace import ACTIONS, COMPONENTS, UNITS, Action, Component, Outcome
 from xavi_dialogue.explain.details import (
     Avoidance,
     Certainty,
+    Choices,
+    Contrary,
     Grounds,
     Mishap,
+    Need,
+    Option,
     Pivot,
+    Sight,
+    Staying,
     Step,
     Suspect,
 )
@@ -197,6 +203,13 @@ _details_of_answers = st.fixed_dictionaries(
         "suspect": st.builds(
             Suspect, vehicle=_numbers, part=st.sampled_from(["main", "some", "none"])
         ),
+        "contrary": st.builds(
+            Contrary,
+            asked=_some_plans,
+            done=st.none() | _moments,
+            deed=st.none() | _deeds,
+            chance=st.none() | _shares,
+        ),
     },
 )
 
@@ -234,7 +247,79 @@ def _any_explanation(draw: st.DrawFn) -> Explanation:
     return replace(draw(_plain_explanations), **draw(_details_of_answers))
 
 
-explanations = st.one_of(_plain_explanations, _any_explanation())
+_trends = st.sampled_from([None, "slowing", "steady", "speeding-up", "standing"])
+_aspects = st.one_of(
+    st.fixed_dictionaries(
+        {
+            "sight": st.builds(
+                Sight,
+                about=st.sampled_from(["speed", "distance", "place", "count"]),
+                vehicle=_numbers,
+                place=st.sampled_from(["ahead", "behind", "left", "ahead-right", "behind-left"]),
+                oncoming=st.booleans(),
+                distance=st.floats(0, 2000),
+                speed=st.floats(0, 120),
+                trend=_trends,
+                others=st.lists(_numbers, unique=True).map(sorted).map(tuple),
+            )
+        }
+    ),
+    st.fixed_dictionaries(
+        {
+            "choices": st.builds(
+                Choices,
+                about=st.sampled_from(["options", "second", "worst"]),
+                chosen=st.sampled_from(ACTIONS),
+                others=st.lists(
+                    st.builds(
+                        Option,
+                        action=st.sampled_from(ACTIONS),
+                        outcome=st.sampled_from(get_args(Outcome)),
+                        probability=st.floats(0.3, 1),
+                        delta=st.none() | st.floats(-60, 5000),
+                        collided_with=st.none() | _numbers,
+                    ),
+                    max_size=6,
+                    unique_by=lambda option: option.action,
+                ).map(tuple),
+            )
+        }
+    ),
+    st.fixed_dictionaries(
+        {
+            "need": st.builds(
+                Need,
+                asked=st.sampled_from(["necessary", "other-way", "better-way"]),
+                kind=st.sampled_from(["only", "bad", "worse", "equal", "driving"]),
+                foil=st.none() | st.sampled_from(ACTIONS),
+            )
+        }
+    ),
+    st.fixed_dictionaries(
+        {
+            "staying": st.builds(
+                Staying,
+                deed=st.sampled_from(["change-left", "change-right", "exit-left", "exit-right"]),
+                since=_moments,
+                under_way=st.booleans(),
+                only=st.booleans(),
+                reason=st.sampled_from([None, "the lane ends too soon to change"]),
+                same=st.booleans(),
+            )
+            | st.just(Staying())
+        }
+    ),
+)
+
+
+@st.composite
+def _beyond_the_type(draw: st.DrawFn) -> Explanation:
+    """What a question brings that asks for something beyond its type."""
+    return replace(draw(_plain_explanations), **draw(_aspects))
+
+
+aspects = _beyond_the_type()
+explanations = st.one_of(_plain_explanations, _any_explanation(), aspects)
 
 QUESTION_TYPES: tuple[QueryType, ...] = (
     "why",
@@ -262,6 +347,7 @@ queries = st.builds(
     tense=_tenses,
     detail=_details,
     intervention=st.sampled_from([None, "remove"]),
+    event=st.sampled_from([None, "could"]),
     condition=st.sampled_from(
         [None, "if vehicle 1 had not been there", "if vehicle 1 had turned left"]
     ),
@@ -281,4 +367,7 @@ contexts = st.builds(
     max_effects=st.integers(0, 4),
     done=_plans,
     now=st.floats(0, 3600),
+    turn=st.integers(0, 5),
+    told=st.frozensets(st.tuples(_numbers, _plans)),
+    repeated=st.booleans(),
 )

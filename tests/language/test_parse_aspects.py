@@ -26,7 +26,7 @@ from xavi_dialogue.language.aspects import aspects, with_aspect
         ("did you have to?", "necessary", "ego"),
         ("was that necessary", "necessary", "ego"),
         ("did you have to change lanes", "necessary", "ego"),
-        ("was there a better way of doing that?", "other-way", "ego"),
+        ("was there a better way of doing that?", "better-way", "ego"),
         ("what was the second best option", "second", "ego"),
         ("what was the worst", "worst", "ego"),
         ("what else could you have done", "options", "ego"),

@@ -20,6 +20,11 @@ from xavi_dialogue.language.wording import PAPER_ADVERBS, lexicon, rewrite, rewr
 STARTS = {
     "answer_paper": {"S"},
     "answer_passenger": {
+        "AGAIN",
+        "SIGHT",
+        "OPTIONS",
+        "NEED",
+        "LANE",
         "WHY",
         "BRIEF",
         "WHAT_IF",

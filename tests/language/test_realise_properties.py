@@ -12,8 +12,8 @@ from tests.language.realise_cases import contexts, explanations, queries
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.morphology import Quantity, bare, quantity
 from xavi_dialogue.language.orthography import count_sentences, count_words
+from xavi_dialogue.language.quantities import Quantity, bare, quantity
 from xavi_dialogue.language.realise import MAX_SENTENCES, MAX_WORDS, MAX_WORDS_MORE, realise
 
 JARGON = re.compile(
@@ -37,6 +37,15 @@ def counted(found: Explanation) -> Iterator[str]:
     if (grounds := found.grounds) is not None:
         yield from [*spelt(grounds.start, "clock"), *spelt(grounds.end, "clock")]
         yield from spelt(grounds.fit or 0.0, "count")
+    if found.choices is not None:
+        yield str(len(found.choices.others))
+        yield str(len(found.choices.others) - 3)
+    if found.sight is not None:
+        yield str(len(found.sight.others))
+    if found.contrary is not None and found.contrary.done is not None:
+        yield from spelt(found.contrary.done, "clock")
+    if found.staying is not None and found.staying.since is not None:
+        yield from spelt(found.staying.since, "clock")
     if found.seen is not None:
         yield from spelt(found.seen, "clock")
     yield from spelt(found.sim_time, "clock")
@@ -48,7 +57,8 @@ def details(found: Explanation, now: float) -> tuple[list[float], list[float], l
     times += [max(end - now, 0.0) for end in found.span or ()]
     times += [math.floor(found.least or 0.0)]
     times += [m.delay * m.share for c in found.causes if (m := c.mechanism) and m.delay]
-    speeds: list[float] = []
+    times += [option.delta or 0.0 for option in found.choices.others] if found.choices else []
+    speeds: list[float] = [found.sight.speed or 0.0] if found.sight is not None else []
     chances: list[float] = []
     if (grounds := found.grounds) is not None:
         speeds += [s for s in (grounds.speed_from, grounds.speed_to) if s is not None]
@@ -89,6 +99,8 @@ def numbers(found: Explanation, now: float) -> Iterator[str]:
     for value in times:
         yield from re.findall(r"[\d.]+", quantity(Quantity(value or 0.0, "s")))
         yield bare(Quantity(value or 0.0, "s"))
+    if found.sight is not None:
+        yield from re.findall(r"\d+", quantity(Quantity(found.sight.distance or 0.0, "m")))
     for value in speeds:
         yield from re.findall(r"\d+", quantity(Quantity(value or 0.0, "km/h")))
     if found.certainty is not None:
@@ -109,6 +121,10 @@ def vehicles(found: Explanation, query: Query) -> set[int]:
         known.add(found.grounds.vehicle)
     if found.pivot is not None and found.pivot.vehicle is not None:
         known.add(found.pivot.vehicle)
+    if found.sight is not None:
+        known |= {found.sight.vehicle, *found.sight.others}
+    if found.choices is not None:
+        known |= {o.collided_with for o in found.choices.others if o.collided_with is not None}
     if found.suspect is not None:
         known.add(found.suspect.vehicle)
     return known | {int(n) for n in re.findall(r"\d+", query.actor)}

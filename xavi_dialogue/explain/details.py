@@ -4,7 +4,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from planner.trace import Action
+from planner.trace import Action, Outcome
 from xavi_dialogue.explain.query import QueryAction
 
 #: Something unpleasant that might have been avoided.
@@ -93,3 +93,75 @@ class Suspect(msgspec.Struct, frozen=True):
 
     vehicle: int
     part: Literal["main", "some", "none"]
+
+
+class Sight(msgspec.Struct, frozen=True):
+    """What the latest scene shows of a vehicle, or of all."""
+
+    about: Literal["speed", "distance", "place", "count", "colour"]
+    vehicle: int
+    place: str | None = None  # where it is seen from us; None: it is us
+    oncoming: bool = False  # it comes towards us
+    distance: float | None = None  # [m] of the gap ahead or behind, else between the centres
+    speed: float | None = None  # [m/s]
+    trend: Literal["slowing", "steady", "speeding-up", "standing"] | None = None
+    colour: str | None = None
+    others: tuple[int, ...] = ()  # that are in view
+
+
+class Option(msgspec.Struct, frozen=True):
+    """Something else that might have been done, and what was expected of it."""
+
+    action: Action
+    outcome: Outcome
+    probability: float  # of that
+    delta: float | None  # [s] by which it takes longer than what was chosen, if it gets there
+    collided_with: int | None = None
+
+
+class Choices(msgspec.Struct, frozen=True):
+    """What else might have been done, best first; or which of it was the best or the worst."""
+
+    about: Literal["options", "second", "worst"]
+    chosen: Action
+    others: tuple[Option, ...]
+
+
+class Need(msgspec.Struct, frozen=True):
+    """Whether the ego had to do what it did.
+
+    - only: nothing else could be done.
+    - bad: the best alternative would not have gone well.
+    - worse: it would have, but was not as good.
+    - equal: it would have been as good.
+    - driving: how it drove follows from who was in its way (the causes), or from the road.
+    """
+
+    asked: Literal["necessary", "other-way", "better-way"]
+    kind: Literal["only", "bad", "worse", "equal", "driving"]
+    foil: Action | None = None  # the best alternative
+
+
+class Staying(msgspec.Struct, frozen=True):
+    """Why the ego is in its lane.
+
+    `deed` brought it there, and nothing before `since`; both None: it has been in it from the
+    start. `only` says that there is no other to change to, for `reason` where that is another
+    than that the road has none.
+    """
+
+    deed: Action | None = None
+    since: float | None = None  # [s]
+    under_way: bool = False  # it is only moving there
+    only: bool = False
+    reason: str | None = None
+    same: bool = False  # to leave it would make no difference worth speaking of
+
+
+class Contrary(msgspec.Struct, frozen=True):
+    """What another vehicle is asked not to have done, and what it did of it."""
+
+    asked: tuple[QueryAction, ...]
+    done: float | None = None  # [s] when it did so all the same, before it did the contrary
+    deed: QueryAction | None = None  # the contrary, where it did that
+    chance: float | None = None  # that it does what is asked about yet, where that is foreseen

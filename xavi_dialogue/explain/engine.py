@@ -11,15 +11,19 @@ from xavi_dialogue.causal.model import CausalError
 from xavi_dialogue.explain import (
     avoidance,
     certainty,
+    choices,
     ego,
     grounds,
+    lanes,
     method,
     present,
     ranking,
     sensitivity,
+    sights,
     suppositions,
     timing,
     vehicles,
+    withheld,
 )
 from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.direction import directed
@@ -51,13 +55,24 @@ EGO: Mapping[QueryType, Explainer] = {
 #: What is asked about another vehicle.
 OTHERS: Mapping[QueryType, Explainer] = {
     "why": vehicles.why,
-    "why_not": vehicles.why_not,
+    "why_not": withheld.why_not,
+    "compare": withheld.compare,
     "what_if": suppositions.what_if,
     "what": vehicles.what,
     "where_goal": vehicles.where,
     "confidence": vehicles.confidence,
     "when": vehicles.when,
     "how": grounds.how,
+}
+#: What is asked beyond the type, by `Query.event`: of what is seen, whoever it is about; ...
+SEEN: Mapping[str, Explainer] = dict.fromkeys(
+    ("speed", "distance", "place", "count", "colour"), sights.sight
+)
+#: ... and about the ego.
+ASPECTS: Mapping[str, Explainer] = {
+    **dict.fromkeys(("options", "second", "worst"), choices.options),
+    **dict.fromkeys(("necessary", "other-way", "better-way"), choices.needed),
+    "lane": lanes.lane,
 }
 
 
@@ -126,8 +141,22 @@ def _explainer(query: Query) -> Explainer:
         raise decline("not-an-action")
     if query.type == "ambiguous":
         raise decline("ambiguous")
-    table = EGO if query.actor in ("ego", "vehicle:0") else OTHERS
+    if (aspect := _aspect(query)) is not None:
+        return aspect
+    table = EGO if _ours(query) else OTHERS
     found = table.get(query.type)
     if found is None:
         raise decline("out-of-scope", what=query.reason or query.type)
     return found
+
+
+def _aspect(query: Query) -> Explainer | None:
+    """Who explains what is asked beyond the type, if anything is."""
+    if query.type == "out_of_scope" and query.reason != "perception":
+        return None
+    wanted = query.event or ""
+    return SEEN.get(wanted) or (ASPECTS.get(wanted) if _ours(query) else None)
+
+
+def _ours(query: Query) -> bool:
+    return query.actor in ("ego", "vehicle:0")

@@ -11,9 +11,14 @@ from planner.trace import Action, Component, HoldUp, Outcome
 from xavi_dialogue.explain.details import (
     Avoidance,
     Certainty,
+    Choices,
+    Contrary,
     Grounds,
+    Need,
     Pivot,
     Ranking,
+    Sight,
+    Staying,
     Step,
     Suspect,
 )
@@ -142,6 +147,14 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     - Which is safer or smoother: as for a foil, with a `ranking` by that measure.
     - How to avoid, what matters: `avoidance` or `pivot`, with the alternative as a contrast.
 
+    By the aspect that a question has beside its type:
+
+    - How fast, how far, where, which colour, how many: `sight`.
+    - What else, the second best, the worst: `choices`, with the one named as the counterfactual.
+    - Did you have to: `need`, with the best alternative as the counterfactual, or the causes.
+    - Why in this lane: `staying`, with what speaks against another as the counterfactual.
+    - Why another vehicle did not: `contrary`, beside what is said of why it did otherwise.
+
     A question that names a suspect has `suspect`; one about a vehicle that is out of view, `seen`.
     """
 
@@ -168,6 +181,11 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     pivot: Pivot | None = None
     ranking: Ranking | None = None
     suspect: Suspect | None = None
+    sight: Sight | None = None
+    choices: Choices | None = None
+    need: Need | None = None
+    staying: Staying | None = None
+    contrary: Contrary | None = None
     done: tuple[QueryAction, ...] = ()  # what the ego did, where the question calls it otherwise
     cleared: int | None = None  # a vehicle in our way without which all would have been the same
     then: float | None = None  # [s] when that was or will be, where the question speaks of a time

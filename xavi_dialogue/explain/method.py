@@ -37,10 +37,10 @@ def how(query: Query, ride: Ride) -> Explanation:
         except Unanswered:
             if query.tense == "past":
                 raise
-    return _comparison(ride, _decision(query, ride))
+    return _comparison(ride, decision(query, ride))
 
 
-def _decision(query: Query, ride: Ride) -> Premise:
+def decision(query: Query, ride: Ride) -> Premise:
     """The decision asked about; about how it decides as a rule, the last that had a choice."""
     try:
         found = premise(ride, query)

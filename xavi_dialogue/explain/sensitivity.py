@@ -27,7 +27,7 @@ from xavi_dialogue.explain.contrast import (
     to_effects,
 )
 from xavi_dialogue.explain.course import lines, speed_mark
-from xavi_dialogue.explain.deeds import DRIVING, happened
+from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened
 from xavi_dialogue.explain.details import Pivot
 from xavi_dialogue.explain.explanation import Cause, Explanation, NoExplanation
 from xavi_dialogue.explain.premise import about_foil, premise
@@ -64,6 +64,11 @@ def sensitivity(query: Query, ride: Ride) -> Explanation:
 
 def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
     """The plan under the condition against the plan as it was, as for a what-if."""
+    if query.tense == "past":
+        if really := _really(query, ride):
+            found = _under(replace(query, factual=really), ride, supposed)
+            return replace(found, done=really)
+        _check_done(query, ride)
     deed = query.factual or query.counterfactual or ()
     driving = [a for a in deed if a in DRIVING and not (a == "stop" and happened(ride, "stop"))]
     if supposed.actions and driving:
@@ -86,6 +91,31 @@ def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
     if share is None:
         raise thin(deed, None)
     return _with_change(found, supposed.vehicle, changes=share < LIKELY)
+
+
+def _check_done(query: Query, ride: Ride) -> None:
+    """Decline to say whether we would still have done what we did not do.
+
+    Raises:
+        Unanswered: it did not happen.
+    """
+    deed = query.factual or ()
+    undone = [a for a in deed if a not in DRIVING and happened(ride, a) is None]
+    waited = any(event.kind == "gave-way" for event in ride.events)
+    if undone or ("give-way" in deed and not waited and not _halted(ride)):
+        raise did_not_happen(ride, deed)
+
+
+def _really(query: Query, ride: Ride) -> tuple[QueryAction, ...]:
+    """What the ego did where it is said to have stopped, and only slowed down."""
+    waited = any(event.kind == "gave-way" for event in ride.events)
+    if query.factual != ("stop",) or waited or _halted(ride):
+        return ()
+    return ("slow-down",) if ride.motion(EGO).last("slow-down") is not None else ()
+
+
+def _halted(ride: Ride) -> bool:
+    return ride.motion(EGO).last("stop") is not None
 
 
 def _moment(query: Query, ride: Ride, vehicle: int, deed: tuple[QueryAction, ...]) -> float:

@@ -100,15 +100,6 @@ def _suspected(query: Query, ride: Ride, found: Explanation) -> Explanation:
     return replace(found, causes=tuple(first), suspect=part)
 
 
-def why_not(query: Query, ride: Ride) -> Explanation:
-    """Why a vehicle did not do something: what it is expected to do instead."""
-    vehicle = actor_of(query, ride)
-    asked = query.counterfactual or ()
-    if asked and query.tense == "past":
-        check_contrary(ride, vehicle, asked, done=False)
-    return _expectation(ride, last_with(ride, vehicle), vehicle, ())
-
-
 def where(query: Query, ride: Ride) -> Explanation:
     """Where a vehicle is probably going."""
     vehicle = actor_of(query, ride)

@@ -5,7 +5,7 @@ passed on as they are, to be rounded when they are spelt out.
 """
 
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
@@ -13,17 +13,24 @@ from xavi_dialogue.language.contrast import constraint, contrast, effect_points,
 from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, vehicle_of
 from xavi_dialogue.language.hindrance import in_the_way
 from xavi_dialogue.language.insight import insight, whole
-from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
+from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
+from xavi_dialogue.language.options import Aspect, aspect
 from xavi_dialogue.language.points import ActivityPoint, Budget, Content, Motive, Supposition, Time
+from xavi_dialogue.language.quantities import Quantity, Span
 from xavi_dialogue.language.ranking import Comparison, comparison
 
+#: All that an answer may say.
+AnyContent: TypeAlias = Content | Comparison | Aspect
 SPREAD = 2.0  # [s] a range of times worth giving
 
 
-def select(query: Query, found: Explanation, budget: Budget, now: float) -> Content | Comparison:
+def select(query: Query, found: Explanation, budget: Budget, now: float) -> AnyContent:
     """What to say at time `now` [s] in answer to `query`, within `budget`."""
     actor = vehicle_of(query.actor)
     watched = found.activity or found.destination
+    aside = aspect(query, found, budget, now)
+    if aside is not None:
+        return aside
     if query.type == "when":
         return _time(query, found, actor, now)
     deeper = insight(query, found, budget, now)
@@ -69,7 +76,8 @@ def _supposition(query: Query, found: Explanation, actor: int, budget: Budget) -
 
 
 def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Motive:
-    deed = query.factual or ()
+    contrary = found.contrary
+    deed = query.factual or ((contrary.deed,) if contrary and contrary.deed else ())
     actions, probability = _expected(found)
     done = max((i + 1 for i, action in enumerate(actions) if action in deed), default=0)
     aims = actions[done:]
@@ -89,6 +97,12 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
         suspect=suspect_point(found),
         waits=standing and query.tense == "present" and (not deed or "stop" in deed),
         ahead=query.tense == "future" or (query.tense == "present" and found.moment is None),
+        withheld=None if contrary is None else doing(actor, contrary.asked, "past"),
+        after=None
+        if contrary is None or contrary.done is None
+        else Quantity(contrary.done, "clock"),
+        yet=contrary is not None and contrary.chance is not None,
+        could=query.event == "could",
         going=query.tense == "present" and found.moment is not None and "stop" not in deed,
     )
 
@@ -125,11 +139,14 @@ def _time(query: Query, found: Explanation, actor: int | None, now: float) -> Ti
         foreseen=foreseen,
         waiting=waiting,
         waits_for=None if waits_for is None else Vehicle(waits_for),
-        soonest=Quantity(max(low - now, 0.0), "s") if spread else None,
-        latest=Quantity(max(high - now, 0.0), "s") if spread else None,
+        between=_between(low - now, high - now) if spread else None,
         slow=found.outcome is not None and found.outcome.name == "termination",
         least=whole(found.least) if found.least is not None and found.least >= 1.0 else None,
     )
+
+
+def _between(low: float, high: float) -> Span:
+    return Span(Quantity(max(low, 0.0), "s"), Quantity(max(high, 0.0), "s"))
 
 
 def _activity(query: Query, found: Explanation) -> ActivityPoint:

@@ -2,12 +2,15 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from planner.trace import Action
+from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Detail, Query
 
 Style = Literal["passenger", "paper"]
+#: Causes that were told: vehicles with what was expected of them.
+Told: TypeAlias = frozenset[tuple[int, tuple[str, ...]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +35,9 @@ class SpeechContext:
     done: tuple[Action, ...] = ()  # what we have carried out so far, latest last
     asked: tuple[Query, ...] = ()  # in this conversation so far, oldest first
     closed: tuple[Query, ...] = ()  # that might be suggested, but would be declined now
+    turn: int = 0  # earlier turns of the conversation: wording varies with it
+    told: Told = frozenset()  # causes that this conversation has been told of; see `told`
+    repeated: bool = False  # the very same was answered to the very same question before
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,3 +48,8 @@ class Utterance:
     mentioned: tuple[int, ...] = ()  # vehicles named in it, in order of first mention
     suggestions: tuple[str, ...] = ()  # questions that can be asked next
     choices: tuple[str, ...] = ()  # of a clarification, in the order they are numbered
+
+
+def told(found: Explanation) -> Told:
+    """The causes that an answer from an explanation tells of, for later answers."""
+    return frozenset((cause.vehicle, tuple(cause.actions)) for cause in found.causes)

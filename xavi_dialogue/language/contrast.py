@@ -5,7 +5,7 @@ from typing import Literal
 from xavi_dialogue.explain.explanation import Cause, Effect, Evidence, Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain
-from xavi_dialogue.language.morphology import EGO, KMH, Doing, Quantity, Vehicle
+from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.points import (
     Budget,
     CausePoint,
@@ -15,6 +15,7 @@ from xavi_dialogue.language.points import (
     EvidencePoint,
     SuspectPoint,
 )
+from xavi_dialogue.language.quantities import KMH, Quantity, Span
 from xavi_dialogue.language.wording import lexicon
 
 STANDSTILL = 0.5  # [m/s] slower than this counts as standing
@@ -97,6 +98,7 @@ def effect_points(effects: tuple[Effect, ...], limit: int) -> tuple[EffectPoint,
 
 def _effect(effect: Effect, opposed: bool) -> EffectPoint:
     least = lexicon().negligible[effect.component]
+    low, high = Quantity(effect.low, "s"), Quantity(effect.high, "s")
     return EffectPoint(
         component=effect.component,
         size=Quantity(abs(effect.delta), "s"),
@@ -104,8 +106,9 @@ def _effect(effect: Effect, opposed: bool) -> EffectPoint:
         opposed=opposed,
         unsure=effect.low < -least and effect.high > least,
         narrow=effect.high - effect.low < NARROW,
-        low=Quantity(effect.low, "s"),
-        high=Quantity(effect.high, "s"),
+        low=low,
+        high=high,
+        range=Span(*sorted((low, high), key=lambda end: abs(end.value))),
     )
 
 
@@ -121,12 +124,16 @@ def cause_point(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
     start = mechanism.speed_from if mechanism else None
     lowest = mechanism.speed_to if mechanism else None
     slows = start is not None and lowest is not None and start - lowest >= SLOWING
+    known = (cause.vehicle, tuple(cause.actions)) in budget.told
+    particulars = budget.particulars and not known
     actions = plain(cause.actions)
-    actions = actions if budget.particulars else actions[-FEW:]
+    actions = actions if particulars else actions[-FEW:]
     last = actions[-1:]
     changes_only = bool(actions) and all(a in LANE_CHANGES for a in actions)
     halts = slows and lowest is not None and lowest < STANDSTILL
-    after = () if changes_only or last in (("continue",), ("stop",) if halts else ()) else last
+    after = (
+        () if known or changes_only or last in (("continue",), ("stop",) if halts else ()) else last
+    )
     necessary: dict[bool | None, Literal["yes", "no"]] = {True: "yes", False: "no"}
     return CausePoint(
         vehicle=Vehicle(cause.vehicle),
@@ -139,7 +146,7 @@ def cause_point(cause: Cause, tense: Tense, budget: Budget) -> CausePoint:
         after=Doing(cause.vehicle, after, tense) if after else None,
         slows=slows,
         halts=halts,
-        particulars=budget.particulars,
+        particulars=particulars,
         speed_from=None if start is None else Quantity(start, "km/h"),
         speed_to=None if lowest is None or lowest < STANDSTILL else Quantity(lowest, "km/h"),
         necessary=necessary.get(cause.decision_changes),

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Tense
-from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle
+from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
+from xavi_dialogue.language.quantities import Quantity
 
 KNOWN = 0.67  # probability from which a goal is spoken of in passing
 STANDSTILL = 0.5  # [m/s] slower than this counts as standing

@@ -10,7 +10,7 @@ from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import cause_point, contrast, effect_points
 from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain
-from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, quantity
+from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.points import (
     Budget,
     Contrast,
@@ -24,6 +24,7 @@ from xavi_dialogue.language.points import (
     Sureness,
     Unmoved,
 )
+from xavi_dialogue.language.quantities import Quantity, quantity
 
 OVER = 0.975  # probability that is said as "over 95 %"
 EVEN = 0.5  # probability from which something is more probable than not
@@ -247,7 +248,8 @@ def _conditional(query: Query, found: Explanation, budget: Budget) -> Suppositio
     cause = next(iter(found.causes), None)
     if supposed is None or cause is None or cause.vehicle != supposed.vehicle:
         return None
-    deed = plain(query.factual or query.counterfactual or found.factual[:1]) or ("continue",)
+    named = found.done or query.factual or query.counterfactual
+    deed = plain(named or found.factual[:1]) or ("continue",)
     other = plain(found.counterfactual[:1])
     driving = any(action in DRIVING for action in deed)
     changes = cause.decision_changes is True
@@ -268,6 +270,8 @@ def _conditional(query: Query, found: Explanation, budget: Budget) -> Suppositio
         chance=Quantity(cause.probability, "probability") if supposed.actions else None,
         more=budget.more,
         denied=denied,
+        instead=Doing(EGO, found.done, "past") if found.done else None,
+        undone=doing(EGO, query.factual or (), "past") if found.done else None,
     )
 
 

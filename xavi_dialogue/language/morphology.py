@@ -8,19 +8,18 @@ Errors:
     FormError    a grammar asks for a form that a value does not have
 """
 
-import math
 from dataclasses import dataclass, field
 from typing import Literal
 
 from xavi_dialogue.explain.query import Tense
 from xavi_dialogue.language.context import SpeechContext, VehicleWords
 from xavi_dialogue.language.generator import Slot, Token
+from xavi_dialogue.language.quantities import Quantity, Span, bare, quantity, span
 from xavi_dialogue.language.rules import GrammarError, Word
 from xavi_dialogue.language.wording import Lexicon, VerbForm, lexicon
 
 EGO = 0
 YOU = -1  # the ego, spoken to: in questions that the passenger may ask
-KMH = 3.6  # [km/h] per [m/s]
 
 
 class FormError(GrammarError):
@@ -42,14 +41,6 @@ class Doing:
     actions: tuple[str, ...]
     tense: Tense = "past"
     in_lane: bool = False  # going on is seen against a change of lane
-
-
-@dataclass(frozen=True, slots=True)
-class Quantity:
-    """A number with its unit, to be rounded and spelt out."""
-
-    value: float
-    unit: Literal["s", "km/h", "probability", "clock", "count"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +83,8 @@ class _Speaker:
             return self._doing(value, form)
         if isinstance(value, Quantity):
             return bare(value) if form == "number" else quantity(value)
+        if isinstance(value, Span):
+            return span(value, form)
         if isinstance(value, Term):
             return self._term(value)
         if isinstance(value, tuple) and all(isinstance(v, Vehicle) for v in value):
@@ -195,54 +188,3 @@ def listed(parts: list[str]) -> str:
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} and {parts[-1]}"
-
-
-def nearest(value: float) -> int:
-    """The nearest whole number, halves upwards."""
-    return math.floor(value + 0.5)
-
-
-def quantity(amount: Quantity) -> str:
-    """A quantity in words, rounded as a passenger would say it.
-
-    Seconds to a half below 3 s and to a whole above, minutes from 100 s, speeds to 1 km/h,
-    probabilities to 5 % but never to certainty, times of the ride as minutes and seconds.
-    """
-    value = amount.value
-    match amount.unit:
-        case "s":
-            return _seconds(abs(value))
-        case "km/h":
-            return f"{nearest(value * KMH)} km/h"
-        case "clock":
-            return f"{nearest(value) // 60}:{nearest(value) % 60:02d}"
-        case "count":
-            return str(nearest(value))
-    percent = 5 * nearest(value * 20)
-    if percent >= 100:
-        return "over 95 %"
-    if percent <= 0:
-        return "under 5 %"
-    return f"{percent} %"
-
-
-def bare(amount: Quantity) -> str:
-    """The number alone, for where its unit follows later: "from 2 to 4 seconds"."""
-    if amount.unit == "s":
-        return f"{_round_seconds(abs(amount.value)):g}"
-    if amount.unit == "probability":
-        return quantity(amount).removesuffix(" %")
-    return quantity(amount).partition(" ")[0]
-
-
-def _seconds(value: float) -> str:
-    if value >= 100:
-        return f"{nearest(value / 60)} minutes"
-    rounded = _round_seconds(value)
-    if rounded == 0.5:
-        return "half a second"
-    return "1 second" if rounded == 1 else f"{rounded:g} seconds"
-
-
-def _round_seconds(value: float) -> float:
-    return nearest(value) if value >= 3 else nearest(value * 2) / 2

@@ -8,8 +8,10 @@ from typing import Literal, TypeAlias
 
 from planner.trace import Component
 from xavi_dialogue.explain.query import Tense
+from xavi_dialogue.language.context import Told
 from xavi_dialogue.language.hindrance import InTheWay
-from xavi_dialogue.language.morphology import Doing, Quantity, Vehicle
+from xavi_dialogue.language.morphology import Doing, Vehicle
+from xavi_dialogue.language.quantities import Quantity, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +24,7 @@ class Budget:
     particulars: bool = True  # speeds and intentions of a vehicle that held us up
     describe: bool = True  # describe vehicles besides naming them
     more: bool = False  # ranges, chances and evidence
+    told: Told = frozenset()  # causes whose particulars need not be repeated
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +39,7 @@ class EffectPoint:
     narrow: bool  # its range is not worth giving
     low: Quantity
     high: Quantity
+    range: Span  # the same, the smaller first
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +98,7 @@ class Contrast:
     more: bool
     evidence: EvidencePoint | None
     suspect: SuspectPoint | None = None
+    way: int = 0  # in which of the ways it is worded
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +114,7 @@ class Constraint:
     cleared: Vehicle | None = None  # in our way, but it made no difference
     denied: Doing | None = None  # what the question calls it, and was not
     suspect: SuspectPoint | None = None
+    way: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,8 +132,7 @@ class Time:
     foreseen: bool = False  # expected, and not yet done
     waiting: bool = False  # we stand, and this is when we move on
     waits_for: Vehicle | None = None
-    soonest: Quantity | None = None  # how long until then at least and at most, ...
-    latest: Quantity | None = None  # ... where that is worth giving
+    between: Span | None = None  # how long until then at least and at most, where worth giving
     least: Quantity | None = None  # it takes longer than this ...
     slow: bool = False  # ... since the way there is slow, and not since it is long
 
@@ -147,6 +152,9 @@ class Supposition:
     chance: Quantity | None  # of what is supposed
     more: bool
     denied: bool = False  # all we know is that we would not have done so
+    instead: Doing | None = None  # what we did, where the question calls it otherwise ...
+    undone: Doing | None = None  # ... and what it calls it
+    way: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,6 +175,11 @@ class Motive:
     ahead: bool = False  # what is asked about is yet to come
     going: bool = False  # or is going on
     suspect: SuspectPoint | None = None
+    withheld: Doing | None = None  # what it did not do, and is asked about
+    after: Quantity | None = None  # when it did that all the same, before the contrary
+    yet: bool = False  # it may yet do it
+    could: bool = False  # it is asked whether it could have
+    way: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +208,7 @@ class ActivityPoint:
     held: InTheWay | None = None
     instant: bool = False  # what goes on at a time that the question speaks of
     planned: bool = False  # that time is yet to come
+    way: int = 0
 
 
 @dataclass(frozen=True, slots=True)

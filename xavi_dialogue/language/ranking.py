@@ -7,8 +7,9 @@ from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.contrast import effect_points
 from xavi_dialogue.language.doings import LANE_CHANGES, plain
-from xavi_dialogue.language.morphology import EGO, Doing, Quantity
+from xavi_dialogue.language.morphology import EGO, Doing
 from xavi_dialogue.language.points import EffectPoint
+from xavi_dialogue.language.quantities import Quantity
 
 NEVER, ALWAYS = 0.01, 0.99  # what was simulated is neither impossible nor certain
 MARKED = 0.05  # difference of probabilities worth speaking of

@@ -13,17 +13,17 @@ from dataclasses import dataclass, replace
 
 from xavi_dialogue.explain.explanation import Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.content import select
+from xavi_dialogue.language.content import AnyContent, select
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.generator import Token, expand
-from xavi_dialogue.language.morphology import Quantity, inflect
+from xavi_dialogue.language.morphology import inflect
+from xavi_dialogue.language.options import NeedPoint, OptionsPoint, StayPoint
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
 from xavi_dialogue.language.paper import PaperContent, select_paper
 from xavi_dialogue.language.points import (
     ActivityPoint,
     Budget,
     Constraint,
-    Content,
     Contrast,
     Evasion,
     Factor,
@@ -36,10 +36,12 @@ from xavi_dialogue.language.points import (
     Time,
     Unmoved,
 )
+from xavi_dialogue.language.quantities import Quantity
 from xavi_dialogue.language.questions import questions
 from xavi_dialogue.language.ranking import Comparison
 from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.language.rules import load_grammar
+from xavi_dialogue.language.sights import SightPoint
 from xavi_dialogue.language.suggestions import follow_ups
 from xavi_dialogue.language.wording import rewrite
 
@@ -57,7 +59,12 @@ RULES: dict[type, str] = {
     Factor: "FACTOR",
     Unmoved: "UNMOVED",
     Comparison: "COMPARISON",
+    SightPoint: "SIGHT",
+    OptionsPoint: "OPTIONS",
+    NeedPoint: "NEED",
+    StayPoint: "LANE",
 }
+WAYS = 3  # in which answers are worded
 MAX_WORDS = 45
 MAX_SENTENCES = 3
 MAX_WORDS_MORE = 110
@@ -67,7 +74,7 @@ MAX_WORDS_MORE = 110
 class Stages:
     """One answer in every stage of its making."""
 
-    content: Content | Comparison | PaperContent
+    content: AnyContent | PaperContent
     tokens: tuple[Token, ...]
     words: tuple[str, ...]
     text: str
@@ -112,8 +119,14 @@ def _budgets(context: SpeechContext) -> Iterator[Budget]:
         yield Budget(max(3, context.max_effects), max(3, context.max_causes), more=True)
         yield Budget(2, 2, more=True)
         yield Budget(1, 1, more=True)
-    full = Budget(context.max_effects, context.max_causes, purpose=context.detail != "less")
-    if context.detail != "less":
+    brief = context.detail == "less" or (context.repeated and context.detail is None)
+    full = Budget(
+        context.max_effects,
+        context.max_causes,
+        purpose=context.detail != "less",
+        told=frozenset() if context.detail == "more" else context.told,
+    )
+    if not brief:
         yield full
     yield replace(full, particulars=False)
     yield replace(full, particulars=False, describe=False)
@@ -125,9 +138,11 @@ def _budgets(context: SpeechContext) -> Iterator[Budget]:
 
 def _passenger(query: Query, found: Explanation, context: SpeechContext, budget: Budget) -> Stages:
     content = select(query, found, budget, context.now)
+    content = _worded(content, 0 if found.then is not None else context.turn % WAYS)
     grammar = load_grammar("answer_passenger")
-    tokens = expand(grammar, _rule(content), content)
-    if found.then is not None and found.suspect is None:
+    tokens = expand(grammar, "AGAIN", context) + expand(grammar, _rule(content), content)
+    plain = found.suspect is None and found.need is None and found.sight is None
+    if found.then is not None and plain:
         at = Quantity(found.then, "clock")
         tokens = (*expand(grammar, "AT_TIME", at, query.tense), *tokens)
     words, mentioned = inflect(tokens, context, describe=budget.describe)
@@ -135,7 +150,14 @@ def _passenger(query: Query, found: Explanation, context: SpeechContext, budget:
     return Stages(content, tokens, words, text, mentioned)
 
 
-def _rule(content: Content | Comparison) -> str:
+def _worded(content: AnyContent, way: int) -> AnyContent:
+    """The content, to be worded in one of several ways where there are some for its kind."""
+    if isinstance(content, Contrast | Constraint | Supposition | Motive | ActivityPoint):
+        return replace(content, way=way)
+    return content
+
+
+def _rule(content: AnyContent) -> str:
     if isinstance(content, Contrast | ActivityPoint):
         return content.rule
     return RULES[type(content)]

@@ -10,8 +10,9 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.doings import doing, vehicle_of
 from xavi_dialogue.language.generator import expand
-from xavi_dialogue.language.morphology import EGO, Doing, Quantity, Vehicle, inflect
+from xavi_dialogue.language.morphology import EGO, Doing, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join
+from xavi_dialogue.language.quantities import Quantity
 from xavi_dialogue.language.questions import question, questions
 from xavi_dialogue.language.rules import load_grammar
 from xavi_dialogue.language.suggestions import about_vehicle, answerable, fresh, from_situation
