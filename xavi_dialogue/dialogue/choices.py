@@ -1,4 +1,4 @@
-"""The passenger picks one of the choices of a clarification: "2", "the second one"."""
+"""What a passenger says to what was offered: "2", "the second one", "another one"."""
 
 import tomllib
 from collections.abc import Mapping
@@ -19,6 +19,19 @@ def chosen(text: str, count: int) -> int | None:
     number = int(word) if word.isdecimal() and len(word) <= 2 else numbers.get(word, 0)
     index = count - 1 if number == -1 else number - 1
     return index if 0 <= index < count else None
+
+
+def wants_another(text: str) -> bool:
+    """Whether the text asks for one more of what there was before: "another one", "next"."""
+    another, beside = _more()
+    words = {"".join(filter(str.isalnum, word)) for word in text.casefold().split()} - {""}
+    return bool(words & another) and words <= another | beside
+
+
+@cache
+def _more() -> tuple[frozenset[str], frozenset[str]]:
+    data = tomllib.loads(files("grammars").joinpath("choices.toml").read_text(encoding="utf-8"))
+    return frozenset(data["another"]), frozenset(data["beside"])
 
 
 @cache

@@ -29,6 +29,12 @@ class Memory:
     quizzed: tuple[Quiz, ...]  # questions put to the passenger so far
 
     @property
+    def is_quizzing(self) -> bool:
+        """Whether the last turn put a question to the passenger, or judged the answer to one."""
+        last = self.turns[-1] if self.turns else None
+        return last is not None and (last.quiz is not None or last.answered is not None)
+
+    @property
     def previous(self) -> Query | None:
         """What a follow-up leans on."""
         if self.last is None:

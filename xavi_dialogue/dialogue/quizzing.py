@@ -41,7 +41,7 @@ def _pose(now: Situation, query: Query) -> Said | NeedRollout:
             said = realise_quiz(posed, speech(now, explained_trace(found, now.record)))
             reply = reply_of(now.record, said, None, query)
             return Said(query, reply, mentioned=said.mentioned, quiz=posed)
-    said = realise_no_quiz(inviting(now, speech(now)))
+    said = realise_no_quiz(inviting(now, speech(now)), asked=bool(memory.quizzed))
     return Said(query, reply_of(now.record, said, None, query))
 
 

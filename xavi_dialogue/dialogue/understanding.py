@@ -6,7 +6,7 @@ import msgspec
 
 from xavi_dialogue.dialogue.bearings import Vehicles
 from xavi_dialogue.dialogue.chain import BOTTOM, deeper, evidence_for, meant_vehicle
-from xavi_dialogue.dialogue.choices import chosen
+from xavi_dialogue.dialogue.choices import chosen, wants_another
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
 from xavi_dialogue.dialogue.quiz import judged
@@ -28,6 +28,8 @@ from xavi_dialogue.language.refusals import (
 )
 from xavi_dialogue.language.times import when_said
 
+QUIZ = "quiz"  # the event of a request to be quizzed
+
 
 def understand(now: Situation, before: Turn | None) -> Understood | Said:
     """What is asked, or what to say where that is not clear.
@@ -45,11 +47,13 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
         found = _verdict(now, before, before.quiz)
         if found is not None:
             return found
+    if memory.is_quizzing and wants_another(text):
+        return Understood(text, Query(type="smalltalk", tense="present", event=QUIZ), aim="quiz")
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
         return _ask_back(now, parsed.cause, parsed.readings)
-    if parsed.type == "smalltalk" and parsed.event == "quiz":
+    if parsed.type == "smalltalk" and parsed.event == QUIZ:
         return Understood(text, parsed, aim="quiz")
     asked = _in_conversation(now, parsed)
     if isinstance(asked, Said):

@@ -54,6 +54,7 @@ class Nothing:
     """What it says where there is nothing to ask."""
 
     suggestion: str | None
+    asked: bool  # the passenger has been asked before
 
 
 def realise_quiz(quiz: Asking, context: SpeechContext) -> Utterance:
@@ -94,10 +95,15 @@ def realise_verdict(
     return replace(said, mentioned=answer.mentioned, suggestions=answer.suggestions)
 
 
-def realise_no_quiz(context: SpeechContext) -> Utterance:
-    """That there is nothing to ask about, and what the passenger may ask instead."""
+def realise_no_quiz(context: SpeechContext, *, asked: bool = False) -> Utterance:
+    """That there is nothing to ask about, and what the passenger may ask instead.
+
+    Args:
+        context: the situation.
+        asked: the passenger has been asked before.
+    """
     offered = questions(from_situation(context))
-    content = Nothing(next(iter(offered), None))
+    content = Nothing(next(iter(offered), None), asked)
     said = _speak(expand(load_grammar("answer_quiz"), "NOTHING", content), context)
     return replace(said, suggestions=offered)
 
