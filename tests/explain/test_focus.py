@@ -4,6 +4,7 @@ import math
 import random
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -21,6 +22,7 @@ from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.when import Focus, Landmark, Relation, When, pick
 from xavi_dialogue.language.context import SpeechContext
 from xavi_dialogue.language.realise import realise
+from xavi_dialogue.transports.ride_file import load
 
 #: Times [s] and speeds [m/s] between which the ego and vehicle 1 change theirs evenly.
 EGO = ((0.0, 10.0), (3.0, 10.0), (5.0, 5.0), (8.0, 10.0), (12.0, 10.0), (14.0, 4.0), (18.0, 10.0))
@@ -321,6 +323,37 @@ def test_the_decision_is_the_one_of_that_time() -> None:
     assert focus.start <= answer.sim_time <= focus.end
 
 
+@pytest.mark.parametrize(
+    ("when", "text"),
+    [
+        ({"relation": "after", "landmark": "now", "seconds": 2.0, "ahead": True}, "be going"),
+        ({"relation": "after", "landmark": "now", "seconds": 5.0, "ahead": True}, "be turning"),
+        ({"landmark": "junction"}, "turn right"),
+        ({"relation": "after", "landmark": "junction"}, "go straight on"),
+        ({"relation": "before", "deeds": ("exit-right",), **DEED}, "go straight on"),
+    ],
+)
+def test_what_the_plan_of_a_recorded_ride_leads_to(root: Path, when, text: str) -> None:
+    driven = load((root / "transcripts/rides/s2-0.ride.jsonl.gz").read_bytes())
+    record = Record(
+        2.0,
+        tuple(trace for trace in driven.traces if trace.sim_time <= 2.0),
+        tuple(event for event in driven.events if event.sim_time <= 2.0),
+    )
+    said = say(Query(type="what", tense="future"), record, **when)
+    assert said.startswith("At about 0:0")
+    assert f"I expect to {text}" in said
+
+
+def test_before_a_turn_that_is_yet_to_come_is_all_so_far(root: Path) -> None:
+    driven = load((root / "transcripts/rides/s2-0.ride.jsonl.gz").read_bytes())
+    traces = tuple(trace for trace in driven.traces if trace.sim_time <= 4.0)
+    record = Record(4.0, traces, tuple(e for e in driven.events if e.sim_time <= 4.0))
+    query = Query(type="why", factual=("slow-down",))
+    focus = found(query, record, relation="before", deeds=("exit-right",), **DEED)
+    assert (focus.start, focus.end, focus.ahead) == (0.0, 4.0, False)
+
+
 def test_what_is_to_come_is_read_off_the_plan() -> None:
     s1 = s1_ride()
     record = Record(4.0, s1.traces, s1.events)
@@ -330,6 +363,29 @@ def test_what_is_to_come_is_read_off_the_plan() -> None:
     far = told(query, replace(record, focus=Focus(start=900, end=900, moment=900, ahead=True)))
     assert isinstance(far, NoExplanation)
     assert far.reason == "outside-record"
+
+
+def test_braking_that_was_no_stop_is_called_what_it_was() -> None:
+    query = Query(type="what", factual=("stop",))
+    assert say(query, relation="within", landmark="clock", clock=2.0, until=6.0) == (
+        "At 0:03, I slowed down."
+    )
+    elsewhere = ask(query, landmark="clock", clock=9.0)
+    assert isinstance(elsewhere, NoExplanation)
+    assert elsewhere.facts["happened"] == ("slow-down",)
+
+
+def test_a_time_that_is_a_decision_s_is_called_so() -> None:
+    query = Query(type="why_not", counterfactual=("continue",))
+    said = say(query, relation="before", landmark="now", seconds=16.0)
+    assert said.startswith("By my decision of 0:")
+
+
+def test_our_own_deed_is_denied_as_ours() -> None:
+    query = Query(type="what", actor="vehicle:1")
+    refusal = refused(query, landmark="deed", deeds=("exit-left",), actor="ego")
+    said = realise(query, refusal, SpeechContext(now=NOW)).text
+    assert said.startswith("I did not turn left.")
 
 
 # --- Whatever is asked ---------------------------------------------------------------------------

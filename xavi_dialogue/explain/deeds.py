@@ -37,9 +37,8 @@ def occurrences(ride: Ride, vehicle: int, action: QueryAction) -> tuple[Span, ..
         return tuple(deeds)
     if action == "give-way":
         seen = [(e.sim_time, e.sim_time) for e in ride.events if e.kind == "gave-way"]
-    if action == "stop":  # who says brake may mean either
+    if action == "stop":
         seen += deeds
-        seen = seen or list(occurrences(ride, EGO, "slow-down"))
     return tuple(sorted(seen))
 
 
@@ -54,11 +53,15 @@ def elsewhere(ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Facts
     it was done less often than the question says, how many `times`, and when last.
     """
     focus = ride.past
-    done = [(span, action) for action in asked for span in occurrences(ride, vehicle, action)]
-    if focus is None or not done:
+    if focus is None:
         return {}
+    done = [(span, action) for action in asked for span in occurrences(ride, vehicle, action)]
+    if not done and "stop" in asked:  # who says brake may mean either
+        done = [(span, "slow-down") for span in occurrences(ride, vehicle, "slow-down")]
     inside = [span for span, _ in done if focus.meets(*span)]
-    if inside and focus.counted:
+    if not done or (inside and not focus.counted):
+        return {}
+    if inside:
         return {"happened": done[-1][1:], "time": max(inside)[0], "times": len(inside)}
     (start, _), action = min(done, key=lambda one: (distance(focus, *one[0]), one[0]))
     return {"happened": (action,), "time": start, "elsewhere": True}

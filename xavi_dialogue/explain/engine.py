@@ -129,6 +129,8 @@ def _dated(query: Query, ride: Ride, found: Explanation) -> Explanation:
             about = premise(ride, query)
             if about.deed is not None and about.trace.sim_time == found.sim_time:
                 moment = about.deed.time if about.deed.action != "continue" else None
+    if moment is None and ride.past is None:
+        return found
     return replace(found, then=found.sim_time if moment is None else moment)
 
 

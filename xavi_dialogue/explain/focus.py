@@ -99,8 +99,12 @@ class _Resolver:
             ahead = self._ahead() if self.query.tense != "past" or when.ahead else None
             if ahead is not None:
                 return ahead
+        if not spans and when.relation == "before" and self._ahead() is not None:
+            return self._window(self.first, self.last, self.last)
         if not spans:
             self._check_missing()
+            return None
+        if self.query.tense == "present" and self._is_place and when.relation == "at":
             return None
         if future and self._is_place and when.relation != "after":
             self._check_missing()
@@ -231,7 +235,10 @@ class _Resolver:
         return done[0]
 
     def _done_by(self, vehicle: int) -> list[Span]:
-        found = {s for action in self.when.deeds for s in occurrences(self.ride, vehicle, action)}
+        deeds = self.when.deeds
+        found = {s for action in deeds for s in occurrences(self.ride, vehicle, action)}
+        if not found and "stop" in deeds:  # who says brake may mean either
+            found = set(occurrences(self.ride, vehicle, "slow-down"))
         return sorted(found)
 
     def _which(self, spans: Sequence[Span]) -> Span:

@@ -39,7 +39,8 @@ def what(query: Query, ride: Ride) -> Explanation:
         return _to_come(ride, ride.ahead)
     driving = tuple(action for action in query.factual or () if action in DRIVING)
     if driving and not ("stop" in driving and happened(ride, "stop")):
-        return explain_driving(ride, driving, query.tense)
+        driven = explain_driving(ride, driving, query.tense)
+        return driven if ride.past is None else _as_seen(driven, driving)
     if query.factual:
         found = premise(ride, query)
         actions: tuple[QueryAction, ...] = query.factual
@@ -71,6 +72,12 @@ def where(query: Query, ride: Ride) -> Explanation:
     goal = ride.latest.goal
     found = of_plan(ride, destination=Destination(EGO, goal.edge))
     return replace(found, arrival=0.0) if ride.arrived else found
+
+
+def _as_seen(found: Explanation, asked: tuple[QueryAction, ...]) -> Explanation:
+    """Only that the ego drove as described, at that time; not what it was about besides."""
+    activity = Activity(EGO, found.done or asked[:1], None, None, None)
+    return replace(found, activity=activity)
 
 
 def _at(ride: Ride, focus: Focus, deed: Deed | None) -> Explanation:

@@ -144,7 +144,9 @@ def _passenger(query: Query, found: Explanation, context: SpeechContext, budget:
     plain = found.suspect is None and found.need is None and found.sight is None
     if found.then is not None and plain:
         at = Quantity(found.then, "clock")
-        tokens = (*expand(grammar, "AT_TIME", at, query.tense), *tokens)
+        decided = query.type in ("why", "why_not") and found.then == found.sim_time
+        about = "decision" if decided and found.counterfactual else query.tense
+        tokens = (*expand(grammar, "AT_TIME", at, about), *tokens)
     words, mentioned = inflect(tokens, context, describe=budget.describe)
     text = capitalise(rewrite(join(words), "passenger"))
     return Stages(content, tokens, words, text, mentioned)

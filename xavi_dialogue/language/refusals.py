@@ -154,7 +154,8 @@ def _shortened(content: Refusal, context: SpeechContext) -> Refusal:
 def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
     """The facts of a refusal as values that can be put into words; unfit ones are left out."""
     facts = refusal.facts
-    actor = _name(facts, "vehicle") or vehicle_of(query.actor)
+    named = _name(facts, "vehicle")
+    actor = vehicle_of(query.actor) if named is None else named
     factual, foil = query.factual or (), query.counterfactual or ()
     claimed = foil if query.type in ("why_not", "what_if", "compare") else factual
     asked = _actions(facts, "asked") or claimed or factual or foil
