@@ -17,7 +17,14 @@ from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
 from xavi_dialogue.app.reproduce.command import command as reproduce
-from xavi_dialogue.app.sessions_commands import KEEP_DAYS, KeepDays, StoreFile, add, keeping_in
+from xavi_dialogue.app.sessions_commands import (
+    KEEP_DAYS,
+    KeepDays,
+    StoreFile,
+    add,
+    keeping_in,
+    typed_file,
+)
 
 if TYPE_CHECKING:
     from sim.scenario import Scenario
@@ -90,7 +97,7 @@ def chat(
         ride = Ride(str(loaded.folder), loaded.name, seed, going.session, keeping, at)
         if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
             pace = 1.0 if speed is None else speed
-            at_terminal(ride, _history_file(), _note, speed=pace)
+            at_terminal(ride, typed_file(), _note, speed=pace)
         else:
             through_pipe(ride, _lines(), _write, _note, speed=speed or 0.0, as_json=as_json)
 
@@ -295,12 +302,6 @@ def _load(name: str, *, told: bool = False) -> "Scenario":
 
 def _seed(asked: int | None, scenario: "Scenario") -> int:
     return scenario.seed if asked is None else asked
-
-
-def _history_file() -> Path:
-    from platformdirs import user_state_path
-
-    return user_state_path("xavi-dialogue") / "history"
 
 
 def _json(value: object) -> str:

@@ -21,9 +21,11 @@ from xavi_dialogue.__main__ import app
 from xavi_dialogue.app import going_on
 from xavi_dialogue.app.children import Child, ChildFailed, Steady
 from xavi_dialogue.app.memory import Keeping
+from xavi_dialogue.app.sessions_commands import typed_file
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.store import DAY, NewEvent, NewTurn, RideName, Store
+from xavi_dialogue.transports.typed import TypedLines
 
 PATIENCE = 120.0  # [s] before a test gives up on what never comes
 WHY = "Why did you do that?"
@@ -99,6 +101,18 @@ def test_conversations_are_forgotten(
     assert (done.exit_code, done.stdout) == (0, f"{erased} erased.\n")
     with Store(path) as store:
         assert [one.name for one in store.sessions()] == left
+
+
+def test_what_was_typed_is_forgotten_as_well(path: Path) -> None:
+    typed_file().parent.mkdir(parents=True, exist_ok=True)
+    typed = TypedLines(typed_file())
+    for line in ("Why?", SURE, "/pause", "Tell me " + "more " * 30):
+        typed.append_string(line)
+    xavi("forget", "ada", "--yes", "--store", str(path))
+    left = [*TypedLines(typed_file()).load_history_strings()]
+    assert left == ["Tell me " + "more " * 30, "/pause"]
+    xavi("forget", "bob", "--yes", "--store", str(path))
+    assert [*TypedLines(typed_file()).load_history_strings()] == ["/pause"]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """The lines that a passenger typed, and how they are forgotten."""
 
+from datetime import datetime
 from pathlib import Path
 
 from xavi_dialogue.transports.typed import TypedLines
@@ -34,3 +35,14 @@ def test_forgetting_erases_what_was_typed_here_and_the_questions_typed_before(
     assert file.stat().st_mode & 0o077 == 0
     now.append_string("Why?")
     assert lines(file) == ["Who is that?", "Why?"]
+
+
+def test_what_was_typed_long_ago_goes(tmp_path: Path) -> None:
+    file = tmp_path / "history"
+    file.write_text(
+        "\n# 2026-01-01 10:00:00.5\n+old\n+# 2026-09-09 09:09:09\n"
+        "\n# 2026-03-01 10:00:00\n+young\n\n# whenever\n+odd\n"
+    )
+    TypedLines(file).expire(datetime(2026, 2, 1))
+    assert lines(file) == ["young", "odd"]
+    TypedLines(file.with_name("none")).expire(datetime(2026, 2, 1))

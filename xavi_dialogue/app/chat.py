@@ -5,6 +5,7 @@ import signal
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import datetime, timedelta
 from pathlib import Path
 
 from xavi_dialogue.app import control
@@ -112,9 +113,12 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
         until = control.Until(ride.resume)
         await asyncio.to_thread(behind.drive, client, until, halt=True)
         behind.car.order(control.Speed(speed))
-    history.parent.mkdir(parents=True, exist_ok=True)
-    typed = TypedLines(history)
-    minutes = Minutes(client, ride.session, ride.header, typed.forget)
+    typed = None
+    if ride.keeping is not None:
+        history.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        typed = TypedLines(history)
+        typed.expire(datetime.now() - timedelta(days=ride.keeping.days))
+    minutes = Minutes(client, ride.session, ride.header, None if typed is None else typed.forget)
     cabin = RemoteCabin(behind, client, minutes)
     chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
     told.append(chat.tell)

@@ -98,7 +98,13 @@ def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str
     return "\n".join(lines)
 
 
-def forget(path: Path, wanted: Wanted, now: float, agreed: Callable[[str], bool]) -> str:
+def forget(
+    path: Path,
+    wanted: Wanted,
+    now: float,
+    agreed: Callable[[str], bool],
+    untype: Callable[[Sequence[str]], None],
+) -> str:
     """Erase, and say how much; nothing where that is not agreed to.
 
     Args:
@@ -106,6 +112,7 @@ def forget(path: Path, wanted: Wanted, now: float, agreed: Callable[[str], bool]
         wanted: what goes.
         now: wall time [s].
         agreed: asks whether to erase what is described in words.
+        untype: erases questions from what was typed, too.
 
     Raises:
         StoreError: it cannot be erased.
@@ -119,7 +126,9 @@ def forget(path: Path, wanted: Wanted, now: float, agreed: Callable[[str], bool]
         return "Nothing was kept."
     before = None if wanted.older_than is None else now - wanted.older_than * DAY
     with Store(path) as store:
+        questions = store.questions(wanted.session, before)
         erased = store.forget(wanted.session, before)
+    untype(questions)
     return f"{erased} turn{' was' if erased == 1 else 's were'} erased."
 
 

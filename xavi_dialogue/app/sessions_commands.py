@@ -1,7 +1,7 @@
 """The commands `xavi sessions` and `xavi forget`; what they need is imported when they run."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
@@ -101,9 +101,24 @@ def _forget(errors: Errors, write: Write) -> Command:
         with errors():
             wanted = kept.Wanted(session, everything, older_than)
             agreed = _agreed if not yes else lambda _: True
-            write(kept.forget(store_file(store), wanted, time.time(), agreed))
+            write(kept.forget(store_file(store), wanted, time.time(), agreed, _untype))
 
     return forget
+
+
+def typed_file() -> Path:
+    """The file of what was typed at the terminal, for the arrow keys."""
+    from platformdirs import user_state_path
+
+    return user_state_path("xavi-dialogue") / "history"
+
+
+def _untype(questions: Sequence[str]) -> None:
+    # Deferred: a quarter of a second that is wasted where nothing was typed.
+    if typed_file().exists():
+        from xavi_dialogue.transports.typed import TypedLines
+
+        TypedLines(typed_file()).forget(questions)
 
 
 def _agreed(question: str) -> bool:

@@ -192,6 +192,14 @@ class Store:
             self._file.purge()
         return erased
 
+    def questions(self, session: str | None = None, before: float | None = None) -> tuple[str, ...]:
+        """The questions of the turns that `forget` would erase."""
+        sql = (
+            "SELECT turn FROM turns WHERE (?1 IS NULL OR session = ?1)"
+            " AND (?2 IS NULL OR wall_time < ?2)"
+        )
+        return tuple(_question(turn) for (turn,) in self._file.rows(sql, (session, before)))
+
     def expire(self, days: float, now: float) -> int:
         """Erase what is older than so many days; how many turns that were."""
         return self.forget(before=now - days * DAY)

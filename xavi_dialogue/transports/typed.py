@@ -1,10 +1,15 @@
 """The lines that a passenger typed, kept for the arrow keys, until they are to be forgotten."""
 
 import os
+import re
 from collections.abc import Collection
+from contextlib import suppress
+from datetime import datetime
 from pathlib import Path
 
 from prompt_toolkit.history import FileHistory
+
+_ENTRIES = re.compile(rb"^(?=# )", re.MULTILINE)  # lines that were typed begin with a plus
 
 
 class TypedLines(FileHistory):
@@ -44,3 +49,27 @@ class TypedLines(FileHistory):
         new.replace(self._file)
         self._mine.clear()
         self._loaded_strings = kept
+
+    def expire(self, before: datetime) -> None:
+        """Erase what was typed before a moment of local time.
+
+        Raises:
+            OSError: the file cannot be written.
+        """
+        if not self._file.exists():
+            return
+        entries = _ENTRIES.split(self._file.read_bytes())
+        kept = [entry for entry in entries if not _older(entry, before)]
+        if len(kept) < len(entries):
+            new = self._file.with_name(f"{self._file.name}.{os.getpid()}")
+            new.touch(mode=0o600)
+            new.write_bytes(b"".join(kept))
+            new.replace(self._file)
+
+
+def _older(entry: bytes, before: datetime) -> bool:
+    """Whether the time at the head of an entry is there, and before a moment."""
+    head = entry.partition(b"\n")[0].removeprefix(b"# ").decode(errors="replace")
+    with suppress(ValueError, TypeError):
+        return datetime.fromisoformat(head.strip()) < before
+    return False
