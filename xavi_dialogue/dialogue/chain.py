@@ -19,27 +19,30 @@ BOTTOM = NoExplanation(reason="out-of-scope", facts={"what": "deeper"})
 _REASONED = frozenset({"why", "why_not", "what_if", "compare", "how_avoid", "sensitivity"})
 
 
-def deeper(last: Turn, query: Query) -> Query | None:
+def deeper(memory: Memory, query: Query) -> Query | None:
     """What a bare "why?" asks after an answer; None where there is nothing beneath it.
 
     Args:
-        last: the turn before.
+        memory: the conversation.
         query: the bare "why?" as the words alone are understood.
     """
+    last = _reasoned(memory)
+    if last is None:
+        return query
     before, found = last.query, last.reply.explanation
     if before is None:
         return query
     if found is None:
         right = last.leans is not None and last.reply.reason == "did-not-happen"
         return msgspec.structs.replace(query, detail=None) if right else None
-    if before.type not in (*_REASONED, "how"):
+    if before.type not in (*_REASONED, "confidence", "how"):
         return query
     if before.actor == "ego" and before.type in _REASONED:
         cause = _first_cause(last)
         if cause is not None:
             return _motive(cause, before)
         return query if before.detail != "more" else None
-    if before.type == "why":
+    if before.type in ("why", "confidence"):
         return Query(
             type="how",
             actor=before.actor,
@@ -48,6 +51,21 @@ def deeper(last: Turn, query: Query) -> Query | None:
             refers_to_previous=True,
         )
     return None
+
+
+def _reasoned(memory: Memory) -> Turn | None:
+    """The turn whose reasons are asked for: of "are you sure?", the one that was doubted."""
+    about = [turn for turn in memory.turns if turn.query is not None and turn.reply.explanation]
+    last = memory.last
+    while last is not None and last in about and _doubts(last):
+        before = about[: about.index(last)]
+        last = before[-1] if before else None
+    return last if last is not None else memory.last
+
+
+def _doubts(turn: Turn) -> bool:
+    query = turn.query
+    return query is not None and (query.type, query.actor) == ("confidence", "ego")
 
 
 def evidence_for(last: Turn) -> Query | None:

@@ -127,7 +127,7 @@ def _in_conversation(now: Situation, query: Query) -> Query | Said:
     if last.reply.reason is not None and _doubts(query, last):
         return _insist(now, query)
     if again:
-        found = deeper(last, query)
+        found = deeper(now.memory, query)
         return refuse(now, query, BOTTOM) if found is None else found
     if query.type == "how" and query.refers_to_previous and query.actor == "ego":
         return evidence_for(last) or query
