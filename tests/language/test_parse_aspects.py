@@ -75,3 +75,9 @@ def test_an_aspect_ends_with_its_question() -> None:
     taken_over = Query(type="compare", event="necessary", refers_to_previous=True)
     assert with_aspect(taken_over, ("why",)).event is None
     assert with_aspect(taken_over, ("and", "before", "that")).event == "necessary"
+
+
+def test_whether_we_had_to_is_no_order() -> None:
+    found = query("did you have to slow down?")
+    assert (found.type, found.factual, found.event) == ("what", ("slow-down",), "necessary")
+    assert query("you have to slow down").reason == "command"

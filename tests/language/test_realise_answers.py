@@ -208,7 +208,7 @@ def test_what_a_decision_hangs_on():
     )
     way = replace(explanation(("exit-right",), "dead"), pivot=Pivot("none"))
     assert said(way, type="sensitivity", tense="future") == (
-        "Nothing that the others might do: turning right would not take us there."
+        "Nothing that the others might do: turning right would not take us to our destination."
     )
     most = replace(CONTRASTED, pivot=Pivot("factor", 1))
     assert said(most, type="sensitivity") == (

@@ -170,7 +170,7 @@ def test_who_was_in_the_way_made_us_drive_so() -> None:
 def test_a_lane_and_why(staying: Staying, text: str | None) -> None:
     found = replace(SLOWER, staying=staying) if text else bare(staying=staying)
     expected = text or (
-        "We have been in this lane from the start: there is no other for our direction here."
+        "We have been in this lane from the start, and there is no other for our direction here."
     )
     assert say(found, Query(type="why", tense="present", event="lane")) == expected
 

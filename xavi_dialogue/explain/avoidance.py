@@ -108,6 +108,8 @@ def _mishap(query: Query, ride: Ride) -> tuple[Mishap, float]:
             return mishap, moment
     if "stop" in named and (braked := hard_braking(motion)) is not None:
         return "hard-brake", braked  # who says brake may mean either
+    if not named:
+        raise decline("did-not-happen", vehicle=EGO, did=False, what="mishap")
     raise did_not_happen(ride, query.factual or ())
 
 

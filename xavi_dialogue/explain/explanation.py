@@ -199,9 +199,9 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
 
     - did-not-happen: vehicle (0 is the ego), asked; did (True where the foil is what was done),
       happened and time [s] of what was done instead, planned (True where it is yet to come),
-      what (crash, junction, roundabout, where that is what did not happen); elsewhere, where
-      `happened` is the same at another time than the one asked about; times, where it happened
-      less often than the question says.
+      what (crash, mishap, junction, roundabout, where that is what did not happen); elsewhere,
+      where `happened` is the same at another time than the one asked about; times, where it
+      happened less often than the question says.
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
     - unknown-vehicle: vehicle, known.
     - too-little-evidence: asked, distinct, needed, coverage, rollouts.

@@ -45,12 +45,12 @@ def what(query: Query, ride: Ride) -> Explanation:
         found = premise(ride, query)
         actions: tuple[QueryAction, ...] = query.factual
         moment = found.deed.time if found.deed else None
-        return _activity(ride, actions, moment)
+        return _activity(ride, actions, moment, seen=moment if query.tense == "past" else None)
     deed = ride.manoeuvre
     if ride.past is not None:
         return _at(ride, ride.past, deed)
     if query.tense == "past" and deed is not None:
-        return _activity(ride, (deed.action,), deed.time)
+        return _activity(ride, (deed.action,), deed.time, seen=deed.time)
     if ride.arrived:
         return where(query, ride)
     if ride.ended:

@@ -108,8 +108,7 @@ def _check_done(query: Query, ride: Ride) -> None:
 
 def _really(query: Query, ride: Ride) -> tuple[QueryAction, ...]:
     """What the ego did where it is said to have stopped, and only slowed down."""
-    waited = any(event.kind == "gave-way" for event in ride.events)
-    if query.factual != ("stop",) or waited or _halted(ride):
+    if query.factual != ("stop",) or _halted(ride):
         return ()
     return ("slow-down",) if ride.motion(EGO).last("slow-down") is not None else ()
 

@@ -50,6 +50,19 @@ def with_aspect(query: Query, words: tuple[str, ...]) -> Query:
     return query
 
 
+def reworded(query: Query, words: tuple[str, ...]) -> str | None:
+    """What to read instead of a question that was taken for an order; None for other texts."""
+    if query.type != "out_of_scope":
+        return None
+    text = " ".join(words)
+    data = load("aspects.toml")
+    for one in data["reworded"]:
+        match = re.fullmatch(_written_out(one["find"], data["shorthands"]), text)
+        if match is not None and query.reason == one["reason"]:
+            return match.expand(one["put"])
+    return None
+
+
 @cache
 def _aspects() -> tuple[_Aspect, ...]:
     data = load("aspects.toml")

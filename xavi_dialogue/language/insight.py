@@ -1,6 +1,7 @@
 """Content of answers to how, how sure, how to avoid, and what it hangs on."""
 
 import math
+from dataclasses import replace
 
 from msgspec.structs import replace as changed
 
@@ -156,7 +157,7 @@ def _pivot(
     query: Query, found: Explanation, pivot: Pivot, budget: Budget
 ) -> Factor | Unmoved | Supposition | None:
     against = (
-        contrast(query, found, budget)
+        replace(contrast(query, found, budget), fact=None)
         if found.counterfactual and found.outcome is not None
         else None
     )

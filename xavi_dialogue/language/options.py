@@ -55,6 +55,7 @@ class NeedPoint:
     kind: str
     past: bool
     foil: Doing | None
+    dearer: bool  # the alternative has nothing for it
     contrast: Contrast | None
     constraint: Constraint | None
 
@@ -118,13 +119,15 @@ def need_point(
     deed = query.factual or query.counterfactual or ()
     drove = need.kind == "driving" and deed
     in_lane = any(a in LANE_CHANGES for a in (*found.factual[:1], need.foil or ""))
+    against = _against(query, found, budget, tense)
     foil = (need.foil,) if need.foil is not None else ()
     return NeedPoint(
         asked=need.asked,
         kind=need.kind,
         past=tense == "past",
         foil=Doing(EGO, foil, tense, in_lane) if foil else None,
-        contrast=_against(query, found, budget, tense),
+        dearer=against is not None and all(e.more for e in against.effects),
+        contrast=against,
         constraint=constraint(query, deed, found, budget) if drove else None,
     )
 

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language import topics
-from xavi_dialogue.language.aspects import with_aspect
+from xavi_dialogue.language.aspects import reworded, with_aspect
 from xavi_dialogue.language.beam import Budget
 from xavi_dialogue.language.candidates import loosely, strict
 from xavi_dialogue.language.costs import costs
@@ -110,7 +110,9 @@ def explained(
     topic = topics.reason_for(tokens, normalised.words)
     result = decide(readings, judged, topic, lattice)
     if isinstance(result, Query):
-        result = with_aspect(result, heard.words)
+        if (other := reworded(result, heard.words)) is not None:
+            result = explained(other, previous, vehicles, opinion).result
+        result = with_aspect(result, heard.words) if isinstance(result, Query) else result
     kinds = tuple(
         Kind(name, round(math.exp(judged[name]), 4), judging.telling(seen, name))
         for name in likely[:_SHOWN_KINDS]
