@@ -46,3 +46,15 @@ def test_what_was_typed_long_ago_goes(tmp_path: Path) -> None:
     TypedLines(file).expire(datetime(2026, 2, 1))
     assert lines(file) == ["young", "odd"]
     TypedLines(file.with_name("none")).expire(datetime(2026, 2, 1))
+
+
+def test_what_stays_keeps_the_time_at_which_it_was_typed(tmp_path: Path) -> None:
+    file = tmp_path / "history"
+    old = "\n# 2026-01-01 10:00:00.5\n+Who is that?\n+Really?\n"
+    file.write_text(old)
+    typed = TypedLines(file)
+    typed.append_string("Why?")
+    typed.forget(["Why?"])
+    assert file.read_text().strip() == old.strip()
+    typed.expire(datetime(2026, 2, 1))
+    assert lines(file) == []

@@ -6,7 +6,7 @@ from datetime import datetime
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.children import ChildFailed
-from xavi_dialogue.app.client import Client, ServiceLost, new_request
+from xavi_dialogue.app.client import DEADLINE, GRACE, Client, ServiceLost, new_request
 from xavi_dialogue.app.convoy import Convoy
 from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import clock, plan_in_words
@@ -27,7 +27,7 @@ ALONE = "There is no other vehicle in view."
 
 
 class RemoteCabin:
-    """See transports.terminal.Cabin."""
+    """See transports.cabin.Cabin."""
 
     def __init__(self, behind: Convoy, client: Client, minutes: Minutes) -> None:
         self._behind, self._client, self._minutes = behind, client, minutes
@@ -57,12 +57,17 @@ class RemoteCabin:
         return (*commands, *(f"vehicle {name}" for name in names), *PHRASES)
 
     async def ask(self, text: str, request: str) -> str:
-        """The answer to a question; asked once more where the service had to be started anew."""
+        """The answer to a question; asked once more where the service had to be started anew.
+
+        It comes within the deadline of a question, whatever becomes of the service.
+        """
+        give_up = asyncio.get_running_loop().time() + DEADLINE + GRACE
         reply = await self._sent(text, request)
         if isinstance(reply, ServiceLost):
-            with suppress(ChildFailed):  # which the next check tells
-                if await asyncio.to_thread(self._behind.recover, self._client):
-                    reply = await self._sent(text, request)
+            with suppress(ChildFailed, TimeoutError):  # the next check tells of a failed child
+                async with asyncio.timeout_at(give_up):
+                    if await asyncio.to_thread(self._behind.recover, self._client):
+                        reply = await self._sent(text, request)
         return f"{LOST} {reply}." if isinstance(reply, ServiceLost) else reply.text
 
     async def _sent(self, text: str, request: str) -> Reply | ServiceLost:

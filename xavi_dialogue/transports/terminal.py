@@ -6,7 +6,7 @@ import contextvars
 import os
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
 from prompt_toolkit import PromptSession
 from prompt_toolkit.application import get_app_session
@@ -17,6 +17,7 @@ from prompt_toolkit.key_binding import KeyBindings, KeyPressEvent
 from prompt_toolkit.patch_stdout import patch_stdout
 
 from xavi_dialogue.transports import commands
+from xavi_dialogue.transports.cabin import Cabin
 from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.completion import Words
 from xavi_dialogue.transports.messages import MAX_TEXT
@@ -34,54 +35,6 @@ WELCOME = "Ask about the ride at any time. /help lists what else there is."
 HINT = "Ctrl-C cancels an answer; Ctrl-D or /quit ends the ride."
 HELP = "Ask anything about the ride, such as: Why did you change lanes?"
 KEYS = "Tab completes. Ctrl-C cancels the answer that you wait for, Ctrl-D ends the ride."
-
-
-class Cabin(Protocol):
-    """What the terminal talks to."""
-
-    def status(self) -> str:
-        """One line: time, speed, plan."""
-
-    def vehicles(self) -> str:
-        """The vehicles in view, in words."""
-
-    def plan(self) -> str:
-        """The plan in words."""
-
-    def words(self) -> tuple[str, ...]:
-        """What can be completed to."""
-
-    def ask(self, text: str, request: str) -> Awaitable[str]:
-        """The answer to a question."""
-
-    def why(self) -> Awaitable[str]:
-        """The question why, as it has to be asked now."""
-
-    def history(self) -> Awaitable[str]:
-        """What was said in this session."""
-
-    def save(self, file: str) -> Awaitable[str]:
-        """Write what was said into a file, a new one if it has no name; say which.
-
-        Raises:
-            CommandError: nothing was said, there is such a file, or it cannot be written.
-        """
-
-    def forget(self) -> Awaitable[str]:
-        """Erase what was said; say how much it was."""
-
-    def cancel(self, request: str) -> None: ...
-
-    def pause(self) -> None: ...
-
-    def resume(self) -> None: ...
-
-    def speed(self, factor: float) -> None: ...
-
-    def check(self) -> None:
-        """Raise where the ride cannot be talked about any more."""
-
-    def new_request(self) -> str: ...
 
 
 _Job: TypeAlias = Callable[[str], Awaitable[str]]  # a request's name; what is to be said

@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
@@ -35,20 +35,15 @@ class TypedLines(FileHistory):
         """
         gone = {question.strip() for question in questions}
 
-        def stays(entry: str) -> bool:
-            return entry not in self._mine and not gone & {
-                " ".join(line.split()) for line in entry.splitlines()
+        def stays(entry: bytes) -> bool:
+            typed = _typed(entry)
+            return typed not in self._mine and not gone & {
+                " ".join(line.split()) for line in typed.splitlines()
             }
 
-        kept = [entry for entry in self.load_history_strings() if stays(entry)]
-        new = self._file.with_name(f"{self._file.name}.{os.getpid()}")
-        new.touch(mode=0o600)
-        rewritten = FileHistory(str(new))
-        for entry in reversed(kept):
-            rewritten.store_string(entry)
-        new.replace(self._file)
+        self._keep(stays)
         self._mine.clear()
-        self._loaded_strings = kept
+        self._loaded_strings = [*self.load_history_strings()]
 
     def expire(self, before: datetime) -> None:
         """Erase what was typed before a moment of local time.
@@ -56,15 +51,25 @@ class TypedLines(FileHistory):
         Raises:
             OSError: the file cannot be written.
         """
+        self._keep(lambda entry: not _older(entry, before))
+
+    def _keep(self, stays: Callable[[bytes], bool]) -> None:
+        """Write the file anew with the entries that stay, each with its time."""
         if not self._file.exists():
             return
         entries = _ENTRIES.split(self._file.read_bytes())
-        kept = [entry for entry in entries if not _older(entry, before)]
+        kept = [entry for entry in entries if stays(entry)]
         if len(kept) < len(entries):
             new = self._file.with_name(f"{self._file.name}.{os.getpid()}")
             new.touch(mode=0o600)
             new.write_bytes(b"".join(kept))
             new.replace(self._file)
+
+
+def _typed(entry: bytes) -> str:
+    """What was typed, which may be several lines."""
+    lines = entry.decode(errors="replace").split("\n")
+    return "\n".join(line[1:] for line in lines if line.startswith("+"))
 
 
 def _older(entry: bytes, before: datetime) -> bool:
