@@ -2,21 +2,27 @@
 
 import asyncio
 import io
-from collections.abc import AsyncIterator
+import re
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import pytest
 from prompt_toolkit.application import create_app_session
 from prompt_toolkit.data_structures import Size
+from prompt_toolkit.history import History
 from prompt_toolkit.input import PipeInput, create_pipe_input
 from prompt_toolkit.output.vt100 import Vt100_Output
 
 from xavi_dialogue.transports.commands import CommandError
-from xavi_dialogue.transports.terminal import TerminalChat
+from xavi_dialogue.transports.messages import MAX_TEXT
+from xavi_dialogue.transports.terminal import KEPT, TerminalChat
 from xavi_dialogue.transports.text import clean
+from xavi_dialogue.transports.typed import TypedLines, UnkeptLines
 
-CTRL_C, CTRL_D, TAB, ENTER = "\x03", "\x04", "\t", "\r"
+CTRL_C, CTRL_D, TAB, ENTER, UP = "\x03", "\x04", "\t", "\r", "\x1b[A"
+SURE = "Erase all that was said"
 
 
 class Broken(Exception):
@@ -30,6 +36,8 @@ class FakeCabin:
     asked: list[str] = field(default_factory=list)
     did: list[object] = field(default_factory=list)
     broken: bool = False
+    names: int = 0  # of requests
+    forget_typed: Callable[[list[str]], None] = lambda _: None
     answered: asyncio.Event = field(default_factory=asyncio.Event)
 
     def status(self) -> str:
@@ -64,10 +72,11 @@ class FakeCabin:
 
     async def forget(self) -> str:
         self.did.append("forget")
+        self.forget_typed([])
         return "Erased."
 
     def cancel(self, request: str) -> None:
-        self.did.append("cancel")
+        self.did.append(f"cancel {request}")
 
     def pause(self) -> None:
         self.did.append("pause")
@@ -83,15 +92,16 @@ class FakeCabin:
             raise Broken("the car has ended")
 
     def new_request(self) -> str:
-        return "r1"
+        self.names += 1
+        return f"r{self.names}"
 
 
 class Screen(Vt100_Output):
     """Writes to paper; asked where the cursor is, it answers through the keyboard."""
 
-    def __init__(self, paper: io.StringIO, keyboard: PipeInput) -> None:
-        super().__init__(paper, lambda: Size(24, 80))
-        self.keyboard = keyboard
+    def __init__(self, paper: io.StringIO, keyboard: PipeInput, columns: int = 80) -> None:
+        super().__init__(paper, lambda: Size(24, self.columns))
+        self.keyboard, self.columns = keyboard, columns
 
     @property
     def responds_to_cpr(self) -> bool:
@@ -108,6 +118,7 @@ class Terminal:
     chat: TerminalChat
     cabin: FakeCabin
     keyboard: PipeInput
+    screen: Screen
     paper: io.StringIO
     task: "asyncio.Task[None]"
 
@@ -128,18 +139,20 @@ class Terminal:
 
 
 @asynccontextmanager
-async def terminal() -> AsyncIterator[Terminal]:
+async def terminal(
+    typed: History | None = None, *, colours: bool = False
+) -> AsyncIterator[Terminal]:
     paper = io.StringIO()
     with (
         create_pipe_input() as keyboard,
-        create_app_session(keyboard, Screen(paper, keyboard)),
+        create_app_session(keyboard, screen := Screen(paper, keyboard)),
     ):
         cabin = FakeCabin()
-        chat = TerminalChat(cabin)
+        chat = TerminalChat(cabin, typed, colours=colours)
         task = asyncio.create_task(chat.run())
         await asyncio.sleep(0.05)
         try:
-            yield Terminal(chat, cabin, keyboard, paper, task)
+            yield Terminal(chat, cabin, keyboard, screen, paper, task)
         finally:
             chat.end()
             await asyncio.wait([task], timeout=2.0)
@@ -182,7 +195,7 @@ def test_ctrl_c_cancels_the_answer_and_not_the_program() -> None:
             await t.sees("thinking")
             await t.type(CTRL_C)
             await t.sees("(cancelled)")
-            assert t.cabin.did == ["cancel"]
+            assert t.cabin.did == ["cancel r1"]
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
             assert "answer to slow one" not in t.shown
@@ -271,5 +284,216 @@ def test_empty_lines_ask_nothing() -> None:
         async with terminal() as t:
             await t.type(ENTER, "   ", ENTER)
             assert t.cabin.asked == []
+
+    asyncio.run(scene())
+
+
+def test_why_and_more_are_asked_like_questions() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/why", ENTER)
+            await t.sees("answer to Why, after 0?")
+            await t.type("/more", ENTER)
+            await t.sees("answer to Tell me more.")
+            assert t.cabin.asked == ["Why, after 0?", "Tell me more."]
+
+    asyncio.run(scene())
+
+
+def test_what_was_said_is_listed() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("who?", ENTER, "/history", ENTER)
+            await t.sees("> who?")
+            assert t.cabin.asked == ["who?"]
+
+    asyncio.run(scene())
+
+
+def test_what_was_said_is_saved_but_over_no_other_file() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/save taken", ENTER)
+            await t.sees("There is a file taken already.")
+            await t.type("/save  my file.txt", ENTER)
+            await t.sees("Saved to my file.txt.")
+            await t.type("/save", ENTER)
+            await t.sees("Saved to .")
+            assert t.cabin.did == ["save my file.txt", "save "]
+
+    asyncio.run(scene())
+
+
+@pytest.mark.parametrize("yes", ["y", "Y", " yes "])
+def test_what_was_said_is_erased_once_that_is_confirmed(yes: str) -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/forget", ENTER)
+            await t.sees(SURE)
+            assert t.cabin.did == []
+            await t.type(yes, ENTER)
+            await t.sees("Erased.")
+            assert (t.cabin.did, t.cabin.asked) == (["forget"], [])
+
+    asyncio.run(scene())
+
+
+@pytest.mark.parametrize("keys", ["n\r", "\r", "no\r", "yess\r", "/plan\r", CTRL_C])
+def test_nothing_is_erased_without_a_yes(keys: str) -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/forget", ENTER)
+            await t.sees(SURE)
+            await t.type(keys)
+            await t.sees(KEPT)
+            await t.type("y", ENTER)  # comes too late: a question
+            await t.sees("answer to y")
+            assert t.cabin.did == []
+
+    asyncio.run(scene())
+
+
+def test_ctrl_d_instead_of_a_yes_ends_the_conversation_and_erases_nothing() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/forget", ENTER)
+            await t.sees(SURE)
+            await t.type(CTRL_D)
+            await asyncio.wait_for(t.task, 2.0)
+            assert t.cabin.did == []
+
+    asyncio.run(scene())
+
+
+def test_a_question_in_place_of_a_yes_is_asked() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("/forget", ENTER)
+            await t.sees(SURE)
+            await t.type("why?", ENTER)
+            await t.sees("answer to why?")
+            assert t.cabin.did == []
+
+    asyncio.run(scene())
+
+
+def test_each_line_that_is_pasted_is_a_question() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("\x1b[200~one?\r\ntwo?\n\n  \nthree?\x1b[201~")
+            assert t.cabin.asked == []
+            await t.type(ENTER)
+            await t.sees("answer to three?")
+            assert t.cabin.asked == ["one?", "two?", "three?"]
+
+    asyncio.run(scene())
+
+
+def test_nothing_is_asked_after_a_pasted_quit() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("\x1b[200~/quit\none?\x1b[201~", ENTER)
+            await asyncio.wait_for(t.task, 2.0)
+            assert t.cabin.asked == []
+
+    asyncio.run(scene())
+
+
+def test_no_more_is_asked_than_a_question_may_have() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type(f"\x1b[200~{'long ' * 1000}\x1b[201~", ENTER)
+            await t.sees(f"(Only the first {MAX_TEXT} characters are asked.)")
+            await t.sees("answer to long")
+            assert t.cabin.asked == [("long " * 1000)[:MAX_TEXT]]
+
+    asyncio.run(scene())
+
+
+def test_escape_sequences_that_are_pasted_stay_behind() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("\x1b[200~why \x1b[31mnot\x1b]0;evil\x07?\x1b[2J\x1b[201~", ENTER)
+            await t.sees("answer to why not?")
+            assert t.cabin.asked == ["why not?"]
+            assert "\x1b[2J" not in t.paper.getvalue()
+
+    asyncio.run(scene())
+
+
+def test_thinking_is_told_of_slow_answers_alone_and_questions_wait_for_their_turn() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("quick", ENTER)
+            await t.sees("answer to quick")
+            assert "thinking" not in t.shown
+            await t.type("slow one", ENTER, "next", ENTER)
+            await t.sees("thinking")
+            assert t.cabin.asked == ["quick", "slow one"]
+            t.cabin.answered.set()
+            await t.sees("answer to next")
+            assert t.shown.index("answer to slow one") < t.shown.index("answer to next")
+            shown = len(t.shown)
+            await t.type("x")
+            assert "thinking" not in t.shown[shown:]
+
+    asyncio.run(scene())
+
+
+def test_ctrl_c_drops_one_question_and_the_next_is_asked() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.type("slow one", ENTER, "next", ENTER)
+            await t.sees("thinking")
+            await t.type(CTRL_C)
+            await t.sees("answer to next")
+            assert t.cabin.did == ["cancel r1"]
+
+    asyncio.run(scene())
+
+
+def test_answers_wrap_at_the_width_that_the_terminal_has_when_they_come() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            words = "words " * 12
+            await t.type(f"slow {words}", ENTER)
+            await t.sees("thinking")
+            t.screen.columns = 40
+            t.cabin.answered.set()
+            await t.sees("answer to slow words words words words\n")
+
+    asyncio.run(scene())
+
+
+@pytest.mark.parametrize("colours", [False, True])
+def test_colours_are_there_or_not(*, colours: bool) -> None:
+    async def scene() -> None:
+        async with terminal(colours=colours) as t:
+            await t.type("why?", ENTER)
+            await t.sees("answer to why?")
+            styles = set(re.findall(r"\x1b\[([0-9;]*)m", t.paper.getvalue()))
+            assert (styles <= {"", "0"}) is not colours
+
+    asyncio.run(scene())
+
+
+@pytest.mark.parametrize("kept", [False, True])
+def test_lines_typed_before_come_back_with_the_arrow_until_they_are_erased(
+    tmp_path: Path, *, kept: bool
+) -> None:
+    typed = TypedLines(tmp_path / "history") if kept else UnkeptLines()
+
+    async def scene() -> None:
+        async with terminal(typed) as t:
+            t.cabin.forget_typed = typed.forget
+            await t.type("why?", ENTER)
+            await t.sees("answer to why?")
+            await t.type(UP, " now", ENTER)
+            await t.sees("answer to why? now")
+            await t.type("/forget", ENTER, "y", ENTER)
+            await t.sees("Erased.")
+            await t.type(UP, UP, "new", ENTER)
+            await t.sees("answer to new")
+            assert t.cabin.asked == ["why?", "why? now", "new"]
 
     asyncio.run(scene())

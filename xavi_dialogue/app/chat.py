@@ -97,7 +97,7 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
     # Deferred: a quarter of a second that only a terminal needs.
     from xavi_dialogue.transports.screen import Keyboard
     from xavi_dialogue.transports.terminal import TerminalChat
-    from xavi_dialogue.transports.typed import TypedLines
+    from xavi_dialogue.transports.typed import TypedLines, UnkeptLines
 
     narrator = Narrator()
 
@@ -113,12 +113,12 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
         until = control.Until(ride.resume)
         await asyncio.to_thread(behind.drive, client, until, halt=True)
         behind.car.order(control.Speed(speed))
-    typed = None
+    typed: TypedLines | UnkeptLines = UnkeptLines()
     if ride.keeping is not None:
         history.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         typed = TypedLines(history)
         typed.expire(datetime.now() - timedelta(days=ride.keeping.days))
-    minutes = Minutes(client, ride.session, ride.header, None if typed is None else typed.forget)
+    minutes = Minutes(client, ride.session, ride.header, typed.forget)
     cabin = RemoteCabin(behind, client, minutes)
     chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
     told.append(chat.tell)

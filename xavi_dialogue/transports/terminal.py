@@ -120,7 +120,7 @@ class TerminalChat:
                 text = await self._session.prompt_async()
             except EOFError:
                 return
-            for line in text.splitlines():  # several where they were pasted
+            for line in text.splitlines() or ("",):  # several where they were pasted
                 if not self._over:
                     self._take(line)
 

@@ -7,7 +7,7 @@ from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 
-from prompt_toolkit.history import FileHistory
+from prompt_toolkit.history import FileHistory, InMemoryHistory
 
 _ENTRIES = re.compile(rb"^(?=# )", re.MULTILINE)  # lines that were typed begin with a plus
 
@@ -64,6 +64,15 @@ class TypedLines(FileHistory):
             new.touch(mode=0o600)
             new.write_bytes(b"".join(kept))
             new.replace(self._file)
+
+
+class UnkeptLines(InMemoryHistory):
+    """Lines that are in no file."""
+
+    def forget(self, _: Collection[str]) -> None:
+        """Drop all of them."""
+        self._storage.clear()
+        self._loaded_strings = []
 
 
 def _typed(entry: bytes) -> str:
