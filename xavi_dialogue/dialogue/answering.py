@@ -9,6 +9,7 @@ from xavi_dialogue.dialogue.chain import WHICH
 from xavi_dialogue.dialogue.mind import (
     Said,
     Situation,
+    bottom,
     inviting,
     refuse,
     reply_of,
@@ -40,13 +41,19 @@ def answer(now: Situation, understood: Understood) -> Said | NeedRollout:
     if isinstance(found, NoExplanation):
         return refuse(now, query, found)
     context = speech(now, explained_trace(found, now.record))
+    context = replace(context, detail=context.detail or understood.detail)
     if query.event == WHICH:  # name it once more with where it is
         context = replace(context, named=context.named - {vehicle_of(query.actor)})
+    context = replace(context, repeated=now.memory.answered(query, found))
     utterance = realise(query, found, context)
+    last = now.memory.last
+    if understood.again and last is not None and utterance.text == last.reply.text:
+        return bottom(now, query)
     reply = reply_of(now.record, utterance, None, query)
     trace_id = found.evidence.traces[0] if found.evidence.traces else None
     reply = msgspec.structs.replace(reply, explanation=found, trace_id=trace_id)
-    return Said(query, reply, focus=now.record.focus, mentioned=topics(query, utterance))
+    mentioned, focus = topics(query, utterance), now.record.focus
+    return Said(query, reply, _spelled_out(query, found), focus, mentioned)
 
 
 def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
@@ -54,6 +61,13 @@ def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
     wanted = frozenset(found.evidence.traces)
     known = (*record.traces, *record.extra)
     return next((trace for trace in known if trace.trace_id in wanted), None)
+
+
+def _spelled_out(query: Query, found: Explanation) -> Query | None:
+    """What a follow-up leans on after "why?": a question that names the deed explained."""
+    if query.type != "why" or query.actor != "ego" or query.factual or not found.factual:
+        return None
+    return msgspec.structs.replace(query, factual=found.factual[:1])
 
 
 def _chat(now: Situation, query: Query) -> Said:

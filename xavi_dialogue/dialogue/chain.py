@@ -6,10 +6,11 @@ behind it, from there to the evidence for the prediction, and there it ends.
 
 import msgspec
 
+from sim.scene import EGO
 from xavi_dialogue.dialogue.memory import Memory
 from xavi_dialogue.dialogue.referents import PREFIX
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import Cause, NoExplanation
+from xavi_dialogue.explain.explanation import Cause, Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryAction
 
 WHICH = "which"  # the event of "which car?"
@@ -33,10 +34,13 @@ def deeper(memory: Memory, query: Query) -> Query | None:
     if before is None:
         return query
     if found is None:
-        right = last.leans is not None and last.reply.reason == "did-not-happen"
-        return msgspec.structs.replace(query, detail=None) if right else None
+        return _of_refusal(query, last)
     if before.type not in (*_REASONED, "confidence", "how"):
-        return query
+        return _of_doing(query, found)
+    if before.type == "what_if" and before.intervention == "remove" and found.factual:
+        return Query(
+            type="why", factual=found.factual[:1], tense=before.tense, refers_to_previous=True
+        )
     if before.actor == "ego" and before.type in _REASONED:
         cause = _first_cause(last)
         if cause is not None:
@@ -51,6 +55,26 @@ def deeper(memory: Memory, query: Query) -> Query | None:
             refers_to_previous=True,
         )
     return None
+
+
+def _of_refusal(query: Query, last: Turn) -> Query | None:
+    """After a wrong premise: why we did what we did, or do what we do, instead."""
+    if last.reply.reason != "did-not-happen":
+        return None
+    if last.leans is not None:
+        return msgspec.structs.replace(query, detail=None)
+    if query.actor != "ego" or query.tense != "present" or query.type != "why":
+        return None
+    return msgspec.structs.replace(query, factual=None, underspecified=None, detail=None)
+
+
+def _of_doing(query: Query, found: Explanation) -> Query:
+    """After an answer that told what we did: why we did that."""
+    doing = found.activity
+    told = doing is not None and doing.vehicle == EGO and query.tense == "past"
+    if doing is None or not told or query.factual or not doing.actions:
+        return query
+    return msgspec.structs.replace(query, factual=doing.actions[:1])
 
 
 def _reasoned(memory: Memory) -> Turn | None:

@@ -1,4 +1,4 @@
-"""What a passenger says to what was offered: "2", "the second one", "another one"."""
+"""What a passenger says to what was offered or told: "2", "another one", "and then?"."""
 
 import tomllib
 from collections.abc import Mapping
@@ -26,6 +26,18 @@ def wants_another(text: str) -> bool:
     another, beside = _more()
     words = {"".join(filter(str.isalnum, word)) for word in text.casefold().split()} - {""}
     return bool(words & another) and words <= another | beside
+
+
+def goes_on(text: str) -> bool:
+    """Whether the text says that it goes on from what was spoken of: "and where was it going?"."""
+    first = "".join(filter(str.isalnum, text.casefold().partition(" ")[0]))
+    return first in _onward()
+
+
+@cache
+def _onward() -> frozenset[str]:
+    data = tomllib.loads(files("grammars").joinpath("choices.toml").read_text(encoding="utf-8"))
+    return frozenset(data["onward"])
 
 
 @cache

@@ -7,9 +7,12 @@ the passenger wants to hear, outlasts it.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import msgspec
+
 from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Detail, Query
+from xavi_dialogue.language.context import Told, told
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 _STANDING = 2  # requests in a row for more, or less, that make it the rule
@@ -36,10 +39,9 @@ class Memory:
 
     @property
     def previous(self) -> Query | None:
-        """What a follow-up leans on."""
-        if self.last is None:
-            return None
-        return self.last.leans or self.last.query
+        """What a follow-up leans on; how much was to be told is said anew each time."""
+        leans = None if self.last is None else self.last.leans or self.last.query
+        return None if leans is None else msgspec.structs.replace(leans, detail=None)
 
     @property
     def asked(self) -> tuple[Query, ...]:
@@ -47,10 +49,29 @@ class Memory:
         return tuple(turn.query for turn in self.turns if turn.query is not None)
 
     @property
+    def told(self) -> Told:
+        """The causes that the passenger was told of, and did not get wrong since."""
+        causes = {cause for found in self.explained for cause in told(found)}
+        return frozenset(cause for cause in causes if cause[0] not in self.missed)
+
+    def answered(self, query: Query, found: Explanation) -> bool:
+        """Whether the same was answered before to the same question, however it was worded."""
+        return any(
+            turn.query is not None
+            and turn.reply.explanation == found
+            and _asks_for(turn.query) == _asks_for(query)
+            for turn in self.turns
+        )
+
+    @property
     def explained(self) -> tuple[Explanation, ...]:
         """What was answered so far, oldest first."""
         found = (turn.reply.explanation for turn in self.turns)
         return tuple(one for one in found if one is not None)
+
+
+def _asks_for(query: Query) -> tuple[object, ...]:
+    return (query.type, query.actor, query.factual, query.counterfactual, query.detail)
 
 
 def remember(turns: Sequence[Turn], ride: str | None) -> Memory:

@@ -7,6 +7,7 @@ from typing import Protocol, TypeAlias
 import msgspec
 
 from planner.trace import PlanTrace
+from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.memory import Memory
@@ -101,6 +102,8 @@ def speech(now: Situation, trace: PlanTrace | None = None) -> SpeechContext:
         now=record.now,
         done=done,
         asked=memory.asked,
+        turn=len(memory.turns),
+        told=memory.told,
     )
 
 
@@ -125,6 +128,13 @@ def refuse(now: Situation, query: Query, why: NoExplanation) -> Said:
         focus=now.record.focus,
         mentioned=topics(query, utterance),
     )
+
+
+def bottom(now: Situation, query: Query) -> Said:
+    """Say that there are no further reasons; what was spoken of remains so."""
+    last = now.memory.last
+    said = refuse(now, msgspec.structs.replace(query, detail=None), BOTTOM)
+    return replace(said, focus=None if last is None else last.focus)
 
 
 def turn_away(now: Situation, reason: Reason) -> Said:

@@ -10,7 +10,7 @@ from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.states import Phase, RidePhase
 from xavi_dialogue.dialogue.turn import Judgement, Quiz, Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.query import Detail, Query
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.when import Focus
 
@@ -24,6 +24,8 @@ class Understood:
     text: str  # see Turn
     query: Query
     focus: Focus | None = None  # the part of the ride that it is about; None: what fits best
+    again: bool = False  # a bare "why?", which asks for what was not told yet
+    detail: Detail | None = None  # how much to tell this once, where nothing else was asked for
     aim: Literal["answer", "quiz", "verdict"] = "answer"
     quiz: Quiz | None = None  # of a verdict: the question that was answered ...
     judgement: Judgement | None = None  # ... and how

@@ -5,10 +5,10 @@ from dataclasses import replace
 import msgspec
 
 from xavi_dialogue.dialogue.bearings import Vehicles
-from xavi_dialogue.dialogue.chain import BOTTOM, deeper, evidence_for, meant_vehicle
-from xavi_dialogue.dialogue.choices import chosen, wants_another
+from xavi_dialogue.dialogue.chain import deeper, evidence_for, meant_vehicle
+from xavi_dialogue.dialogue.choices import chosen, goes_on, wants_another
 from xavi_dialogue.dialogue.manoeuvres import carried_out
-from xavi_dialogue.dialogue.mind import Said, Situation, inviting, refuse, reply_of, speech
+from xavi_dialogue.dialogue.mind import Said, Situation, bottom, inviting, refuse, reply_of, speech
 from xavi_dialogue.dialogue.quiz import judged
 from xavi_dialogue.dialogue.referents import PREFIX, Scope, candidates, described, scenes_of
 from xavi_dialogue.dialogue.state import Understood, up_to
@@ -61,6 +61,9 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     meant = _refer(now, asked)
     if isinstance(meant, Said):
         return meant
+    if parsed.event == AGAIN:  # that it is asked why is no wish to hear more from now on
+        query = msgspec.structs.replace(meant.query, detail=None)
+        meant = replace(meant, query=query, again=True, detail=meant.query.detail)
     behind = asked.actor not in (parsed.actor, "ego") and asked.type in ("why", "how")
     return _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
 
@@ -87,7 +90,9 @@ def _timed(now: Situation, meant: Understood) -> Understood | Said:
     query, last = meant.query, now.memory.last
     when = when_said(now.asked.text)
     if when is None:
-        if last is None or not query.refers_to_previous or query.tense != "past":
+        onward = goes_on(now.asked.text) and not query.factual
+        leans = query.refers_to_previous or onward
+        if last is None or not leans or query.tense != "past":
             return replace(meant, focus=None)
         return replace(meant, focus=last.focus or meant.focus)
     found = resolve(when, now.record, query)
@@ -125,15 +130,23 @@ def _in_conversation(now: Situation, query: Query) -> Query | Said:
     if last is None:
         return query
     if last.reply.reason is not None and _doubts(query, last):
-        return _insist(now, query)
-    if again:
-        found = deeper(now.memory, query)
-        return refuse(now, query, BOTTOM) if found is None else found
+        return replace(_insist(now, query), focus=last.focus)
+    if again or _why_declined(query, last):
+        beside = now.memory.turns[-1].query  # "why?" after "I only know about this drive"
+        declined = beside is not None and beside.type == "out_of_scope"
+        found = deeper(now.memory, query) if again and not declined else None
+        return bottom(now, query) if found is None else found
     if query.type == "how" and query.refers_to_previous and query.actor == "ego":
         return evidence_for(last) or query
     if query.type == "when" and query.tense == "future" and not (query.factual or query.event):
         return msgspec.structs.replace(query, actor="ego")  # "how long will this take?"
     return query
+
+
+def _why_declined(query: Query, last: Turn) -> bool:
+    """Whether "why not?" asks for the reasons of a refusal: there is nothing else to negate."""
+    bare = query.type == "why_not" and query.refers_to_previous
+    return bare and last.reply.reason is not None and not (query.factual or query.counterfactual)
 
 
 def _doubts(query: Query, last: Turn) -> bool:
