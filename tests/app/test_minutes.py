@@ -1,0 +1,385 @@
+"""What was said: asked why, listed, saved and erased, over a bus within one process."""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from planner.events import Event
+from sim.scene import VehicleState
+from tests.fakes import EGO
+from xavi_dialogue.app.cabin import LOST, RemoteCabin
+from xavi_dialogue.app.client import Client
+from xavi_dialogue.app.convoy import Convoy
+from xavi_dialogue.app.minutes import NOTHING, Minutes
+from xavi_dialogue.app.piped import Piped
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports import commands, transcript
+from xavi_dialogue.transports.bus import Call, Keys
+from xavi_dialogue.transports.commands import CommandError
+from xavi_dialogue.transports.memory_bus import MemoryHub
+from xavi_dialogue.transports.messages import (
+    AskReply,
+    AskRequest,
+    CarState,
+    EventReport,
+    Failure,
+    ForgetReply,
+    ForgetRequest,
+    HistoryReply,
+    PastTurn,
+    SceneReport,
+    pack,
+    unpack,
+)
+
+KEYS = Keys()
+NOW = datetime(2026, 5, 4, 3, 2, 1, tzinfo=UTC)
+HEADER = (("scenario", "s1"), ("seed", "0"))
+
+
+def reply(text: str, at: float) -> Reply:
+    return Reply(text=text, kind="answer", sim_time=at)
+
+
+@dataclass
+class FakeService:
+    """Answers every question, and remembers it; or says nothing at all."""
+
+    hub: MemoryHub = field(default_factory=MemoryHub)
+    turns: list[PastTurn] = field(default_factory=list)
+    all_gone: bool = True
+    refuses: bool = False
+
+    def appear(self) -> None:
+        bus = self.hub.connect()
+        handlers = {"ask": self.ask, "history": self.history, "forget": self.forget}
+        for name, handler in handlers.items():
+            bus.serve(KEYS.of(f"@rpc/{name}"), partial(self.handle, handler))
+
+    def hang(self) -> None:
+        for name in ("ask", "history", "forget"):
+            self.hub.connect().serve(KEYS.of(f"@rpc/{name}"), lambda call: call.drop())
+
+    def vanish(self) -> None:
+        self.hub.servers.clear()
+
+    def handle(self, handler: Callable[[bytes], bytes], call: Call) -> None:
+        if self.refuses:
+            call.refuse(pack(Failure(reason="busy", detail="not\x1b[2J now")))
+        else:
+            call.reply(handler(call.payload))
+
+    def ask(self, payload: bytes) -> bytes:
+        asked = unpack(payload, AskRequest)
+        said = reply(f"Answer to {asked.text}", asked.at or 0.0)
+        self.turns.append(PastTurn(asked.text, said))
+        fields = msgspec.structs.asdict(said)
+        return pack(AskReply(**fields, request=asked.request, seq=0, wall_time=0.0))
+
+    def history(self, _: bytes) -> bytes:
+        turns = tuple(self.turns)
+        told = HistoryReply(session="ada", seq=0, sim_time=0.0, wall_time=0.0, turns=turns)
+        return pack(told)
+
+    def forget(self, payload: bytes) -> bytes:
+        asked = unpack(payload, ForgetRequest)
+        count = len(self.turns)
+        self.turns.clear()
+        told = ForgetReply(
+            request=asked.request, session=asked.session, turns=count, forgotten=self.all_gone
+        )
+        return pack(told)
+
+
+@pytest.fixture
+def service() -> FakeService:
+    made = FakeService()
+    made.appear()
+    return made
+
+
+@pytest.fixture
+def client(service: FakeService) -> Client:
+    return Client(service.hub.connect(), KEYS, "ada", lambda _: None)
+
+
+@pytest.fixture
+def minutes(client: Client) -> Minutes:
+    return Minutes(client, "ada", HEADER)
+
+
+def scene(at: float, state: CarState = "driving", ride: str = "r1") -> SceneReport:
+    vehicles: dict[int, VehicleState] = {0: EGO}
+    return SceneReport(
+        ride=ride,
+        seq=0,
+        sim_time=at,
+        wall_time=0.0,
+        vehicles=vehicles,
+        state=state,
+        speed_factor=1.0,
+        plan=("continue",),
+        traces=0,
+        events=0,
+    )
+
+
+def test_why_is_asked_of_what_was_said_last_else_of_what_was_done(
+    minutes: Minutes, client: Client
+) -> None:
+    assert minutes.why() == commands.WHY_DONE
+    client.ask("What are you doing?")
+    assert minutes.why() == commands.WHY
+
+
+def test_what_was_said_is_told_with_its_moments(minutes: Minutes, client: Client) -> None:
+    assert minutes.told() == NOTHING
+    for text, at in (("One?", 1.0), ("Two?", 1.0), ("Three?", 2.5)):
+        client.ask(text, at)
+    assert minutes.told() == (
+        "@ 1.0s\n\n> One?\nAnswer to One?\n\n> Two?\nAnswer to Two?\n\n"
+        "@ 2.5s\n\n> Three?\nAnswer to Three?"
+    )
+
+
+def test_what_is_saved_is_a_transcript(minutes: Minutes, client: Client, tmp_path: Path) -> None:
+    client.ask("One?", 1.0)
+    file = tmp_path / "said.txt"
+    assert minutes.save(str(file), NOW) == f"Saved one question and its answer to {file}."
+    read = transcript.read(file.read_text())
+    assert dict(read.header) == dict(HEADER)
+    assert "> One?\nAnswer to One?\n" in file.read_text()
+
+
+def test_what_is_saved_as_json_lines_can_be_read_back(
+    minutes: Minutes, client: Client, tmp_path: Path
+) -> None:
+    client.ask("One?", 1.0)
+    client.ask("Two?", 2.0)
+    file = tmp_path / "said.jsonl"
+    assert minutes.save(str(file), NOW) == f"Saved 2 questions and their answers to {file}."
+    read = [msgspec.json.decode(line, type=PastTurn) for line in file.read_text().splitlines()]
+    assert read == list(client.history())
+
+
+def test_a_file_without_a_name_is_named_after_session_and_time(
+    minutes: Minutes, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    client.ask("One?")
+    minutes.save("", NOW)
+    assert [file.name for file in tmp_path.iterdir()] == ["ada-20260504-030201.txt"]
+
+
+def test_no_file_is_written_over_and_none_without_anything_said(
+    minutes: Minutes, client: Client, tmp_path: Path
+) -> None:
+    file = tmp_path / "said.txt"
+    with pytest.raises(CommandError, match="nothing to save"):
+        minutes.save(str(file), NOW)
+    assert not file.exists()
+    client.ask("One?")
+    file.write_text("mine")
+    with pytest.raises(CommandError, match=r"said\.txt already; it stays as it is"):
+        minutes.save(str(file), NOW)
+    assert file.read_text() == "mine"
+    with pytest.raises(CommandError, match="cannot be written: No such file"):
+        minutes.save(str(tmp_path / "nowhere" / "said.txt"), NOW)
+
+
+def test_forgetting_tells_how_much_it_was_and_takes_what_was_typed_with_it(
+    client: Client,
+) -> None:
+    typed: list[str] = []
+    minutes = Minutes(client, "ada", HEADER, typed.extend)
+    assert minutes.forget() == "There was nothing to erase."
+    client.ask("One?")
+    assert minutes.forget() == "Erased one question and its answer."
+    assert typed == ["One?"]
+    client.ask("One?")
+    client.ask("Two?")
+    assert minutes.forget() == "Erased 2 questions and their answers."
+    assert minutes.told() == NOTHING
+
+
+def test_what_could_not_be_erased_is_told(client: Client, service: FakeService) -> None:
+    def fail(_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    with pytest.raises(CommandError, match="typed is not erased: Permission denied"):
+        Minutes(client, "ada", HEADER, fail).forget()
+    service.all_gone = False
+    with pytest.raises(CommandError, match="Not all of it"):
+        Minutes(client, "ada", HEADER).forget()
+    service.refuses = True
+    with pytest.raises(CommandError, match="the dialogue service refused: not now"):
+        Minutes(client, "ada", HEADER).forget()
+
+
+@pytest.mark.parametrize("lose", [FakeService.hang, FakeService.vanish])
+def test_without_a_service_nothing_is_had_and_that_is_told(
+    minutes: Minutes, service: FakeService, lose: Callable[[FakeService], None]
+) -> None:
+    lose(service)
+    for wanted in (minutes.why, minutes.told, minutes.forget, partial(minutes.save, "", NOW)):
+        with pytest.raises(CommandError, match="the dialogue service does not answer"):
+            wanted()
+
+
+def test_a_service_that_says_nothing_has_timed_out(client: Client, service: FakeService) -> None:
+    service.hang()
+    late = client.ask("One?", 3.0)
+    assert (late.kind, late.reason, late.sim_time) == ("refusal", "timed-out", 3.0)
+    assert late.text
+
+
+def test_now_is_what_the_passenger_has_been_told_of(client: Client, service: FakeService) -> None:
+    car = service.hub.connect()
+
+    def happens(at: float, ride: str = "r1") -> None:
+        event = Event("arrived", at)
+        report = EventReport(ride=ride, seq=0, sim_time=at, wall_time=0.0, event=event)
+        car.publisher(KEYS.of("event")).put(pack(report))
+
+    def shows(report: SceneReport) -> None:
+        car.publisher(KEYS.of("scene")).put(pack(report))
+
+    assert client.now() is None
+    shows(scene(4.0))
+    assert client.now() == 4.0
+    happens(4.5)
+    assert client.now() == 4.5  # the scene of it comes later
+    shows(scene(4.2, "paused"))
+    assert client.now() == 4.2
+    shows(scene(5.0))
+    assert client.now() == 5.0
+    happens(9.0, ride="another")
+    assert client.now() == 5.0
+
+
+class FakeConvoy:
+    """Starts the service anew, or in vain."""
+
+    def __init__(self, service: FakeService, *, able: bool = True) -> None:
+        self.service, self.able = service, able
+
+    def recover(self, _: Client) -> bool:
+        if self.able:
+            self.service.appear()
+        return self.able
+
+
+def cabin(client: Client, behind: FakeConvoy) -> RemoteCabin:
+    return RemoteCabin(as_convoy(behind), client, Minutes(client, "ada", HEADER))
+
+
+def as_convoy(behind: FakeConvoy) -> Convoy:
+    return behind  # type: ignore[return-value]
+
+
+def test_a_question_that_a_dead_service_missed_is_asked_again(
+    client: Client, service: FakeService
+) -> None:
+    service.vanish()
+    told = asyncio.run(cabin(client, FakeConvoy(service)).ask("One?", "r1"))
+    assert told == "Answer to One?"
+
+
+def test_when_no_service_comes_back_the_passenger_is_told(
+    client: Client, service: FakeService
+) -> None:
+    service.vanish()
+    told = asyncio.run(cabin(client, FakeConvoy(service, able=False)).ask("One?", "r1"))
+    assert told == f"{LOST} the dialogue service does not answer."
+
+
+@dataclass
+class Pipe:
+    """A conversation through a pipe, and what came out."""
+
+    client: Client
+    service: FakeService
+    as_json: bool = False
+    out: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def say(self, *lines: str) -> bool:
+        minutes = Minutes(self.client, "ada", HEADER)
+        behind = as_convoy(FakeConvoy(self.service))
+        write, note = self.out.append, self.notes.append
+        piped = Piped(behind, self.client, minutes, write, note, self.as_json, scene(8.0), 8.0)
+        return all(piped.take(line) for line in lines)
+
+
+@pytest.fixture
+def pipe(client: Client, service: FakeService) -> Pipe:
+    return Pipe(client, service)
+
+
+def test_commands_work_through_the_pipe(pipe: Pipe, tmp_path: Path) -> None:
+    file = tmp_path / "said.txt"
+    assert pipe.say("/why", "/more", f"/save {file}", "/vehicles", "/plan", "/history", "/forget")
+    assert pipe.out[:2] == [f"Answer to {commands.WHY_DONE}", f"Answer to {commands.MORE}"]
+    assert pipe.out[2:4] == ["There is no other vehicle in view.", "I plan to go on."]
+    assert pipe.out[4].startswith("@ 8.0s\n\n> Why did you do that?\n")
+    assert pipe.notes == [
+        f"Saved 2 questions and their answers to {file}.",
+        "Erased 2 questions and their answers.",
+    ]
+
+
+def test_help_lists_what_works_through_the_pipe(pipe: Pipe) -> None:
+    assert pipe.say("/help")
+    [listed] = pipe.out
+    assert all(f"/{form.name}" in listed for form in commands.forms("pipe"))
+    assert "/pause" not in listed
+
+
+@pytest.mark.parametrize(
+    ("line", "problem"),
+    [
+        ("/hist", "The nearest is /history; /help lists all."),
+        ("/pause", "/pause needs a terminal."),
+        ("/plan b", "/plan takes nothing after it."),
+        ("/save", "nothing to save"),
+    ],
+)
+def test_errors_of_commands_are_notes_and_the_conversation_goes_on(
+    pipe: Pipe, line: str, problem: str
+) -> None:
+    assert pipe.say(line, "One?")
+    assert problem in pipe.notes[0]
+    assert pipe.out == ["Answer to One?"]
+
+
+def test_with_json_nothing_but_answers_comes_out(pipe: Pipe) -> None:
+    pipe.as_json = True
+    assert pipe.say("/help", "One?", "/history", "/vehicles", "/plan")
+    [answer] = pipe.out
+    assert msgspec.json.decode(answer)["text"] == "Answer to One?"
+    assert len(pipe.notes) == 4
+
+
+def test_the_latest_moment_is_told_as_such(pipe: Pipe) -> None:
+    assert pipe.say("@ 2.0s", "/plan", "One?")
+    assert pipe.notes == ["this is how it is at 8.0 s"]
+    assert pipe.service.turns[0].reply.sim_time == 2.0
+
+
+def test_quit_ends_and_a_question_is_not_too_long(pipe: Pipe) -> None:
+    assert not pipe.say("/quit")
+    assert pipe.say("long " * 1000)
+    assert pipe.notes == ["only the first 4096 characters of a question are asked"]
+    assert len(pipe.service.turns[0].text) <= 4096
+
+
+def test_a_question_through_the_pipe_survives_the_service(pipe: Pipe) -> None:
+    pipe.service.vanish()
+    assert pipe.say("One?")
+    assert pipe.out == ["Answer to One?"]
