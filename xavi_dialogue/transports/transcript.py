@@ -171,6 +171,6 @@ def write(transcript: Transcript) -> str:
             case Befalls(what):
                 blocks.append(f"! {what}")
             case Exchange(question, reply):
-                blocks.append(f"> {question}\n{reply}")
+                blocks.append(f"> {question}".rstrip() + f"\n{reply}")
         before = step
     return "\n\n".join(blocks) + "\n"
