@@ -346,6 +346,19 @@ def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Keeping) -> None:
     assert seen == [["answer"]]
 
 
+def test_nobody_waits_for_the_disk_itself(kept: Keeping, monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    monkeypatch.setattr(Store, "sync", lambda _: done.append("on the disk"))
+    bench = Bench(Memory(kept))
+    bench.drive()
+    done.clear()
+    asked = AskRequest(request="q1", session="ada", text="answer")
+    bench.passenger.request(ASK, pack(asked), 1.0, lambda _: done.append("answered"))
+    for _ in range(3):
+        bench.service.work()
+    assert done == ["answered", "on the disk"]
+
+
 def test_a_conversation_is_resumed_by_another_service(kept: Keeping) -> None:
     first = Bench(Memory(kept))
     first.drive()

@@ -1,6 +1,8 @@
 """What is kept on disk: kept whole, erased for good, and never trusted blindly."""
 
+import errno
 import json
+import os
 import sqlite3
 import stat
 import subprocess
@@ -170,6 +172,25 @@ def test_what_is_too_old_goes(path: Path) -> None:
         assert [one.text for one in store.turns("ada", 9)] == ["young"]
         assert [line for line in lines(store) if "event" in line] == []
         assert store.expire(30, now) == 0
+
+
+def test_what_was_written_is_brought_to_the_disk(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    synced: list[bytes] = []
+    monkeypatch.setattr(os, "fsync", lambda file: synced.append(os.pread(file, 10**6, 0)))
+    with Store(path) as store:
+        store.keep([new(SECRET)])
+        store.sync()
+        [log] = synced
+        assert SECRET.encode() in log
+        monkeypatch.setattr(os, "fsync", fails)
+        with pytest.raises(Unwritable, match="Input/output error"):
+            store.sync()
+
+
+def fails(_: int) -> None:
+    raise OSError(errno.EIO, os.strerror(errno.EIO))
 
 
 def test_a_ride_that_others_spoke_of_stays(path: Path) -> None:

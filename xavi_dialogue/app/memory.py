@@ -49,6 +49,7 @@ class Memory:
     _missed: list[New] = field(default_factory=list)  # not yet written
     _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
     _failing: bool = False
+    _unsynced: bool = False  # written, but not yet on the disk itself
     _expired: float = 0.0  # [s] wall time when what is too old was last erased
 
     def recall(self, session: str) -> tuple[Turn, ...]:
@@ -77,23 +78,27 @@ class Memory:
             self._missed.append(NewEvent(ride, seq, wall_time, event))
             del self._missed[:-MAX_MISSED]
 
-    def tidy(self, now: float) -> None:
+    def tidy(self, now: float, *, idle: bool) -> None:
         """Write what was heard; now and then erase what is too old.
 
         Args:
             now: wall time [s].
+            idle: nobody waits for an answer, so that there is time for the disk.
         """
         # A file that fails may take a while each time; the next turn tries again.
         if self.keeping is None or self._failing:
             return
         if self._missed:
             self._write(self.keeping)
-        if now >= self._expired + EXPIRED_EVERY:
-            self._expired = now
-            try:
+        try:
+            if idle and self._unsynced:
+                self._unsynced = False
+                self._opened(self.keeping).sync()
+            if now >= self._expired + EXPIRED_EVERY:
+                self._expired = now
                 self._opened(self.keeping).expire(self.keeping.days, now)
-            except StoreError as error:
-                self._fail(error)
+        except StoreError as error:
+            self._fail(error)
 
     def forget(self, session: str) -> int | None:
         """Erase a session; how many turns, None where some of it is left for the time being."""
@@ -130,6 +135,7 @@ class Memory:
             self._fail(error)
             return
         self._missed.clear()
+        self._unsynced = True
         if self._failing:
             self._failing = False
             self.warn("what is said is kept again, and what was missed as well")

@@ -111,7 +111,7 @@ class Service:
             while True:
                 _do(self._inbox.get_nowait())
         except queue.Empty:
-            self._memory.tidy(time.time())
+            self._memory.tidy(time.time(), idle=not self.desk.questions)
             self._run(self.desk.settle(time.monotonic()))
 
     def _post(self, job: Callable[..., None], *arguments: object) -> None:

@@ -220,6 +220,10 @@ class Store:
         for ride, seq, event in self._file.rows(sql, given):
             yield _json(_Line(SCHEMA, ride=ride, seq=seq, event=_raw(event)))
 
+    def sync(self) -> None:
+        """Wait until what is kept outlives a power cut, too; a process that dies it does anyway."""
+        self._file.sync()
+
     def cap(self, size: int) -> None:
         """Let the file grow to no more than `size` bytes, or than it has."""
         self._file.cap(size)
