@@ -46,6 +46,7 @@ def bare(**details) -> Explanation:
     [
         (Sight("speed", 0, speed=10.0, trend="slowing"), "I am driving at 36 km/h, slowing down."),
         (Sight("speed", 0, speed=0.0, trend="standing"), "I am standing still."),
+        (Sight("speed", 0, speed=0.1, trend="slowing"), "I am standing still."),
         (
             Sight("speed", 1, speed=10.0, trend="steady"),
             "The car ahead (vehicle 1) is driving at 36 km/h.",
@@ -148,6 +149,8 @@ def test_who_was_in_the_way_made_us_drive_so() -> None:
     found = replace(SLOWER, counterfactual=(), causes=(wait,), need=Need("necessary", "driving"))
     asked = Query(type="what", factual=("give-way",), event="necessary")
     assert say(found, asked).startswith("Yes: I had to give way to the car ahead (vehicle 1)")
+    other = replace(found, need=Need("other-way", "driving"))
+    assert say(other, asked).startswith("No: I had to give way to the car ahead (vehicle 1)")
     turn = replace(found, causes=(), factual=("exit-right",))
     assert say(turn, asked) == "Yes, for the turn. No other vehicle was in my way."
 

@@ -174,6 +174,29 @@ def test_numbers_and_vehicles_come_from_the_explanation(
     assert set(re.findall(r"\d+(?:\.\d+)?", bare)) <= set(numbers(found, context.now))
 
 
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_a_vehicle_is_described_once_and_only_where_it_is_new(
+    query: Query, found: Explanation, context: SpeechContext
+) -> None:
+    said = realise(query, found, context)
+    described = [int(n) for n in re.findall(r"\(vehicle (\d+)\)", said.text)]
+    assert len(set(described)) == len(described)
+    assert context.named.isdisjoint(described)
+    for number in described:
+        first = said.text.lower().index(f"vehicle {number}")
+        assert said.text[first - 1] == "("
+
+
+@EXAMPLES
+@given(queries, explanations, contexts)
+def test_only_what_was_said_before_is_said_to_have_been(
+    query: Query, found: Explanation, context: SpeechContext
+) -> None:
+    text = realise(query, found, context).text
+    assert ("as I said," in text or "As I said," in text) == context.repeated
+
+
 @given(queries, explanations, contexts)
 def test_wording_is_deterministic(query: Query, found: Explanation, context: SpeechContext) -> None:
     assert realise(query, found, context) == realise(query, found, context)

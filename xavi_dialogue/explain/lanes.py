@@ -10,6 +10,7 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.ride import Deed, Ride, Unanswered, planned
 
 TURNS = ("exit-left", "exit-right", "continue-next-exit")
+LEAST = 1.0  # [s] that a change of lane or a turn takes
 NO_LANE = ("there is no lane to the left", "there is no lane to the right")
 
 
@@ -20,12 +21,17 @@ def lane(query: Query, ride: Ride) -> Explanation:
         Unanswered: rollouts are needed.
     """
     del query
-    moves = [deed for deed in ride.deeds if deed.action in (*LANE_CHANGES, *TURNS)]
+    moves = [d for d in ride.deeds if d.action in (*LANE_CHANGES, *TURNS) and _lasted(d)]
     last = moves[-1] if moves else None
     if last is not None and last.action in LANE_CHANGES:
         staying = Staying(last.action, last.time, last.ended is None)
         return _against(ride, ride.choice_of(last), None, staying)
     return _kept(ride, _since(last))
+
+
+def _lasted(deed: Deed) -> bool:
+    """Whether it was more than given up at once."""
+    return deed.ended is None or deed.ended - deed.started >= LEAST
 
 
 def _since(last: Deed | None) -> Staying:

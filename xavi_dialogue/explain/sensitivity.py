@@ -87,10 +87,12 @@ def _under(query: Query, ride: Ride, supposed: Condition) -> Explanation:
     found = suppositions.compared(ride, supposed.vehicle, trace, again)
     if not driving:
         return _judged(ride, found, supposed.vehicle, deed)
+    fact = _share(trace, factual(ride.model(trace), trace), driving[-1])
     share = _share(again, factual(ride.model(again), again), driving[-1])
-    if share is None:
+    if fact is None or share is None:
         raise thin(deed, None)
-    return _with_change(found, supposed.vehicle, changes=share < LIKELY)
+    changes = share < LIKELY <= fact  # what is no longer planned with it was not for it
+    return _with_change(found, supposed.vehicle, changes=changes)
 
 
 def _check_done(query: Query, ride: Ride) -> None:

@@ -18,6 +18,7 @@ from xavi_dialogue.language.options import Aspect, aspect
 from xavi_dialogue.language.points import ActivityPoint, Budget, Content, Motive, Supposition, Time
 from xavi_dialogue.language.quantities import Quantity, Span
 from xavi_dialogue.language.ranking import Comparison, comparison
+from xavi_dialogue.language.sights import pace
 
 #: All that an answer may say.
 AnyContent: TypeAlias = Content | Comparison | Aspect
@@ -161,7 +162,7 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
     if probability is None and found.outcome is not None:
         probability = found.outcome.probability
     speed = activity.speed if activity else None
-    trend = activity.trend if activity else None
+    trend = pace(speed, activity.trend if activity else None)
     gone = found.seen is not None and not mine
     tense: Tense = "past" if gone else query.tense
     rules: dict[str, Literal["WHERE", "CONFIDENCE"]] = {

@@ -46,7 +46,7 @@ def insight(
     if found.grounds is not None:
         return _grounds(query, found, found.grounds, budget, now)
     if found.certainty is not None:
-        return _sureness(query, found, found.certainty)
+        return _sureness(query, found, found.certainty, budget)
     if found.avoidance is not None and found.moment is not None:
         return _evasion(query, found, found.avoidance, found.moment, budget)
     if found.pivot is not None:
@@ -109,7 +109,7 @@ def _grounds(
     )
 
 
-def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Sureness:
+def _sureness(query: Query, found: Explanation, certainty: Certainty, budget: Budget) -> Sureness:
     foil = plain(found.counterfactual)[:1]
     fact = plain(query.factual or found.factual[:1])[:1]
     in_lane = any(action in LANE_CHANGES for action in (*fact, *foil))
@@ -128,6 +128,7 @@ def _sureness(query: Query, found: Explanation, certainty: Certainty) -> Surenes
         late=Quantity(certainty.late, "count") if certainty.late else None,
         good=Quantity(certainty.good, "count"),
         situations=Quantity(certainty.situations, "count"),
+        brief=not budget.purpose and budget.causes == 0,
     )
 
 
@@ -167,7 +168,7 @@ def _pivot(
     mine = Doing(EGO, foil, query.tense, any(a in LANE_CHANGES for a in found.factual[:1]))
     past = query.tense == "past"
     if pivot.kind == "none" or pivot.vehicle is None:
-        return None if against is None else Unmoved(mine, past, against)
+        return None if against is None else Unmoved(mine, past, against, brief=not budget.purpose)
     chance = pivot.probability
     return Supposition(
         vehicle=Vehicle(pivot.vehicle),

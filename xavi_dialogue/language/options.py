@@ -98,7 +98,7 @@ def options_point(
     tense = _tense(query, found, now)
     actions = (choices.chosen, *(option.action for option in choices.others))
     in_lane = any(action in LANE_CHANGES for action in actions)
-    told = choices.others[: len(choices.others) if budget.more else LISTED]
+    told = choices.others[: _listed(budget, len(choices.others))]
     left = len(choices.others) - len(told)
     return OptionsPoint(
         about=choices.about,
@@ -150,9 +150,16 @@ def stay_point(found: Explanation, staying: Staying, budget: Budget) -> StayPoin
         same=staying.same,
         reason=reason,
         contrast=contrast(asked, found, budget)
-        if found.counterfactual and found.outcome is not None
+        if found.counterfactual and found.outcome is not None and budget.purpose
         else None,
     )
+
+
+def _listed(budget: Budget, count: int) -> int:
+    """How many of the options are told one by one."""
+    if budget.more:
+        return count
+    return LISTED if budget.particulars else LISTED - 1 if budget.purpose else 1
 
 
 def _tense(query: Query, found: Explanation, now: float) -> Tense:

@@ -285,6 +285,7 @@ class Sureness:
     late: Quantity | None  # times that it took longer than we looked ahead
     good: Quantity
     situations: Quantity
+    brief: bool = False  # without what that makes the chance
 
 
 @dataclass(frozen=True, slots=True)
@@ -322,6 +323,7 @@ class Unmoved:
     foil: Doing
     past: bool
     contrast: Contrast
+    brief: bool = False  # without it
 
 
 Content: TypeAlias = (

@@ -7,7 +7,7 @@ from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.doings import doing, plain
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
-from xavi_dialogue.language.quantities import Quantity
+from xavi_dialogue.language.quantities import KMH, Quantity, nearest
 
 LISTED = 4  # vehicles that are named one by one
 
@@ -35,9 +35,15 @@ class SightPoint:
     probability: float | None
 
 
+def pace(speed: float | None, trend: str | None) -> str | None:
+    """What a speed [m/s] is doing; one that would be told as 0 km/h is none."""
+    return "standing" if speed is not None and nearest(speed * KMH) == 0 else trend
+
+
 def sight_point(query: Query, found: Explanation, sight: Sight) -> SightPoint:
     """What to say of what is seen."""
     mine = sight.vehicle == EGO
+    trend = pace(sight.speed, sight.trend)
     past = found.seen is not None and not mine
     activity = found.activity
     known = activity is not None and activity.vehicle == sight.vehicle and not mine
@@ -48,8 +54,8 @@ def sight_point(query: Query, found: Explanation, sight: Sight) -> SightPoint:
         vehicle=Vehicle(sight.vehicle),
         gone=Quantity(found.seen, "clock") if past and found.seen is not None else None,
         past=past,
-        halted=sight.trend == "standing",
-        trend=sight.trend,
+        halted=trend == "standing",
+        trend=trend,
         speed=None if sight.speed is None else Quantity(sight.speed, "km/h"),
         distance=None if sight.distance is None else Quantity(sight.distance, "m"),
         place=sight.place,
