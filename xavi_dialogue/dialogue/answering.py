@@ -21,6 +21,7 @@ from xavi_dialogue.explain.engine import settled
 from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
+from xavi_dialogue.language.context import SpeechContext
 from xavi_dialogue.language.doings import vehicle_of
 from xavi_dialogue.language.realise import realise
 from xavi_dialogue.language.refusals import (
@@ -44,11 +45,11 @@ def answer(now: Situation, understood: Understood) -> Said | NeedRollout:
     context = replace(context, detail=context.detail or understood.detail)
     if query.event == WHICH:  # name it once more with where it is
         context = replace(context, named=context.named - {vehicle_of(query.actor)})
-    context = replace(context, repeated=now.memory.answered(query, found))
-    utterance = realise(query, found, context)
-    last = now.memory.last
-    if understood.again and last is not None and utterance.text == last.reply.text:
+    if understood.again and _is_told(now, query, found, context):
         return bottom(now, query)
+    repeated = not understood.again and now.memory.answered(query, found)
+    context = replace(context, repeated=repeated)
+    utterance = realise(query, found, context)
     reply = reply_of(now.record, utterance, None, query)
     trace_id = found.evidence.traces[0] if found.evidence.traces else None
     reply = msgspec.structs.replace(reply, explanation=found, trace_id=trace_id)
@@ -61,6 +62,16 @@ def explained_trace(found: Explanation, record: Record) -> PlanTrace | None:
     wanted = frozenset(found.evidence.traces)
     known = (*record.traces, *record.extra)
     return next((trace for trace in known if trace.trace_id in wanted), None)
+
+
+def _is_told(now: Situation, query: Query, found: Explanation, context: SpeechContext) -> bool:
+    """Whether the last answer left nothing unsaid of what a bare "why?" asks for."""
+    told = [turn.reply.explanation for turn in now.memory.turns[-2:]]
+    if told[-1:] != [found]:
+        return False
+    plain = replace(context, turn=0, told=frozenset())
+    fuller, as_told = (realise(query, found, replace(plain, detail=d)) for d in ("more", None))
+    return told == [found, found] or context.detail != "more" or fuller.text == as_told.text
 
 
 def _spelled_out(query: Query, found: Explanation) -> Query | None:

@@ -45,7 +45,7 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         cause = _first_cause(last)
         if cause is not None:
             return _motive(cause, before)
-        return query if before.detail != "more" else None
+        return msgspec.structs.replace(query, detail="more") if before.detail != "more" else None
     if before.type in ("why", "confidence"):
         return Query(
             type="how",
