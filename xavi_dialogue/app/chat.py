@@ -1,6 +1,7 @@
 """`xavi chat`: car, service and conversation in one go, at a terminal or through a pipe."""
 
 import asyncio
+import os
 import signal
 import sys
 from collections.abc import Iterable
@@ -95,7 +96,9 @@ def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None
 
 async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], speed: float) -> None:
     # Deferred: a quarter of a second that only a terminal needs.
-    from xavi_dialogue.transports.screen import Keyboard
+    from prompt_toolkit.application import create_app_session
+
+    from xavi_dialogue.transports.screen import Keyboard, silent_screen
     from xavi_dialogue.transports.terminal import TerminalChat
     from xavi_dialogue.transports.typed import TypedLines, UnkeptLines
 
@@ -120,13 +123,14 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
         typed.expire(datetime.now() - timedelta(days=ride.keeping.days))
     minutes = Minutes(client, ride.session, ride.header, typed.forget)
     cabin = RemoteCabin(behind, client, minutes)
-    chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
-    told.append(chat.tell)
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        loop.add_signal_handler(number, chat.end)
-    behind.car.order(control.Resume())
-    await chat.run()
+    with create_app_session(output=silent_screen(sys.stdout, os.environ.get("TERM"))):
+        chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
+        told.append(chat.tell)
+        loop = asyncio.get_running_loop()
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            loop.add_signal_handler(number, chat.end)
+        behind.car.order(control.Resume())
+        await chat.run()
 
 
 def _warner(note: Write) -> Write:

@@ -3,12 +3,14 @@
 import curses
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
+from typing import TextIO
 
 from prompt_toolkit import print_formatted_text
 from prompt_toolkit.application import get_app_session
 from prompt_toolkit.formatted_text import FormattedText
 from prompt_toolkit.input.vt100 import Vt100Input
 from prompt_toolkit.output import ColorDepth
+from prompt_toolkit.output.vt100 import Vt100_Output
 from prompt_toolkit.styles import BaseStyle, Style
 from prompt_toolkit.utils import get_cwidth, is_dumb_terminal
 
@@ -46,6 +48,17 @@ def has_colours(
     if environment.get("NO_COLOR") or not terminal or is_dumb_terminal(terminal):
         return False
     return count(terminal) > 0
+
+
+def silent_screen(stdout: TextIO, terminal: str | None) -> Vt100_Output:
+    """A terminal that is never asked where its cursor is.
+
+    The answer comes in among the keys, and while lines are printed above the prompt either may
+    get lost. Nothing here needs to know.
+    """
+    screen = Vt100_Output.from_pty(stdout, term=terminal)
+    screen.enable_cpr = False
+    return screen
 
 
 def wrap(text: str, width: int) -> str:
