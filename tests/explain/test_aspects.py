@@ -130,6 +130,8 @@ def test_whether_we_had_to_is_told_from_the_best_alternative():
 def test_what_the_question_before_asked_about_need_not_have_happened():
     wanted = {"type": "compare", "event": "necessary", "counterfactual": ("stop",)}
     assert ask(S1, **wanted, refers_to_previous=True).need.foil == "continue"
+    stayed = wanted | {"counterfactual": ("continue",)}
+    assert ask(S1, **stayed, refers_to_previous=True).need.foil == "continue"
     assert ask(S1, type="what", event="necessary", factual=("exit-right",)).reason == (
         "did-not-happen"
     )

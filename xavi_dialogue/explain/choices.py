@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, Intervention
+from xavi_dialogue.explain.actions import STRAIGHT
 from xavi_dialogue.explain.contrast import (
     alternatives,
     arrival,
@@ -95,7 +96,8 @@ def _about_deed(query: Query, ride: Ride) -> Query:
     plain = replace(query, counterfactual=None)
     if not named:
         return plain
-    if query.refers_to_previous and not all(_done(ride, action) for action in named):
+    supposed = not query.factual and set(named) <= set(STRAIGHT)  # driving on goes without saying
+    if query.refers_to_previous and (supposed or not all(_done(ride, a) for a in named)):
         return replace(plain, factual=None)
     return replace(plain, factual=named)
 
