@@ -133,6 +133,19 @@ def test_reports_may_come_in_any_order() -> None:
     assert items.add(2, "c") == ["c"]
 
 
+def test_who_joins_late_begins_with_what_is_still_kept() -> None:
+    items: InOrder[str] = InOrder()
+    assert items.add(7, "h") == []
+    assert items.begin(0) == []
+    assert items.begin(6) == []  # the seventh may still come
+    assert items.add(6, "g") == ["g", "h"]
+    assert items.begin(5) == []
+    assert items.add(8, "i") == ["i"]
+    late: InOrder[str] = InOrder()
+    assert [late.add(3, "d"), late.add(4, "e")] == [[], []]
+    assert late.begin(4) == ["d", "e"]  # a little more was kept than had to be
+
+
 def test_without_a_car_there_is_no_planner(bench: Bench) -> None:
     reply = bench.ask("answer")
     assert (reply.kind, reply.reason) == ("refusal", "planner-unavailable")

@@ -130,7 +130,10 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
         for number in (signal.SIGTERM, signal.SIGHUP):
             loop.add_signal_handler(number, chat.end)
         behind.car.order(control.Resume())
-        await chat.run()
+        try:
+            await chat.run()
+        finally:
+            behind.over.set()
 
 
 def _warner(note: Write) -> Write:

@@ -115,6 +115,10 @@ class Child:
         assert process.stderr is not None
         process.stderr.close()
 
+    def kill(self) -> None:
+        """End the process at once."""
+        self._process.kill()
+
     def _listen(self) -> None:
         assert self._process.stderr is not None
         with contextlib.suppress(ValueError):  # closed meanwhile
@@ -168,6 +172,11 @@ class Steady:
                 self.spare -= 1
                 self._child.stop()
                 self._child = self._start()
+
+    def kill(self) -> None:
+        """End the present process at once, and start no other."""
+        self.spare = 0
+        self._child.kill()
 
     def __enter__(self) -> Self:
         return self

@@ -1,10 +1,11 @@
 """Car and service for one chat: started in order, stopped in order, none left behind."""
 
 import socket
+import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field
 from functools import partial
 
 from xavi_dialogue.app import control
@@ -20,6 +21,7 @@ RETRY = 0.2  # [s] between looks at whether the service is still coming up
 START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
 SPARE = 5  # times that a service which has died is started anew
 BACK = 15.0  # [s] until it must answer then
+CLOSING = 1.5  # [s] that it may take to leave the bus
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
 
@@ -30,6 +32,7 @@ class Convoy:
     car: Child
     service: Steady
     bus: ZenohBus
+    over: threading.Event = field(default_factory=threading.Event)  # nobody waits any more
 
     def check(self) -> None:
         """Make sure that both are there; start the service anew if it is not.
@@ -47,13 +50,10 @@ class Convoy:
             ChildFailed: see `check`.
         """
         give_up = time.monotonic() + BACK
-        while time.monotonic() < give_up:
+        while time.monotonic() < give_up and not self.over.wait(RETRY):
             self.service.check()
-            try:
+            with suppress(ServiceLost):
                 client.history()
-            except ServiceLost:
-                time.sleep(RETRY)
-            else:
                 return True
         return False
 
@@ -139,8 +139,19 @@ def _start(
             stack.close()
         else:
             service.spare = SPARE
+            stack.callback(_let_go, bus, service)
             return Convoy(car, service, bus)
     raise AssertionError("the last attempt returns or raises")
+
+
+def _let_go(bus: ZenohBus, service: Steady) -> None:
+    """Close the connection; to a service that hangs that would take long, so it is killed."""
+    closing = threading.Thread(target=bus.close, daemon=True)
+    closing.start()
+    closing.join(CLOSING)
+    if closing.is_alive():
+        service.kill()
+        closing.join(BACK)
 
 
 def _join(service: Steady, endpoint: str) -> ZenohBus:

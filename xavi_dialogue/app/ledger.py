@@ -5,6 +5,7 @@ from typing import Generic, TypeVar
 
 from planner.events import Event
 from planner.trace import PlanTrace
+from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceReport
@@ -23,6 +24,19 @@ class InOrder(Generic[Item]):
         """Take an item in; what can be handed on now."""
         if number >= self.next:
             self.held.setdefault(number, item)
+        return self._ready()
+
+    def begin(self, oldest: int) -> list[Item]:
+        """Give up what nobody has any more; what can be handed on now.
+
+        Args:
+            oldest: number of the oldest item that may still come.
+        """
+        if self.next < oldest:
+            self.next = min([oldest, *self.held])
+        return self._ready()
+
+    def _ready(self) -> list[Item]:
         ready = []
         while self.next in self.held:
             ready.append(self.held.pop(self.next))
@@ -52,9 +66,13 @@ class Ledger:
 
     def see(self, report: SceneReport) -> list[Input]:
         """What there is to tell the manager after a scene report."""
-        if self.scene is None or report.seq > self.scene.seq:
-            self.scene = report
-        return self._end()
+        if self.scene is not None and report.seq <= self.scene.seq:
+            return self._end()
+        self.scene = report
+        # Who joins late is sent no more than what is kept for that.
+        traces = self.traces.begin(report.traces - KEPT_TRACES)
+        events = self.events.begin(report.events - KEPT_EVENTS)
+        return [*map(TraceRecorded, traces), *map(EventRecorded, events), *self._end()]
 
     def complete(self, at: float) -> bool:
         """Whether all that was recorded up to a moment [s] has arrived."""
