@@ -21,6 +21,11 @@ def chosen(text: str, count: int) -> int | None:
     return index if 0 <= index < count else None
 
 
+def is_number(text: str) -> bool:
+    """Whether the text is a number and nothing else."""
+    return "".join(filter(str.isalnum, text)).isdecimal()
+
+
 def wants_another(text: str) -> bool:
     """Whether the text asks for one more of what there was before: "another one", "next"."""
     another, beside = _more()

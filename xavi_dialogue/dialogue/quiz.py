@@ -134,12 +134,16 @@ def _fits(descriptions: tuple[str, ...], scene: Vehicles) -> set[int] | None:
 
 def _deed(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None:
     ours = set(quiz.actions)
+    unclear = bool(quiz.same) and quiz.sooner is None
     if said.torn:
         return "passed"
     if said.deeds:
         first = said.deeds[0]
         if "speed-up" in first or "slow-down" in first:
-            return _right(bool(quiz.same) and quiz.sooner is ("speed-up" in first))
+            quicker = bool(quiz.same) and quiz.sooner is ("speed-up" in first)
+            return "passed" if unclear else _right(quicker)
+        if said.sooner is not None and unclear:
+            return "passed"
         quicker = said.sooner is not None and bool(quiz.same) and said.sooner is quiz.sooner
         return _right(quicker or bool(ours & set(first)))  # "gone faster"
     if said.same is not None:
@@ -151,7 +155,7 @@ def _deed(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None
         stays = "continue" in ours and not denied.isdisjoint(LANE_CHANGES)
         return "wrong" if ours & denied else "right" if stays else "passed"
     if said.sooner is not None:
-        return _right(bool(quiz.same) and quiz.sooner is said.sooner)
+        return "passed" if unclear else _right(bool(quiz.same) and quiz.sooner is said.sooner)
     return None
 
 

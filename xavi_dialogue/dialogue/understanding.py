@@ -6,7 +6,7 @@ import msgspec
 
 from xavi_dialogue.dialogue.bearings import Vehicles
 from xavi_dialogue.dialogue.chain import deeper, evidence_for, meant_vehicle
-from xavi_dialogue.dialogue.choices import chosen, goes_on, wants_another
+from xavi_dialogue.dialogue.choices import chosen, goes_on, is_number, wants_another
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.mind import Said, Situation, bottom, inviting, refuse, reply_of, speech
 from xavi_dialogue.dialogue.quiz import judged
@@ -49,6 +49,8 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
             return found
     if memory.is_quizzing and wants_another(text):
         return Understood(text, Query(type="smalltalk", tense="present", event=QUIZ), aim="quiz")
+    if is_number(text):  # of none of the choices, if there are any
+        return _ask_back(now, "no-question", offered)
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
@@ -129,12 +131,14 @@ def _in_conversation(now: Situation, query: Query) -> Query | Said:
         query = msgspec.structs.replace(query, event=None)
     if last is None:
         return query
-    if last.reply.reason is not None and _doubts(query, last):
-        return replace(_insist(now, query), focus=last.focus)
+    insisted = last.query is not None and last.query.type == "confidence"
+    declined = last.reply.reason is not None or (insisted and last.reply.explanation is None)
+    if declined and _doubts(query, last):
+        return replace(_insist(now, query), leans=last.leans or last.query, focus=last.focus)
     if again or _why_declined(query, last):
         beside = now.memory.turns[-1].query  # "why?" after "I only know about this drive"
-        declined = beside is not None and beside.type == "out_of_scope"
-        found = deeper(now.memory, query) if again and not declined else None
+        beyond = beside is not None and beside.type == "out_of_scope"
+        found = deeper(now.memory, query) if again and not beyond else None
         return bottom(now, query) if found is None else found
     if query.type == "how" and query.refers_to_previous and query.actor == "ego":
         return evidence_for(last) or query
