@@ -46,6 +46,7 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
     cuts = lattice.cuts()
     topic = named_first(lattice, cuts)
     found: dict[tuple[str, Query], Candidate] = {}
+    whole: dict[tuple[str, Query], Candidate] = {}
     for extra, one in _found(lattice, cuts, budget):
         parse = one.parse()
         after = tuple(edge.token for at, edge in cuts if at >= parse.end)
@@ -58,10 +59,24 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
         known = found.get((parse.rule, query))
         if cost <= limit and (known is None or cost < known.cost):
             kind = kind_of(query, previous)
-            if kind == LEAN and parse.rule == query.type and _says_nothing(reading):
+            leans = kind == LEAN and parse.rule == query.type
+            if leans and _says_nothing(reading):
                 kind = query.type  # it is worded as such, whatever was asked before
-            found[parse.rule, query] = Candidate(parse.rule, query, kind, cost, tree=parse.tree)
-    return list(found.values())
+            new = Candidate(parse.rule, query, kind, cost, tree=parse.tree)
+            found[parse.rule, query] = new
+            if leans and _is_whole(reading):
+                whole[parse.rule, query] = replace(new, kind=query.type)
+    return [*found.values(), *whole.values()]
+
+
+def _is_whole(reading: Reading) -> bool:
+    """Whether it says who did what, or lays it to somebody: "why did it stop?" is a question.
+
+    That it is like the one before, "why did vehicle 1 slow down?", makes it no mere follow-up.
+    """
+    query = reading.query
+    told = query.factual or query.counterfactual
+    return reading.laid if query.hypothesised_cause else bool(told and reading.named_actor)
 
 
 def loosely(

@@ -6,6 +6,7 @@ elements, pairs and triples in a row are taken, and pairs with a gap of one.
 """
 
 from xavi_dialogue.language.lattice import Lattice
+from xavi_dialogue.language.normalise import is_clock
 from xavi_dialogue.language.words import Heard, is_number
 
 _EDGE = "#"  # the beginning and the end
@@ -40,7 +41,7 @@ def features(lattice: Lattice, heard: Heard, *, follows: bool) -> frozenset[str]
         if shown is not None and not (shown == terminals[-1] and shown in ("ACT", "SIDE")):
             terminals.append(shown)
     terminals.append(_EDGE)
-    typed = [_EDGE, *("0" if is_number(w) else w for w in heard.words), _EDGE]
+    typed = [_EDGE, *("0" if is_number(w) or is_clock(w) else w for w in heard.words), _EDGE]
     length = min(len(heard.words) // 3, _LONGEST)
     found = {f"length {length}", f"follows {int(follows)}", f"tagged {int(heard.tagged)}"}
     found |= _frame([s for s in terminals if s.partition("=")[0] not in _LEADING])

@@ -33,7 +33,7 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
         return _lean(reading, previous) if previous is not None else _alone(reading)
     blamed = query.type == "why" and query.hypothesised_cause and previous is not None
     if (query.event == INFLUENCE or blamed) and not query.factual:
-        return _laid_to(query, previous)
+        return _laid_to(reading, previous)
     if reading.anaphoric or reading.elided:
         if previous is None:
             return _pointed_at(reading)
@@ -77,15 +77,18 @@ def _pointed_at(reading: Reading) -> Query | None:
     return None
 
 
-def _laid_to(query: Query, previous: Query | None) -> Query:
+def _laid_to(reading: Reading, previous: Query | None) -> Query:
     """What a vehicle had to do with what was spoken of; by itself, with what was just done."""
-    if previous is None or not previous.factual or previous.actor != "ego":
+    query, cause = reading.query, reading.query.hypothesised_cause
+    if previous is None or not previous.factual or previous.actor == cause:
         return query
-    cause = query.hypothesised_cause
+    if previous.actor != "ego" and not reading.laid:
+        return query  # "it was vehicle 5 that I meant"
     if cause == "vehicle:it":
         cause = previous.hypothesised_cause or cause
     return _refer(
         query,
+        actor=previous.actor,
         factual=previous.factual,
         hypothesised_cause=cause,
         tense=previous.tense,

@@ -6,10 +6,12 @@ that "what is stopping" may be a question word, or a question about stopping.
 
 from dataclasses import dataclass
 
-from xavi_dialogue.language.normalise import BREAK
+from xavi_dialogue.language.normalise import BREAK, is_clock
 from xavi_dialogue.language.tokens import WEAK, Token
 from xavi_dialogue.language.wordlists import vocabulary
 from xavi_dialogue.language.words import is_number, vehicle_nouns
+
+CLOCK = "#:"  # how the word lists write any time of the ride
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,14 +54,16 @@ class Lattice:
 
 def build(words: tuple[str, ...]) -> Lattice:
     """The lattice of a text whose spelling is corrected."""
-    return Lattice(tuple(_edges(words, start) for start in range(len(words))))
+    listed = tuple(CLOCK if is_clock(word) else word for word in words)
+    return Lattice(tuple(_edges(words, listed, start) for start in range(len(words))))
 
 
-def _edges(words: tuple[str, ...], start: int) -> tuple[Edge, ...]:
+def _edges(words: tuple[str, ...], listed: tuple[str, ...], start: int) -> tuple[Edge, ...]:
+    """What begins at a word; `listed` are the words as the lists have them."""
     word = words[start]
     if word == BREAK:
         return (Edge(start + 1, Token("BREAK", word, word), True),)
-    found = vocabulary().phrases.all_from(words, start)
+    found = vocabulary().phrases.all_from(listed, start)
     found.sort(key=lambda match: (_splits_a_name(words, start, match[0]), -match[0]))
     if not found:
         kind = "NUMBER" if is_number(word) else "UNKNOWN"

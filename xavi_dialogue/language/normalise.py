@@ -16,7 +16,8 @@ MAX_INPUT = 1024  # [characters] longer input is not read at all
 
 _ESCAPES = re.compile(r"\x1b(?:\[[0-9;:?<=>]*[a-zA-Z@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|.)")
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "ʼ": "'", "“": " ", "”": " "})
-_PIECES = re.compile(r"[^\W\d_]+(?:['-][^\W\d_]+)*|\d+|[.,;:!?…–—()-]")
+_CLOCK = re.compile(r"\d{1,3}:\d{2}")
+_PIECES = re.compile(r"[^\W\d_]+(?:['-][^\W\d_]+)*|(?<!\d)\d{1,3}:\d{2}(?!\d)|\d+|[.,;:!?…–—()-]")
 _MARKS = frozenset(".,;:!?…–—()-")
 _MODALS = frozenset({"could", "would", "should", "might", "must"})
 BREAK = ","  # how every clause mark is written from here on
@@ -24,11 +25,16 @@ BREAK = ","  # how every clause mark is written from here on
 
 @dataclass(frozen=True, slots=True)
 class Normalised:
-    """The words of an input, in order; a clause mark is the word `BREAK`."""
+    """The words of an input, in order; a clause mark is `BREAK`, a time of the ride one word."""
 
     words: tuple[str, ...]
     shortened: bool = False  # only the end was read
     marks: str = ""  # clause marks as typed, in order
+
+
+def is_clock(word: str) -> bool:
+    """Whether a word is a time of the ride: "0:05"."""
+    return _CLOCK.fullmatch(word) is not None
 
 
 def clean(text: str) -> str:

@@ -85,6 +85,7 @@ class Reading:
     elided: bool = False  # "and if you hadn't?": likewise
     named_actor: bool = True  # the words name who acts
     heading: str | None = None  # "and left?": a direction alone
+    laid: bool = False  # "because of": the words lay it to somebody
 
 
 def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Reading | None:
@@ -125,6 +126,7 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
         elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
         named_actor=named,
         heading=_heading(parse.tree),
+        laid=any(t.terminal in ("BECAUSE", "INVOLVED") for t in whole),
     )
 
 

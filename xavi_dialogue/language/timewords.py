@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from xavi_dialogue.language.normalise import BREAK, Normalised, clean, normalise
+from xavi_dialogue.language.normalise import BREAK, Normalised, clean, is_clock, normalise
 from xavi_dialogue.language.phrases import Automaton, Sense
 from xavi_dialogue.language.wordlists import inflections, load
 from xavi_dialogue.language.words import hear, is_number
@@ -14,7 +14,6 @@ NUMBER, TIME_OF_RIDE = "#", "#:"
 MINUTE = 60.0  # [s]
 MAX_SECONDS = 86400.0  # [s] what is longer is no time of a ride
 
-_CLOCKS = re.compile(r"(?<!\d)(\d{1,3}):(\d{2})(?!\d)")
 _DECIMALS = re.compile(r"(?<![\d.])(\d+)[.](\d+)(?![\d.])")
 
 
@@ -59,7 +58,6 @@ def _automaton() -> Automaton:
 def pieces_of(text: str) -> tuple[Piece, ...]:
     """The words of a text, spelling corrected, with its numbers and times of the ride."""
     cleaned = clean(text)
-    clocks = {(int(a), int(b)) for a, b in _CLOCKS.findall(cleaned)}
     decimals = {(int(a), int(b)): float(f"{a}.{b}") for a, b in _DECIMALS.findall(cleaned)}
     aliases = load("times.toml")["aliases"]
     meant = tuple(aliases.get(word, word) for word in normalise(text).words)
@@ -72,13 +70,14 @@ def pieces_of(text: str) -> tuple[Piece, ...]:
         glued = words[position + 1 : position + 2] == (BREAK,) and position + 2 < len(words)
         behind = _value(words[position + 2]) if glued else None
         pair = None if value is None or behind is None else (int(value), int(behind))
-        if pair is not None and pair in clocks:
-            pieces.append(Piece(TIME_OF_RIDE, word, MINUTE * pair[0] + pair[1]))
+        if is_clock(word):
+            minutes, _, seconds = word.partition(":")
+            pieces.append(Piece(TIME_OF_RIDE, word, MINUTE * int(minutes) + int(seconds)))
         elif pair is not None and pair in decimals:
             pieces.append(Piece(NUMBER, word, decimals[pair]))
         else:
             pieces.append(Piece(word, word) if value is None else Piece(NUMBER, word, value))
-        position += 3 if pair in clocks or pair in decimals else 1
+        position += 3 if pair in decimals else 1
     return tuple(pieces)
 
 

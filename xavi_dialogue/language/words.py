@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from functools import cache
 
-from xavi_dialogue.language.normalise import BREAK, Normalised, expand
+from xavi_dialogue.language.normalise import BREAK, Normalised, expand, is_clock
 from xavi_dialogue.language.spelling import correct
 from xavi_dialogue.language.wordlists import PLAIN_RANK, english, vocabulary
 
@@ -78,7 +78,7 @@ def _is_word(word: str) -> bool:
 
 
 def _known(word: str) -> tuple[str, ...]:
-    if word == BREAK or is_number(word) or _is_word(word):
+    if word == BREAK or is_number(word) or is_clock(word) or _is_word(word):
         return (word,)
     parts = tuple(part for part in word.split("-") if part)
     if len(parts) > 1:
