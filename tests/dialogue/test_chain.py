@@ -3,8 +3,11 @@
 import pytest
 
 from tests.dialogue.talking import Talk
+from xavi_dialogue.dialogue.chain import meant_vehicle
 from xavi_dialogue.dialogue.memory import remember
+from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.query import Query
 
 CHANGED = "Why did you change lanes?"
 DECIDED = 3.0  # [s] when s1's lane change was decided
@@ -248,6 +251,17 @@ def test_of_several_that_were_named_the_first_is_meant() -> None:
     which = talk.say("Which car?")
     assert which.query is not None
     assert which.query.actor == f"vehicle:{told.mentioned[0]}"
+
+
+def test_what_was_named_last_is_not_what_was_named_first() -> None:
+    reply = Reply(text="so", kind="answer", sim_time=6.0)
+    named = Turn(text="so?", query=Query(type="why"), reply=reply, mentioned=(4, 7))
+    later = Turn(text="so?", query=Query(type="why"), reply=reply)
+    meant = meant_vehicle(
+        Query(type="what", actor="vehicle:unknown"), remember([named, later], None)
+    )
+    assert meant is not None
+    assert meant.actor == "vehicle:4"
 
 
 @pytest.mark.parametrize("text", ["Why?", "Why not?", "Which car?"])

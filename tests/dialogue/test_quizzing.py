@@ -104,6 +104,21 @@ def test_another_one_means_nothing_of_the_kind_where_there_is_no_quiz(text: str)
     assert talk.say(text).quiz is None
 
 
+@pytest.mark.parametrize("reply", ["banana", "77", "what?"])
+def test_a_reply_that_makes_no_sense_leaves_the_question_open(reply: str) -> None:
+    talk = Talk()
+    quiz = posed(talk, "sooner")
+    for _ in range(2):
+        turn = talk.say(reply, at=8.0)
+        assert turn.reply.kind != "answer"
+        assert talk.session.phase is Phase.QUIZZING
+    verdict = talk.say(true_reply(quiz), at=12.0)
+    assert (verdict.answered, verdict.right) == (quiz, True)
+    plain = Talk()
+    posed(plain, "sooner")
+    assert verdict.reply.explanation == plain.say(true_reply(quiz)).reply.explanation
+
+
 def test_a_question_in_between_is_answered_and_ends_the_quiz() -> None:
     talk = Talk()
     quiz = posed(talk, "vehicle")

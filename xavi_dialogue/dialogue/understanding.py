@@ -43,18 +43,21 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     pick = chosen(text, len(offered)) if offered else None
     if pick is not None:
         return _refer(now, offered[pick])
-    if before is not None and before.quiz is not None:
-        found = _verdict(now, before, before.quiz)
+    quiz = None if before is None else before.quiz  # stays open where no sense is made of a reply
+    if before is not None and quiz is not None:
+        found = _verdict(now, before, quiz)
         if found is not None:
             return found
     if memory.is_quizzing and wants_another(text):
         return Understood(text, Query(type="smalltalk", tense="present", event=QUIZ), aim="quiz")
     if is_number(text):  # of none of the choices, if there are any
-        return _ask_back(now, "no-question", offered)
+        return replace(_ask_back(now, "no-question", offered), quiz=quiz)
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
-        return _ask_back(now, parsed.cause, parsed.readings)
+        return replace(_ask_back(now, parsed.cause, parsed.readings), quiz=quiz)
+    if parsed.type == "ambiguous" and quiz is not None:
+        return replace(_ask_back(now, "ambiguous", ()), quiz=quiz)
     if parsed.type == "smalltalk" and parsed.event == QUIZ:
         return Understood(text, parsed, aim="quiz")
     asked = _in_conversation(now, parsed)
@@ -72,7 +75,8 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
 
 def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:
     """The reply to a question of ours; None where it is no such thing."""
-    record = up_to(now.record, before.reply.sim_time)
+    posed = next((turn for turn in now.memory.turns if turn.quiz == quiz), before)
+    record = up_to(now.record, posed.reply.sim_time)
     scenes = (*_scenes(quiz.about, record)[:1], *scenes_of(now.record.traces[-1:]))
     judgement = judged(quiz, now.asked.text, scenes)
     if judgement is None:
@@ -83,7 +87,7 @@ def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:
         aim="verdict",
         quiz=quiz,
         judgement=judgement,
-        posed_at=before.reply.sim_time,
+        posed_at=posed.reply.sim_time,
     )
 
 
