@@ -195,6 +195,34 @@ def test_why_after_what_was_done_asks_why_that_was_done() -> None:
     assert why.reply.explanation.factual == ("continue",)
 
 
+def test_why_after_what_another_does_goes_down_a_level_each() -> None:
+    talk = Talk()
+    told = talk.say("What is vehicle 1 doing?")
+    motive, evidence, end = down(talk)
+    assert_is_motive(motive, 1)
+    assert motive.reply.text != told.reply.text
+    assert_is_evidence(evidence, 1)
+    assert_is_end(end)
+
+
+def test_why_after_what_another_is_going_to_do_asks_for_the_evidence() -> None:
+    talk = Talk()
+    told = talk.say("Where is vehicle 1 going?")
+    assert told.reply.explanation is not None
+    assert told.reply.explanation.destination is not None
+    evidence, end = down(talk, steps=2)
+    assert_is_evidence(evidence, 1)
+    assert evidence.query is not None
+    assert evidence.query.factual == (told.reply.explanation.destination.kind,)
+    assert_is_end(end)
+
+
+def test_why_after_what_another_does_that_we_cannot_tell_is_no_end_yet() -> None:
+    talk = Talk("bend-0", at=8.0)
+    talk.say("What is vehicle 2 doing?")
+    assert talk.say("Why?").reply.kind == "answer"
+
+
 def test_why_is_no_wish_to_hear_more_from_now_on() -> None:
     talk = Talk()
     talk.say(CHANGED)

@@ -283,9 +283,12 @@ def test_a_bare_no_says_nothing() -> None:
     assert asked(talk.say("And where is it going?"))[:2] == ("where_goal", "vehicle:1")
 
 
-def test_a_follow_up_on_what_was_answered_without_its_name_means_that_deed() -> None:
+@pytest.mark.parametrize("texts", [("What happened just now?", "Why?"), ("Why did you do that?",)])
+def test_a_follow_up_on_what_was_answered_without_its_name_means_that_deed(
+    texts: tuple[str, ...],
+) -> None:
     talk = Talk(at=6.0)
-    talk.hear("What happened just now?", "Why?")
+    talk.hear(*texts)
     turn = talk.say("What if you hadn't done that?")
     assert turn.query is not None
     assert turn.query.counterfactual == ("change-left",)

@@ -35,8 +35,10 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         return query
     if found is None:
         return _of_refusal(query, last)
-    if before.type not in (*_REASONED, "confidence", "how"):
+    if before.type == "what":
         return _of_doing(query, found)
+    if before.type not in (*_REASONED, "confidence", "how", "where_goal"):
+        return query
     if before.type == "what_if" and before.intervention == "remove" and found.factual:
         return Query(
             type="why", factual=found.factual[:1], tense=before.tense, refers_to_previous=True
@@ -46,7 +48,9 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         if cause is not None:
             return _motive(cause, before)
         return msgspec.structs.replace(query, detail="more") if before.detail != "more" else None
-    if before.type in ("why", "confidence"):
+    if before.type == "where_goal" and before.actor == "ego":
+        return query
+    if before.type in ("why", "confidence", "where_goal"):
         return Query(
             type="how",
             actor=before.actor,
@@ -69,8 +73,10 @@ def _of_refusal(query: Query, last: Turn) -> Query | None:
 
 
 def _of_doing(query: Query, found: Explanation) -> Query:
-    """After an answer that told what we did: why we did that."""
+    """After an answer that told what we did, or what another does: why that is done."""
     doing = found.activity
+    if query.actor != "ego":
+        return msgspec.structs.replace(query, detail="more")
     told = doing is not None and doing.vehicle == EGO and query.tense == "past"
     if doing is None or not told or query.factual or not doing.actions:
         return query
