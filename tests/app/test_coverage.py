@@ -66,12 +66,18 @@ def test_inlined_rules_count(folder: Path) -> None:
     assert any(name.endswith(": _aux") for name in found)
 
 
-def test_the_table_says_what_is_missing() -> None:
+def test_a_rule_counts_with_any_of_its_alternatives(folder: Path) -> None:
+    found = of(covered(folder, "asdf qwer"), "rules of answer_refusals.rules")
+    assert sorted(name.split(": ")[1] for name in found) == ["ASK", "NOT_UNDERSTOOD", "REFUSAL"]
+
+
+def test_the_table_says_what_is_missing_and_then_what_is_merely_unseen() -> None:
     one, other = Item("reasons", "busy"), Item("reasons", "ambiguous")
-    table = Coverage({one: 0, other: 3}).table()
+    fine = Item("alternatives", "ASK 2", fine=True)
+    table = Coverage({fine: 0, one: 0, other: 3}).table()
     assert "1 of    2" in table
-    assert table.endswith("not exercised:\n  reasons: busy")
-    assert Coverage({other: 3}).missing == ()
+    assert table.endswith("not exercised:\n  reasons: busy\n\nnot seen:\n  alternatives: ASK 2")
+    assert Coverage({fine: 0, other: 3}).missing == ()
 
 
 def test_the_command_fails_while_something_is_missing(folder: Path) -> None:

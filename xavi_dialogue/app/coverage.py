@@ -1,8 +1,9 @@
 """`xavi transcripts --coverage`: what the golden conversations exercise, and what none does.
 
-Counted are question types, reasons for refusals, the alternatives of all answer grammars, and the
-rules of the question grammar; and only what was understood and said. Which alternatives an answer
-was made of is watched from outside, as coverage tools do, so that the realiser need not know.
+Counted are question types, reasons for refusals, the rules of the question grammar and of all
+answer grammars, and, as a finer list, the alternatives of the latter; and only what was understood
+and said. Which alternatives an answer was made of is watched from outside, as coverage tools do, so
+that the realiser need not know.
 """
 
 import re
@@ -11,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from types import FrameType
 from typing import get_args
 
@@ -35,6 +37,7 @@ class Item:
 
     group: str  # what it is one of
     name: str  # with the place in its file, where it stands in one
+    fine: bool = False  # one of several that do for another item
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,17 +48,23 @@ class Coverage:
 
     @property
     def missing(self) -> tuple[Item, ...]:
-        """What no conversation exercises."""
-        return tuple(item for item, count in self.counts.items() if count == 0)
+        """What no conversation exercises, and one should."""
+        return tuple(i for i, count in self.counts.items() if count == 0 and not i.fine)
+
+    @property
+    def unseen(self) -> tuple[Item, ...]:
+        """The alternatives that no conversation exercises."""
+        return tuple(i for i, count in self.counts.items() if count == 0 and i.fine)
 
     def table(self) -> str:
-        """The figures of each group, then what is missing by name."""
+        """The figures of each group, then what is missing by name, the finer list last."""
         lines = []
         for group in dict.fromkeys(item.group for item in self.counts):
             counts = [count for item, count in self.counts.items() if item.group == group]
-            lines.append(f"{group:34} {sum(map(bool, counts)):4} of {len(counts):4}")
-        lines += ["", "not exercised:"] if self.missing else []
-        lines += [f"  {item.group}: {item.name}" for item in self.missing]
+            lines.append(f"{group:40} {sum(map(bool, counts)):4} of {len(counts):4}")
+        for title, items in (("not exercised:", self.missing), ("not seen:", self.unseen)):
+            lines += ["", title] if items else []
+            lines += [f"  {item.group}: {item.name}" for item in items]
         return "\n".join(lines)
 
 
@@ -65,13 +74,14 @@ def measure(written: Sequence[Written]) -> Coverage:
     Raises:
         RideFileError: a recording is missing, or lacks a plan.
     """
-    alternatives = _alternatives()
+    rules, alternatives = _answer_rules(), _alternatives()
     counts = dict.fromkeys(
         (
             *(Item("question types", name) for name in get_args(QueryType)),
             *(Item("reasons", name) for name in get_args(Reason)),
-            *alternatives.values(),
             *_question_rules().values(),
+            *rules.values(),
+            *alternatives.values(),
         ),
         0,
     )
@@ -81,13 +91,13 @@ def measure(written: Sequence[Written]) -> Coverage:
             ear = _Ear()
             with _watched() as mouth:
                 played = replay_recorded(one.transcript, ride, ear.mind())
-            for item in _exercised(played.replies, ear, mouth, alternatives):
+            for item in _exercised(played.replies, ear, mouth, (rules, alternatives)):
                 counts[item] += 1
     return Coverage(counts)
 
 
 def _exercised(
-    replies: Iterable[Reply], ear: "_Ear", mouth: "_Mouth", alternatives: dict[int, Item]
+    replies: Iterable[Reply], ear: "_Ear", mouth: "_Mouth", answers: Sequence[dict[int, Item]]
 ) -> Iterator[Item]:
     """What one conversation exercises; each as often as it does."""
     said = tuple(reply.text.casefold() for reply in replies)
@@ -100,7 +110,7 @@ def _exercised(
             yield Item("reasons", reply.reason)
     for text, chosen in mouth.spoken:
         if any(text.casefold() in one for one in said):
-            yield from (alternatives[id(one)] for one in chosen)
+            yield from (items[id(one)] for items in answers for one in chosen)
     rules = _question_rules()
     for report in ear.reports:
         if isinstance(report.result, Query) and report.readings:
@@ -156,19 +166,34 @@ def _watched() -> Iterator[_Mouth]:
         sys.setprofile(before)
 
 
+def _answer_rules() -> dict[int, Item]:
+    """The rules of the answer grammars, by the identity of each of their alternatives."""
+    items: dict[int, Item] = {}
+    for path in _grammars():
+        for rule in load_grammar(path.name.removesuffix(".rules")).values():
+            name = f"grammars/{path.name}:{rule.alternatives[0].line}: {rule.name}"
+            item = Item(f"rules of {path.name}", name)
+            items |= {id(one): item for one in rule.alternatives}
+    return items
+
+
 def _alternatives() -> dict[int, Item]:
     """All alternatives of the answer grammars, by identity: two may be alike."""
     items: dict[int, Item] = {}
-    for path in sorted(files("grammars").iterdir(), key=lambda p: p.name):
-        if not path.name.endswith(".rules"):
-            continue
+    for path in _grammars():
         lines = path.read_text(encoding="utf-8").splitlines()
         for rule in load_grammar(path.name.removesuffix(".rules")).values():
             for number, one in enumerate(rule.alternatives, 1):
                 text = re.sub(r"^[A-Z_]+\[.*?\]\s*->|^\s*\|", "", lines[one.line - 1]).strip()
                 name = f"grammars/{path.name}:{one.line}: {rule.name} {number}: {text}"
-                items[id(one)] = Item(f"alternatives of {path.name}", name)
+                items[id(one)] = Item(f"alternatives of {path.name}", name, fine=True)
     return items
+
+
+def _grammars() -> list[Traversable]:
+    """The files of the answer grammars, by name."""
+    paths = sorted(files("grammars").iterdir(), key=lambda path: path.name)
+    return [path for path in paths if path.name.endswith(".rules")]
 
 
 def _question_rules() -> dict[str, Item]:

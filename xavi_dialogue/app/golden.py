@@ -2,13 +2,18 @@
 
 Conversations about the same scenario and seed share one recording of the ride:
 `transcripts/rides/s1-0.ride.jsonl.gz` holds it once, with all that was planned again for any.
+A conversation may also be about what a file in `transcripts/traces` holds, with the header
+`trace:`: one decision, or a recorded ride. There is no road behind it: nothing can be driven or
+planned again, and what was planned from a single decision lies beside it (see `BESIDE`).
 """
 
+import gzip
+import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.trace import PlanTrace
+from planner.trace import PlanTrace, TraceError, decode
 from planner.whatif import WhatIfError
 from sim.scenario import load as load_scenario
 from xavi_dialogue.app.local import Conversation, Replan, drive_to, make_mind, planner_for
@@ -18,11 +23,13 @@ from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, Trace
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import NeedRollout
 from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
+from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, key
 from xavi_dialogue.transports.transcript import Transcript, TranscriptError, read, write
 
 RIDES = "rides"  # the folder of the recordings, in that of the transcripts
+TRACES = "traces"  # the folder of what is not driven
 ENDING = ".ride.jsonl.gz"
+BESIDE = "whatif-{}.json.gz"  # a plan made again from a decision, by the key of the request
 
 Note = Callable[[str], None]
 
@@ -36,8 +43,15 @@ class Written:
     transcript: Transcript
 
     @property
+    def driven(self) -> bool:
+        """Whether SUMO can drive what it is about."""
+        return self.transcript.get("trace") is None
+
+    @property
     def ride(self) -> Path:
         """Where the recording of its ride lies."""
+        if not self.driven:
+            return self.path.parent / _header(self, "trace")
         name = f"{Path(self.scenario).name}-{self.seed}{ENDING}"
         return self.path.parent / RIDES / name
 
@@ -82,11 +96,13 @@ def by_ride(written: Sequence[Written]) -> Mapping[Path, tuple[Written, ...]]:
 
 
 def recording(path: Path) -> RecordedRide:
-    """A recorded ride.
+    """A recorded ride; of a single decision, a ride that consists of it.
 
     Raises:
         RideFileError: there is none.
     """
+    if not path.name.endswith(ENDING):
+        return _alone(path)
     try:
         return ride_file.load(path.read_bytes())
     except OSError as error:
@@ -101,11 +117,11 @@ def replay_recorded(transcript: Transcript, ride: RecordedRide, mind: Mind) -> P
     """
 
     def again(_: PlanTrace, need: NeedRollout) -> PlanTrace:
-        name = ride_file.key(need)
+        name = key(need)
         if name in ride.failures:
             raise WhatIfError(ride.failures[name])
         if name not in ride.whatifs:
-            raise RideFileError(f"the recording holds no plan for {need}; accept it anew")
+            raise RideFileError(_missing(need))
         return ride.whatifs[name]
 
     return play(transcript, mind, inputs_of(ride), ride.halt, again)
@@ -141,14 +157,16 @@ def replay_driven(written: Sequence[Written]) -> Replayed:
 def replay_all(folder: Path, *, accept: bool, note: Note) -> int:
     """Replay every transcript of a folder in SUMO; how many differ from what is written there.
 
-    A transcript differs where its text or its recording does.
+    A transcript differs where its text or its recording does. What is about a file of decisions
+    is replayed from that file.
 
     Raises:
         TranscriptError: the folder holds none, or one cannot be read.
+        RideFileError: a file of decisions is missing, or lacks a plan.
     """
     differing = 0
     for path, written in by_ride(transcripts_in(folder)).items():
-        now = replay_driven(written)
+        now = replay_driven(written) if written[0].driven else _replay_held(path, written)
         driven = _as_recorded(path, now.ride)
         if accept and not driven:
             path.parent.mkdir(exist_ok=True)
@@ -176,6 +194,40 @@ def _as_recorded(path: Path, ride: RecordedRide) -> bool:
         return False
 
 
+def _replay_held(path: Path, written: Sequence[Written]) -> Replayed:
+    """Transcripts about what a file holds as they come out of it."""
+    ride, mind = recording(path), make_mind()
+    played = (replay_recorded(one.transcript, ride, mind) for one in written)
+    return Replayed(tuple(write(one.transcript) for one in played), ride)
+
+
+def _alone(path: Path) -> RecordedRide:
+    """A ride of which one decision is known, and what was planned from it again."""
+    trace = _trace(path)
+    ride = RecordedRide("", trace.seed, trace.sim_time, [trace])
+    start, _, end = BESIDE.partition("{}")
+    for beside in sorted(path.parent.glob(BESIDE.format("*"))):
+        ride.whatifs[beside.name.removeprefix(start).removesuffix(end)] = _trace(beside)
+    return ride
+
+
+def _trace(path: Path) -> PlanTrace:
+    try:
+        return decode(gzip.decompress(path.read_bytes()))
+    except (OSError, EOFError, zlib.error, TraceError) as error:
+        raise RideFileError(f"cannot read {path}: {error}") from error
+
+
+def _missing(need: NeedRollout) -> str:
+    """What to do where a recording does not hold a plan."""
+    return (
+        f"the recording holds no plan for {need}. "
+        "Where a scenario was driven, accept it anew. Where a file of decisions is asked about, "
+        f"there is no road to plan on: put the plan beside it as {BESIDE.format(key(need))}, "
+        "or write ! planner gone before the question"
+    )
+
+
 def _open(path: Path) -> Written:
     text = path.read_text(encoding="utf-8")
     try:
@@ -188,7 +240,7 @@ def _keeping(again: Replan, ride: RecordedRide) -> Replan:
     """Plan again, and keep in the ride what comes of it."""
 
     def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        name = ride_file.key(need)
+        name = key(need)
         if name not in ride.whatifs:
             try:
                 ride.whatifs[name] = again(trace, need)
@@ -200,8 +252,8 @@ def _keeping(again: Replan, ride: RecordedRide) -> Replan:
     return planned
 
 
-def _header(written: Written, key: str) -> str:
-    value = written.transcript.get(key)
+def _header(written: Written, name: str) -> str:
+    value = written.transcript.get(name)
     if value is None:
-        raise TranscriptError(f"{written.path}: the header lacks {key!r}")
+        raise TranscriptError(f"{written.path}: the header lacks {name!r}")
     return value
