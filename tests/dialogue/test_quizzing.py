@@ -119,6 +119,16 @@ def test_a_reply_that_makes_no_sense_leaves_the_question_open(reply: str) -> Non
     assert verdict.reply.explanation == plain.say(true_reply(quiz)).reply.explanation
 
 
+def test_a_question_that_was_left_open_is_still_about_the_moment_it_was_put_at() -> None:
+    at_once, later = Talk(at=2.0), Talk(at=2.0)
+    quiz = posed(at_once, "deed")
+    assert posed(later, "deed") == quiz
+    later.say("banana", at=12.0)
+    assert later.say(true_reply(quiz)).reply.explanation == (
+        at_once.say(true_reply(quiz)).reply.explanation
+    )
+
+
 def test_a_question_in_between_is_answered_and_ends_the_quiz() -> None:
     talk = Talk()
     quiz = posed(talk, "vehicle")
