@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.language.realise_cases import cause, effect, explanations
-from xavi_dialogue.dialogue.bearings import Vehicles
 from xavi_dialogue.dialogue.quiz import candidates, filled, judged
 from xavi_dialogue.dialogue.referents import vehicle_words
 from xavi_dialogue.dialogue.turn import Judgement, Quiz
+from xavi_dialogue.explain.bearings import Vehicles
 from xavi_dialogue.explain.engine import explain
 from xavi_dialogue.explain.explanation import (
     Evidence,

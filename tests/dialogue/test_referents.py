@@ -4,10 +4,10 @@ import pytest
 
 from planner.events import Event
 from sim.scene import VehicleState
-from xavi_dialogue.dialogue.bearings import bearing, place
 from xavi_dialogue.dialogue.choices import chosen
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.referents import Scope, candidates, described, vehicle_words
+from xavi_dialogue.explain.bearings import bearing, place
 
 
 def at(x: float, y: float, heading: float = 0.0, **more: object) -> VehicleState:

@@ -4,6 +4,8 @@ A row of whys goes one level down each time: from a decision to the prediction o
 behind it, from there to the evidence for the prediction, and there it ends.
 """
 
+from typing import Literal
+
 import msgspec
 
 from sim.scene import EGO
@@ -105,6 +107,31 @@ def evidence_for(last: Turn) -> Query | None:
         return None
     return Query(
         type="how",
+        actor=f"{PREFIX}{cause.vehicle}",
+        factual=_last_of(cause.actions),
+        tense=before.tense,
+        refers_to_previous=True,
+    )
+
+
+def doubted(last: Turn) -> Query | Literal["seen"] | None:
+    """What "are you sure?" doubts after an answer that says what held us up.
+
+    Returns:
+        How sure we are of what that vehicle was expected to do; "seen" where it was in our way
+        before our eyes; None where the answer compared what could be done.
+    """
+    before, found = last.query, last.reply.explanation
+    if before is None or found is None or before.type != "why" or found.counterfactual:
+        return None
+    cause = _first_cause(last)
+    if cause is None or before.actor != "ego":
+        return None
+    seen = cause.mechanism is not None and cause.mechanism.present
+    if seen or not cause.actions:
+        return "seen"
+    return Query(
+        type="confidence",
         actor=f"{PREFIX}{cause.vehicle}",
         factual=_last_of(cause.actions),
         tense=before.tense,

@@ -11,11 +11,11 @@ import msgspec
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
-from xavi_dialogue.dialogue.bearings import Vehicles
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.referents import PREFIX, Scope
 from xavi_dialogue.dialogue.referents import candidates as fitting
 from xavi_dialogue.dialogue.turn import Judgement, Quiz
+from xavi_dialogue.explain.bearings import Vehicles
 from xavi_dialogue.explain.explanation import Cause, Explanation
 from xavi_dialogue.explain.query import Query, QueryAction, Tense
 from xavi_dialogue.explain.record import Record

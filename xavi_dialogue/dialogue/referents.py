@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
-from xavi_dialogue.dialogue.bearings import (
+from xavi_dialogue.explain.bearings import (
     Place,
     Vehicles,
     nearest_at,
