@@ -1,4 +1,4 @@
-"""What a text means after an earlier one: whose deed it is about, which part of it is taken over."""
+"""What a text means after an earlier one: whose deed it is about, what of that is taken over."""
 
 import pytest
 
@@ -68,3 +68,121 @@ def test_a_time_of_the_ride_is_no_vehicle(
     assert (found.type, found.actor, found.factual) == (kind, actor, factual)
     assert found.tense == "past"
     assert found.time is not None
+
+
+TAKEN_BACK = [  # (text, actor, type, what was done or supposed)
+    ("Why did vehicle 1, sorry, vehicle 2 stop?", "vehicle:2", "why", ("stop",)),
+    ("Why did vehicle 1, no wait, vehicle 2 stop?", "vehicle:2", "why", ("stop",)),
+    ("Why did vehicle 1 stop? Sorry, vehicle 2 I mean", "vehicle:2", "why", ("stop",)),
+    ("Why did you stop? No, vehicle 2", "vehicle:2", "why", ("stop",)),
+    (
+        "What if the car in front, no, the car behind had stopped",
+        "vehicle:behind",
+        "what_if",
+        ("stop",),
+    ),
+    ("Why did you turn left, I mean, right?", "ego", "why", ("exit-right",)),
+    ("Why did you stop, no, slow down?", "ego", "why", ("slow-down",)),
+    ("Why did you, I mean, why did vehicle 1 stop?", "vehicle:1", "why", ("stop",)),
+    ("Sorry, why did you stop?", "ego", "why", ("stop",)),
+    ("Why did you stop, actually?", "ego", "why", ("stop",)),
+    ("You turned left, right?", "ego", "what", ("exit-left",)),
+]
+
+
+@pytest.mark.parametrize(("text", "actor", "kind", "done"), TAKEN_BACK)
+def test_what_is_taken_back_is_not_heard(
+    text: str, actor: str, kind: str, done: tuple[str, ...]
+) -> None:
+    found = query(text)
+    assert (found.actor, found.type) == (actor, kind)
+    assert (found.factual or found.counterfactual) == done
+
+
+def test_not_that_one_but_the_other() -> None:
+    found = query("No, not that one, the other one", "Why did vehicle 1 stop?")
+    assert (found.type, found.actor, found.factual) == ("why", "vehicle:other", ("stop",))
+
+
+LANES = "Why did you move to the left lane?"
+SUPPOSED = [  # (question before, text, counterfactual, negated, tense)
+    (LANES, "What if you had decided otherwise?", ("change-left",), True, "past"),
+    (LANES, "And if you had done something else?", ("change-left",), True, "past"),
+    (None, "What if you had decided otherwise?", None, False, "past"),
+    (LANES, "What if you had stopped?", ("stop",), False, "past"),
+    (LANES, "What if you stopped now?", ("stop",), False, "future"),
+    (LANES, "What about stopping?", ("stop",), False, "past"),
+    ("Where are we going?", "What about stopping?", ("stop",), False, "present"),
+    (None, "What about stopping?", ("stop",), False, "future"),
+    ("What if you had turned left?", "What about stopping?", ("stop",), False, "past"),
+]
+
+
+@pytest.mark.parametrize(("before", "text", "foil", "negated", "tense"), SUPPOSED)
+def test_what_is_supposed(
+    before: str | None, text: str, foil: tuple[str, ...] | None, negated: bool, tense: str
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor) == ("what_if", "ego")
+    assert (found.counterfactual, found.negated, found.tense) == (foil, negated, tense)
+
+
+@pytest.mark.parametrize("before", [None, "Why did you stop?", "Why did vehicle 1 stop?"])
+@pytest.mark.parametrize(
+    ("text", "kind", "tense"),
+    [
+        ("Did we crash?", "what", "past"),
+        ("Was it close?", "what", "past"),
+        ("Did we nearly hit something?", "what", "past"),
+        ("How likely is a collision?", "confidence", "present"),
+    ],
+)
+def test_a_collision_is_another_matter(
+    before: str | None, text: str, kind: str, tense: str
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.event, found.tense) == (kind, "crash", tense)
+    assert (found.actor, found.factual, found.counterfactual) == ("ego", None, None)
+
+
+@pytest.mark.parametrize(
+    ("before", "text", "kind", "factual", "tense"),
+    [
+        ("Why did you stop?", "How long did it take?", "when", ("stop",), "past"),
+        ("Why did you stop?", "How long will this take?", "when", None, "future"),
+        (None, "How long will it take?", "when", None, "future"),
+        ("What would have made you stop?", "What mattered most?", "sensitivity", None, "past"),
+        ("Why did you stop?", "What mattered most?", "sensitivity", ("stop",), "past"),
+        (None, "What changed your mind?", "sensitivity", None, "past"),
+        (None, "How are you deciding?", "how", None, "present"),
+        (None, "Do we have to turn right?", "what", ("exit-right",), "present"),
+        (None, "Where were we going at the start?", "where_goal", None, "past"),
+    ],
+)
+def test_what_is_asked_about_us(
+    before: str | None, text: str, kind: str, factual: tuple[str, ...] | None, tense: str
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor, found.factual) == (kind, "ego", factual)
+    assert (found.counterfactual, found.tense) == (None, tense)
+
+
+@pytest.mark.parametrize("before", [None, "Why did you change lanes?"])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Did vehicle 1 do anything wrong?", "blame"),
+        ("Did you make a mistake?", "blame"),
+        ("Who has right of way?", "legality"),
+        ("Who has priority here?", "legality"),
+    ],
+)
+def test_what_is_no_matter_of_ours_is_declined(before: str | None, text: str, reason: str) -> None:
+    assert after(before, text).reason == reason
+
+
+@pytest.mark.parametrize("before", [None, "Why did you stop?"])
+@pytest.mark.parametrize("text", ["No.", "nah", "dunno", "idk", "I don't know"])
+def test_no_and_not_knowing_are_talk(before: str | None, text: str) -> None:
+    found = after(before, text)
+    assert (found.type, found.event) == ("smalltalk", "dissent")

@@ -6,13 +6,14 @@ the earlier turn does not supply what is missing.
 
 import msgspec
 
-from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.explain.query import Query, QueryAction, Tense
 from xavi_dialogue.language.particulars import INFLUENCE
 from xavi_dialogue.language.readings import Reading
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 #: Types whose counterfactual is what they ask about.
 _ABOUT_FOIL = frozenset({"why_not", "what_if", "compare"})
+CRASH = "crash"
 AGAIN = "again"  # the event of a bare "why?", which asks for the reason behind the answer
 #: Rules that mean nothing without an earlier question.
 LEANING = frozenset({"more", "less", "again", "replace", "correction"})
@@ -43,7 +44,8 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
         query = _refer(query, actor=previous.actor if known else query.actor)
     if previous is not None:
         return _inherit(reading, query, previous)
-    if reading.rule == "when" and not reading.named_actor and _empty(query):
+    ahead = reading.tensed and query.tense == "future"  # "how long will this take?": to get there
+    if reading.rule == "when" and not (ahead or reading.named_actor) and _empty(query):
         return Query(type="ambiguous", tense=query.tense)
     return query
 
@@ -66,12 +68,16 @@ def _asked(query: Query) -> tuple[QueryAction, ...] | None:
 def _alone(reading: Reading) -> Query | None:
     """A leaning reading with no earlier turn: only the bare "why?" is a question to clarify."""
     tense = reading.query.tense
+    if reading.proposed and reading.query.factual:
+        return _proposed(reading, "future")
     return Query(type="ambiguous", tense=tense) if reading.rule != "correction" else None
 
 
 def _pointed_at(reading: Reading) -> Query | None:
     """The query of "why did you do that?" out of the blue: it speaks of what was just seen."""
     query = reading.query
+    if query.actor == "ego" and (reading.otherwise or (reading.elided and query.negated)):
+        return query
     if reading.anaphoric and query.type == "why" and query.hypothesised_cause is None:
         return query
     return None
@@ -102,6 +108,8 @@ def _supply_actions(reading: Reading, previous: Query) -> Query:
     actions = _asked(previous)
     slot = "factual" if query.type in ("why", "what", "how", "when") else "counterfactual"
     actor = query.actor
+    if reading.otherwise:  # than what was done; of a foil, than not to do it
+        return _refer(query, counterfactual=actions, negated=previous.type not in _ABOUT_FOIL)
     if reading.elided and previous.negated and not query.negated:
         return _refer(query, counterfactual=actions, negated=False)
     return _refer(query, actor=actor, **{slot: actions})
@@ -116,6 +124,8 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if reading.heading is not None:
         return _turned(reading.heading, previous)
     if query.factual:
+        if reading.proposed and not (reading.named_actor or _asks_of_deeds(previous)):
+            return _refer(_proposed(reading, previous.tense))
         asked = _with_actions(previous, query.factual)
         return _refer(asked, actor=query.actor) if reading.named_actor else asked
     if query.time and not reading.named_actor:
@@ -125,6 +135,23 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if previous.type == "sensitivity" and number.isdecimal():
         return _refer(previous, condition=f"without vehicle {number}")  # the decision is still ours
     return _refer(previous, actor=query.actor)
+
+
+def _asks_of_deeds(query: Query) -> bool:
+    """Whether the question can be asked of other deeds as well: "when will you stop?"."""
+    return query.type in _ABOUT_FOIL or (query.type != "why" and not _empty(query))
+
+
+def _proposed(reading: Reading, tense: Tense) -> Query:
+    """What "what about stopping?" asks, where nothing is known to have been done so."""
+    query = reading.query
+    return Query(
+        type="what_if",
+        actor=query.actor,
+        counterfactual=query.factual,
+        tense=tense,
+        underspecified=query.underspecified,
+    )
 
 
 def _again(reading: Reading, previous: Query) -> Query:
@@ -177,7 +204,7 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
             changes["factual"] = previous.factual
     arriving = query.type == "when" and reading.named_actor  # complete as it stands
     elliptic = query.type in ("confidence", "compare", "sensitivity", "when", "how")
-    if _empty(query) and elliptic and not arriving:
+    if _empty(query) and elliptic and not arriving and not _turns_away(reading, previous):
         if not reading.named_actor:
             changes["actor"] = previous.actor
         if query.type == "compare":
@@ -192,6 +219,20 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
     if not changes:
         return query
     return _refer(query, **changes)
+
+
+def _turns_away(reading: Reading, previous: Query) -> bool:
+    """Whether a short question asks nothing about what was spoken of, but about us at large.
+
+    "How long will this take?" after what is over; "what mattered most?" after a mere wish.
+    """
+    query = reading.query
+    if query.event == CRASH:
+        return True  # "how likely is a crash?"
+    if query.type == "when":
+        return reading.tensed and query.tense == "future" and previous.tense == "past"
+    wished = previous.type == query.type and previous.counterfactual is not None
+    return query.type == "sensitivity" and wished
 
 
 def _same_kind(

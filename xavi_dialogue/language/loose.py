@@ -50,6 +50,8 @@ def as_question(rule: str, parse: Parse | None, tokens: tuple[Token, ...]) -> Pa
     if _misleads(rule, _trees(parse.tree)):
         return None
     seen = frozenset(t.terminal for t in tokens)
+    if rule == "replace" and "CRASH" in seen:
+        return None  # that is another matter
     placed = _placed(rule, _trees(parse.tree), seen)
     shaped = [piece for part in placed for piece in _shape(rule, part, seen)]
     return Parse(rule, lark.Tree(rule, list(shaped)), parse.tokens, 0, parse.end, parse.cost)

@@ -7,6 +7,7 @@ the text is not understood; the parser rather asks than guesses. Pure and determ
 """
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 
 from xavi_dialogue.explain.query import Query
@@ -21,6 +22,7 @@ from xavi_dialogue.language.followup import answerable
 from xavi_dialogue.language.judge import Judge, judge
 from xavi_dialogue.language.lattice import build
 from xavi_dialogue.language.normalise import MAX_INPUT, normalise
+from xavi_dialogue.language.repairs import repaired
 from xavi_dialogue.language.report import Kind, NotUnderstood, ParseReport, as_query
 from xavi_dialogue.language.words import hear
 
@@ -97,6 +99,7 @@ def explained(
     if not normalised.words:
         return ParseReport((), (), False, (), NotUnderstood("empty"))
     heard = hear(normalised, vehicles)
+    heard = replace(heard, words=repaired(heard.words))
     lattice = build(heard.words)
     tokens = tuple(edge.token for _, edge in lattice.main())
     seen = features(lattice, heard, follows=previous is not None)

@@ -65,7 +65,7 @@ def _why(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 
 
 def _what_if(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
-    for rule in ("absent", "added", "elided", "elided_not"):
+    for rule in ("absent", "added", "elided", "elided_not", "otherwise"):
         if (part := first(tree, rule)) is None:
             continue
         fields = _actor_of(part) or {"actor": "vehicle:both"}  # "if there was nobody else"
@@ -123,6 +123,8 @@ def _named(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 
 def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     """Who arrives; "when was that?" names nobody."""
+    if terminals(tree) == ("ARRIVE",):
+        return {"actor": "ego"}  # "ETA?"
     named = first(tree, "said") is None and {"THAT", "IT"}.isdisjoint(terminals(tree))
     return _actor_of(tree) if named else {}
 
@@ -162,7 +164,7 @@ def _leaning(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 
 def _courtesy(whole: tuple[Token, ...]) -> str | None:
     """What kind of small talk it is: that which asks most for an answer."""
-    said = {t.value for t in whole if t.terminal == "SMALL"}
+    said = {value for t in whole for terminal, value in t.senses if terminal == "SMALL"}
     return next((kind for kind in COURTESIES if kind in said), None)
 
 

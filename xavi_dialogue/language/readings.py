@@ -60,6 +60,8 @@ _ROLES: dict[str, dict[str, str]] = {
 _ANY = {"said": "factual", "denied": "factual", "bare": "factual", "own": "factual"}
 #: Rules in which "not" turns what is asked about; in others it is a way to ask.
 _NEGATABLE = frozenset({"what_if", "confidence", "how", "when"})
+_OTHERWISE = "otherwise"
+_ELIDED = frozenset({"elided", "elided_not", _OTHERWISE})
 _CLAUSES = ("incident", "said", "denied", "bare", "undone", "wanted", "contrast", "first", "second")
 _DEFAULT_TENSE = {
     "what": "present",
@@ -86,6 +88,8 @@ class Reading:
     named_actor: bool = True  # the words name who acts
     heading: str | None = None  # "and left?": a direction alone
     laid: bool = False  # "because of": the words lay it to somebody
+    otherwise: bool = False  # "if you had decided otherwise": than was spoken of
+    proposed: bool = False  # "what about stopping?"
 
 
 def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Reading | None:
@@ -123,10 +127,12 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
         cost=parse.cost + sum(_subject_lost(c, whole) for c in clauses),
         tensed=tense is not None,
         anaphoric=any(ANAPHOR in c.actions for c in clauses),
-        elided=any(t.data in ("elided", "elided_not") for t in _subtrees(parse.tree)),
+        elided=any(t.data in _ELIDED for t in _subtrees(parse.tree)),
         named_actor=named,
+        otherwise=any(t.data == _OTHERWISE for t in _subtrees(parse.tree)),
         heading=_heading(parse.tree),
         laid=any(t.terminal in ("BECAUSE", "INVOLVED") for t in whole),
+        proposed=any(t.terminal == "ABOUT" for t in whole),
     )
 
 

@@ -92,7 +92,8 @@ def tense_for(rule: str, clause: tuple[Token, ...], whole: tuple[Token, ...]) ->
             return found or "past"
         return "past" if head_tense(whole) == "past" else "future"
     if rule == "when":
-        found = tense_of(clause)
+        ahead = any(t.terminal == "HOWLONG" and "will" in t.text.split() for t in whole)
+        found = tense_of(clause) or ("future" if ahead else None)
         return "future" if found == "present" or hypothetical(clause) else found
     if hypothetical(clause):
         return "future" if rule == "what" else "past"
@@ -110,12 +111,20 @@ def _of_what_if(whole: tuple[Token, ...]) -> Tense | None:
         return "past"
     if hypothetical(whole) or any(_supposes(token) for token in whole):
         return "future"
+    if _supposed_now(whole):
+        return "future"
     words = {word for token in whole for word in token.text.split()}
     if tense_of(whole) == "past" or words & {"have", "happened"}:
         return "past"
     if any(t.form in ("base", "third") or t.terminal in AUXILIARIES for t in whole):
         return "future"
     return None
+
+
+def _supposed_now(whole: tuple[Token, ...]) -> bool:
+    """Whether it is of now: "what if it stopped now?", in which the past is no past."""
+    since = next((i for i, t in enumerate(whole) if t.terminal == "IF"), len(whole))
+    return any(t.terminal == "TIME" and t.value == "present" for t in whole[since:])
 
 
 def _supposes(token: Token) -> bool:

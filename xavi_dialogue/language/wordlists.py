@@ -21,7 +21,9 @@ WORD_FILES = (
     "words_english.toml",
 )
 PLAIN_RANK = 9  # of words that are English and no more
-_TABLES = frozenset({"contractions", "numbers", "homophones", "irregular", "languages", "tags"})
+_TABLES = frozenset(
+    {"contractions", "numbers", "homophones", "irregular", "languages", "tags", "repairs"}
+)
 _VOWELS = frozenset("aeiou")
 
 

@@ -52,7 +52,7 @@ def _tag(words: list[str]) -> int:
     if words[-2:] in (["or", "what"], ["or", "not"]) and len(words) > _STATEMENT:
         return len(words) - 2
     marks = [index for index, word in enumerate(words) if word == BREAK]
-    if not marks or marks[-1] < _STATEMENT:
+    if not marks or marks[-1] < _STATEMENT or _takes_back(words[: marks[-1]]):
         return len(words)
     tags = {name: frozenset(said.split()) for name, said in english()["tags"].items()}
     match words[marks[-1] + 1 :]:
@@ -63,6 +63,12 @@ def _tag(words: list[str]) -> int:
         ):
             return marks[-1]
     return len(words)
+
+
+def _takes_back(words: list[str]) -> bool:
+    """Whether they end by taking something back: what stands behind "I mean, right" is no tag."""
+    markers = (marker.split() for marker in english()["repairs"]["markers"])
+    return any(words[-len(marker) :] == marker for marker in markers)
 
 
 _SUFFIXES = ("s", "es", "ed", "d", "ing", "ly", "er", "ers", "est", "ness", "ful", "ment")
