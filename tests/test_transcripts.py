@@ -1,5 +1,6 @@
 """The golden conversations: same bytes from the recordings, from SUMO, and on any hash seed."""
 
+import gzip
 import os
 import subprocess
 import sys
@@ -7,9 +8,14 @@ from pathlib import Path
 
 import pytest
 
+from planner.trace import decode, encode
+from tests import stories
+from xavi_dialogue.app.coverage import measure
 from xavi_dialogue.app.golden import (
+    BESIDE,
     ENDING,
     RIDES,
+    TRACES,
     Written,
     by_ride,
     recording,
@@ -18,11 +24,12 @@ from xavi_dialogue.app.golden import (
     transcripts_in,
 )
 from xavi_dialogue.app.local import make_mind
-from xavi_dialogue.transports.transcript import Exchange, write
+from xavi_dialogue.transports.transcript import Comment, Exchange, write
 
 FOLDER = Path(__file__).parents[1] / "transcripts"
 TRANSCRIPTS = transcripts_in(FOLDER)
 ABOUT = by_ride(TRANSCRIPTS)
+DRIVEN = [path for path, about in ABOUT.items() if about[0].driven]
 MAX_SIZE = 8 << 20  # [byte] of the whole folder
 
 each = pytest.mark.parametrize("one", TRANSCRIPTS, ids=lambda one: one.path.stem)
@@ -58,7 +65,7 @@ def test_conversations_do_not_depend_on_the_hash_seed(hash_seed: str, root: Path
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("ride", ABOUT, ids=lambda path: path.name.removesuffix(ENDING))
+@pytest.mark.parametrize("ride", DRIVEN, ids=lambda path: path.name.removesuffix(ENDING))
 def test_conversations_and_their_recording_come_out_of_sumo(ride: Path) -> None:
     now = replay_driven(ABOUT[ride])
     assert now.texts == tuple(one.text for one in ABOUT[ride])
@@ -66,7 +73,31 @@ def test_conversations_and_their_recording_come_out_of_sumo(ride: Path) -> None:
 
 
 def test_every_recording_is_talked_about() -> None:
-    assert sorted((FOLDER / RIDES).iterdir()) == sorted(ABOUT)
+    held = sorted([*(FOLDER / RIDES).iterdir(), *(FOLDER / TRACES).iterdir()])
+    assert [path for path in held if not path.name.startswith(BESIDE.partition("{}")[0])] == sorted(
+        ABOUT
+    )
+
+
+def test_what_is_made_up_is_as_it_was_made_and_said_to_be() -> None:
+    found = {path.name: path.read_bytes() for path in (FOLDER / TRACES).iterdir()}
+    assert {name: gzip.decompress(data) for name, data in found.items()} == {
+        name: gzip.decompress(data) for name, data in stories.files().items()
+    }
+    for one in TRANSCRIPTS:
+        said = any(isinstance(s, Comment) and " is made up" in s.text for s in one.transcript.steps)
+        assert said != one.driven
+
+
+@pytest.mark.parametrize("path", sorted((FOLDER / TRACES).iterdir()), ids=lambda path: path.name)
+def test_what_is_made_up_keeps_to_the_format_of_traces(path: Path) -> None:
+    ride = recording(path)
+    for trace in (*ride.traces, *ride.whatifs.values()):
+        assert decode(encode(trace)) == trace  # strictly by the type that the schema is made from
+
+
+def test_every_type_reason_and_rule_is_exercised() -> None:
+    assert measure(TRANSCRIPTS).missing == ()
 
 
 def test_the_folder_stays_small() -> None:
