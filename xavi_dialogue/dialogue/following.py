@@ -10,6 +10,7 @@ from xavi_dialogue.dialogue.referents import PREFIX
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.followup import AGAIN
+from xavi_dialogue.language.particulars import DECIDED
 from xavi_dialogue.language.refusals import realise_smalltalk
 
 
@@ -36,7 +37,8 @@ def in_conversation(now: Situation, query: Query) -> Query | Said:
         beyond = beside is not None and beside.type == "out_of_scope"
         found = deeper(now.memory, query) if again and not beyond else None
         return bottom(now, query) if found is None else found
-    if query.type == "how" and query.refers_to_previous and query.actor == "ego":
+    known = query.type == "how" and query.event != DECIDED
+    if known and query.refers_to_previous and query.actor == "ego":
         return evidence_for(last) or query
     if query.type == "when" and query.tense == "future" and not (query.factual or query.event):
         return msgspec.structs.replace(query, actor="ego")  # "how long will this take?"

@@ -10,7 +10,7 @@ from xavi_dialogue.explain.explanation import Explanation, NoExplanation, Reason
 from xavi_dialogue.explain.premise import about_foil, premise
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.ride import Ride, Unanswered
-from xavi_dialogue.explain.slowing import decision_of, explain_driving
+from xavi_dialogue.explain.slowing import driven, explain_driving
 
 
 def why(query: Query, ride: Ride) -> Explanation:
@@ -64,7 +64,8 @@ def what_if(query: Query, ride: Ride) -> Explanation:
     undone = query.counterfactual or query.factual
     if undone and all(happened(ride, action) is None for action in undone):
         if any(action in DRIVING for action in undone):
-            decision_of(ride, undone, query.tense)
+            if driven(ride, undone, query.tense) not in undone:  # who says brake may mean either
+                raise did_not_happen(ride, undone)
             raise no_choice(ride, undone)
         raise did_not_happen(ride, undone)
     found = premise(ride, _undoing(query))

@@ -12,6 +12,7 @@ from xavi_dialogue.explain import (
     avoidance,
     certainty,
     choices,
+    collision,
     ego,
     grounds,
     lanes,
@@ -143,6 +144,8 @@ def _explainer(query: Query) -> Explainer:
         raise decline("not-an-action")
     if query.type == "ambiguous":
         raise decline("ambiguous")
+    if collision.names_collision(query):
+        return collision.collision
     if (aspect := _aspect(query)) is not None:
         return aspect
     table = EGO if _ours(query) else OTHERS

@@ -40,6 +40,8 @@ def what(query: Query, ride: Ride) -> Explanation:
     driving = tuple(action for action in query.factual or () if action in DRIVING)
     if driving and not ("stop" in driving and happened(ride, "stop")):
         driven = explain_driving(ride, driving, query.tense)
+        if driven.done and query.tense == "past" and ride.past is None:
+            raise did_not_happen(ride, query.factual or ())
         return driven if ride.past is None else _as_seen(driven, driving)
     if query.factual:
         found = premise(ride, query)

@@ -59,6 +59,15 @@ def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> Pla
     return _decision(ride, *_find(ride, ride.motion(EGO), asked, tense))
 
 
+def driven(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> QueryAction:
+    """What the ego last did of what is described; for a stop, slowing down if it was no more.
+
+    Raises:
+        Unanswered: it did not.
+    """
+    return _find(ride, ride.motion(EGO), asked, tense)[0].action
+
+
 def began(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> float:
     """When [s] the ego last began to drive as described.
 

@@ -50,6 +50,8 @@ def _arrival(query: Query, ride: Ride) -> Explanation:
 
 def _known(query: Query, ride: Ride) -> Explanation:
     found = what(query, ride)
+    if found.done and query.tense == "past":
+        raise did_not_happen(ride, query.factual or ())
     if found.moment is None:
         raise decline("outside-record", vehicle=EGO)
     return found

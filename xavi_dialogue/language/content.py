@@ -169,6 +169,8 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         "where_goal": "WHERE",
         "confidence": "CONFIDENCE",
     }
+    if watched is None and found.outcome is not None and found.outcome.name == "collision":
+        rules["what"] = "CONFIDENCE"  # "will we crash?"
     return ActivityPoint(
         rule=rules.get(query.type, "WHAT"),
         mine=mine,

@@ -231,6 +231,8 @@ def _turns_away(reading: Reading, previous: Query) -> bool:
         return True  # "how likely is a crash?"
     if query.type == "when":
         return reading.tensed and query.tense == "future" and previous.tense == "past"
+    if query.type == "sensitivity" and reading.named_actor and query.actor != previous.actor:
+        return True
     wished = previous.type == query.type and previous.counterfactual is not None
     return query.type == "sensitivity" and wished
 

@@ -20,6 +20,8 @@ from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
 #: `Query.event` where it is asked what a vehicle had to do with it, rather than whether.
 INFLUENCE = "influence"
+#: `Query.event` where it is asked how we decide.
+DECIDED = "decided"
 #: `Query.event` of comparisons that name a measure, by the words for it.
 MEASURES: dict[str, frozenset[str]] = {
     "safer": frozenset({"safer", "safest", "safe", "riskier", "risky", "dangerous"}),
@@ -121,6 +123,11 @@ def _named(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return _actor_of(tree)
 
 
+def _method(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    """That it is asked how we decide, and not how we knew."""
+    return {"event": DECIDED} if "DECIDE" in terminals(tree) else {}
+
+
 def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     """Who arrives; "when was that?" names nobody."""
     if terminals(tree) == ("ARRIVE",):
@@ -139,7 +146,8 @@ def _avoidance(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 def _sensitivity(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     condition = first(tree, "cond")
     if condition is None:
-        return {}
+        ours = any(t.terminal == "FACTOR" and "your" in t.text.split() for t in whole)
+        return {"actor": "ego"} if ours else {}
     inside = [t.start_pos for t in tokens_in(condition) if t.start_pos is not None]
     if not inside:
         return {"condition": None}
@@ -175,6 +183,7 @@ PARTICULARS: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "how_avoid": _avoidance,
     "where_goal": _named,
     "confidence": _named,
+    "how": _method,
     "when": _when,
     "compare": _comparison,
     "sensitivity": _sensitivity,
