@@ -8,6 +8,7 @@ from pathlib import Path
 
 from planner.events import Event
 from planner.trace import HeldUp, NotApplicable, PlanTrace, encode
+from tests import oddities
 from tests.planted import Actions, Moment, Seen, decision, ride_of, without
 from tests.traces import Aim, Chosen, End, Way, World
 from xavi_dialogue.app.golden import BESIDE, ENDING, TRACES
@@ -164,7 +165,7 @@ def decisions() -> dict[str, tuple[Moment, tuple[int, ...]]]:
     """The decisions by name, with the vehicles without which they are planned again."""
     return {
         "squeezed": (squeezed(10.0), (1, 2)),
-        "even": (even(10.0), ()),
+        "even": (even(10.0), (1,)),
         "alone": (alone(10.0), ()),
     }
 
@@ -192,7 +193,8 @@ def files() -> dict[str, bytes]:
         found[f"{name}.json.gz"] = _packed(decision(at))
         for need, plan in (without(at, vehicle) for vehicle in removed):
             found[BESIDE.format(ride_file.key(need))] = _packed(plan)
-    rode = {f"{name}{ENDING}": ride_file.dump(ride) for name, ride in rides().items()}
+    every = rides() | oddities.rides()
+    rode = {f"{name}{ENDING}": ride_file.dump(ride) for name, ride in every.items()}
     return found | rode
 
 
