@@ -18,8 +18,8 @@ What befalls the car stands in lines of its own, and holds until a line says oth
 
     ! planner answers
 
-See `Befallen` for what there is. Instead of scenario and seed, `trace: FILE` names one decision, or a
-recorded ride, from the folder of the transcript.
+See `Befallen` for what there is. Instead of scenario and seed, `trace: FILE` names one decision, or
+a recorded ride, from the folder of the transcript.
 """
 
 import re
