@@ -182,6 +182,25 @@ def test_what_is_no_matter_of_ours_is_declined(before: str | None, text: str, re
 
 
 @pytest.mark.parametrize("before", [None, "Why did you stop?"])
+@pytest.mark.parametrize(
+    ("text", "event"),
+    [
+        ("Which lane are we in?", "lane"),
+        ("What else can you do now?", "options"),
+        ("What else might you do instead?", "options"),
+    ],
+)
+def test_what_is_seen_and_could_be_done_now(before: str | None, text: str, event: str) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor, found.event) == ("what", "ego", event)
+    assert found.tense == "present"
+
+
+def test_what_can_be_asked_is_help() -> None:
+    assert query("What can you do?").type == "help"
+
+
+@pytest.mark.parametrize("before", [None, "Why did you stop?"])
 @pytest.mark.parametrize("text", ["No.", "nah", "dunno", "idk", "I don't know"])
 def test_no_and_not_knowing_are_talk(before: str | None, text: str) -> None:
     found = after(before, text)
