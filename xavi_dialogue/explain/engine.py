@@ -148,6 +148,8 @@ def _explainer(query: Query) -> Explainer:
         return collision.collision
     if (aspect := _aspect(query)) is not None:
         return aspect
+    if _ours(query) and query.event == timing.ARRIVAL:
+        return timing.when
     table = EGO if _ours(query) else OTHERS
     found = table.get(query.type)
     if found is None:

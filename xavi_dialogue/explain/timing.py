@@ -15,6 +15,7 @@ from xavi_dialogue.explain.present import of_plan, what, where
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, decline
 
+ARRIVAL = "arrival"  # the event of "have we arrived?"
 LIKELY = 0.5  # share of the rollouts from which something is expected
 HALTED: tuple[QueryAction, ...] = ("stop", "give-way")
 
@@ -41,11 +42,25 @@ def when(query: Query, ride: Ride) -> Explanation:
 
 
 def _arrival(query: Query, ride: Ride) -> Explanation:
+    if query.event == ARRIVAL:
+        return _arrived(ride)
     if ride.arrived and query.tense != "past":
         return where(query, ride)
     if query.tense == "past" or ride.ended:
         return what(query, ride)
     return of_plan(ride)
+
+
+def _arrived(ride: Ride) -> Explanation:
+    """When the ego arrived; how long that still takes, where it has not.
+
+    Raises:
+        Unanswered: the ride ended elsewhere.
+    """
+    if ride.ended and not ride.arrived:
+        raise did_not_happen(ride, ())
+    times = [event.sim_time for event in ride.events if event.kind == "arrived"]
+    return replace(of_plan(ride), arrival=0.0, moment=times[0]) if times else of_plan(ride)
 
 
 def _known(query: Query, ride: Ride) -> Explanation:

@@ -15,6 +15,7 @@ from xavi_dialogue.language.hindrance import in_the_way
 from xavi_dialogue.language.insight import insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.options import Aspect, aspect
+from xavi_dialogue.language.particulars import ARRIVAL
 from xavi_dialogue.language.points import ActivityPoint, Budget, Content, Motive, Supposition, Time
 from xavi_dialogue.language.quantities import Quantity, Span
 from xavi_dialogue.language.ranking import Comparison, comparison
@@ -32,12 +33,13 @@ def select(query: Query, found: Explanation, budget: Budget, now: float) -> AnyC
     aside = aspect(query, found, budget, now)
     if aside is not None:
         return aside
-    if query.type == "when":
+    if query.type == "when" or query.event == ARRIVAL:
         return _time(query, found, actor, now)
     deeper = insight(query, found, budget, now)
     if deeper is not None:
         return deeper
-    if actor is None and query.type == "how" and query.factual and not found.counterfactual:
+    held_up = query.type == "how" or (query.type == "what" and found.causes)
+    if actor is None and held_up and query.factual and not found.counterfactual:
         return constraint(query, query.factual, found, budget)
     if query.type in ("what", "where_goal", "confidence", "how"):
         return _activity(query, found)
@@ -194,4 +196,7 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         held=None if mine or tense != "present" else in_the_way(query.tense, found, actor, ()),
         instant=found.instant,
         planned=found.then is not None and query.tense == "future",
+        done_at=None
+        if found.moment is None or found.then is not None or not mine
+        else Quantity(found.moment, "clock"),
     )

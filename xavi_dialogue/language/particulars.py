@@ -20,6 +20,8 @@ from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
 #: `Query.event` where it is asked what a vehicle had to do with it, rather than whether.
 INFLUENCE = "influence"
+#: `Query.event` where it is asked whether or when somebody gets to his destination.
+ARRIVAL = "arrival"
 #: `Query.event` where it is asked how we decide.
 DECIDED = "decided"
 #: `Query.event` of comparisons that name a measure, by the words for it.
@@ -94,6 +96,8 @@ def _what(tree: Tree, whole: tuple[Token, ...]) -> dict[str, Any]:
     if "WHICHCAR" in terminals(tree):
         return {"actor": "vehicle:unknown"}
     known = first(tree, "said") is not None or "PASSIVE" in terminals(tree)
+    if not known and any(t.terminal == "ARRIVE" for t in whole):
+        return _actor_of(tree) | {"event": ARRIVAL}
     return {} if known else _actor_of(tree)
 
 
@@ -131,7 +135,9 @@ def _method(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
 def _when(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     """Who arrives; "when was that?" names nobody."""
     if terminals(tree) == ("ARRIVE",):
-        return {"actor": "ego"}  # "ETA?"
+        return {"actor": "ego", "event": ARRIVAL}  # "ETA?"
+    if "ARRIVE" in terminals(tree):
+        return _actor_of(tree) | {"event": ARRIVAL}
     named = first(tree, "said") is None and {"THAT", "IT"}.isdisjoint(terminals(tree))
     return _actor_of(tree) if named else {}
 

@@ -208,6 +208,7 @@ class ActivityPoint:
     held: InTheWay | None = None
     instant: bool = False  # what goes on at a time that the question speaks of
     planned: bool = False  # that time is yet to come
+    done_at: Quantity | None = None  # when we did what is told
     way: int = 0
 
 
