@@ -187,7 +187,7 @@ def test_what_is_no_matter_of_ours_is_declined(before: str | None, text: str, re
     [
         ("Which lane are we in?", "lane"),
         ("What else can you do now?", "options"),
-        ("What else might you do instead?", "options"),
+        ("What else can you do here?", "options"),
     ],
 )
 def test_what_is_seen_and_could_be_done_now(before: str | None, text: str, event: str) -> None:
