@@ -54,7 +54,8 @@ def judged(vehicle: int, right: bool | None) -> Turn:
 
 def test_at_first_there_is_nothing() -> None:
     nothing = remember((), HERE)
-    assert nothing == Memory((), 0, frozenset(), None, None, None, frozenset(), ())
+    empty = frozenset[int]()
+    assert nothing == Memory((), 0, empty, None, None, None, empty, (), frozenset())
     assert nothing.previous is None
     assert not nothing.is_quizzing
 

@@ -293,3 +293,30 @@ def test_a_follow_up_on_what_was_answered_without_its_name_means_that_deed(
     turn = talk.say("What if you hadn't done that?")
     assert turn.query is not None
     assert turn.query.counterfactual == ("change-left",)
+
+
+def test_before_that_is_before_what_was_told() -> None:
+    talk = Talk(at=15.0)
+    talk.say("What were you doing at 0:10?")
+    first = talk.say("And before that?").reply.explanation
+    second = talk.say("And before that?").reply.explanation
+    assert first is not None
+    assert second is not None
+    assert first.then is not None
+    assert second.then is not None
+    assert 10.0 > first.then > second.then
+
+
+@pytest.mark.parametrize("text", ["Why?", "Are you sure?"])
+def test_what_asks_nothing_new_has_the_choices_offered_again(text: str) -> None:
+    talk = Talk("motorway-0", at=20.0)
+    offered = talk.say(TRUCK)
+    assert talk.say(text).choices == offered.choices
+
+
+def test_no_suggestion_is_made_twice_in_a_row() -> None:
+    talk = Talk(at=15.0)
+    said = [talk.say("Why did you stop?").reply for _ in range(3)]
+    made = [tuple(s for s in one.suggestions if s in one.text) for one in said]
+    assert made[0]
+    assert len({*made}) == len(made)

@@ -15,6 +15,7 @@ from xavi_dialogue.explain.query import Detail, Query
 from xavi_dialogue.language.context import Told, told
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
+_FRESH = 3  # replies after which the same may be suggested again
 _STANDING = 2  # requests in a row for more, or less, that make it the rule
 
 
@@ -30,6 +31,7 @@ class Memory:
     detail: Detail | None  # how much the passenger wants to hear
     missed: frozenset[int]  # vehicles whose part in things the passenger got wrong
     quizzed: tuple[Quiz, ...]  # questions put to the passenger so far
+    suggested: frozenset[str]  # what the last replies said could be asked
 
     @property
     def is_quizzing(self) -> bool:
@@ -88,6 +90,12 @@ def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
         detail=_detail(turns),
         missed=_missed(here),
         quizzed=tuple(turn.quiz for turn in here if turn.quiz is not None),
+        suggested=frozenset(
+            offer
+            for turn in here[-_FRESH:]
+            for offer in turn.reply.suggestions
+            if offer in turn.reply.text
+        ),
     )
 
 

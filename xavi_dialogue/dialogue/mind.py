@@ -104,6 +104,7 @@ def speech(now: Situation, trace: PlanTrace | None = None) -> SpeechContext:
         asked=memory.asked,
         turn=len(memory.turns),
         told=memory.told,
+        suggested=memory.suggested,
     )
 
 

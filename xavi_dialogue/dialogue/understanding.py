@@ -15,7 +15,7 @@ from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import NoExplanation
 from xavi_dialogue.explain.focus import resolve, tensed
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.explain.when import Focus
+from xavi_dialogue.explain.when import Focus, When
 from xavi_dialogue.language.followup import AGAIN
 from xavi_dialogue.language.times import when_said
 
@@ -51,6 +51,8 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
         return replace(ask_back(now, "ambiguous", ()), quiz=quiz)
     if parsed.type == "smalltalk" and parsed.event == QUIZ:
         return Understood(text, parsed, aim="quiz")
+    if before is not None and offered and _asks_nothing_new(parsed):
+        return ask_back(now, "no-question", offered)
     asked = in_conversation(now, parsed)
     if isinstance(asked, Said):
         return asked
@@ -62,6 +64,12 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
         meant = replace(meant, query=query, again=True, detail=meant.query.detail)
     behind = asked.actor not in (parsed.actor, "ego") and asked.type in ("why", "how")
     return _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
+
+
+def _asks_nothing_new(query: Query) -> bool:
+    """Whether it is "why?" or "are you sure?", which after a question of ours says nothing."""
+    bare = query.event == AGAIN or query.type == "confidence"
+    return bare and query.refers_to_previous
 
 
 def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:
@@ -85,7 +93,7 @@ def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:
 def _timed(now: Situation, meant: Understood) -> Understood | Said:
     """The question with the part of the ride that it is about: what it says, or that before it."""
     query, last = meant.query, now.memory.last
-    when = when_said(now.asked.text)
+    when = _when(now)
     if when is None:
         onward = goes_on(now.asked.text) and not query.factual
         leans = query.refers_to_previous or onward
@@ -98,6 +106,21 @@ def _timed(now: Situation, meant: Understood) -> Understood | Said:
     if found is None:
         return meant
     return replace(meant, query=tensed(query, found), focus=found)
+
+
+def _when(now: Situation) -> When | None:
+    """What the text says about when; "that" is the time that was spoken of last."""
+    when, last = when_said(now.asked.text), now.memory.last
+    if when is None or when.landmark != "that":
+        return when
+    found = None if last is None else last.reply.explanation
+    focus = None if last is None else last.focus
+    told = () if found is None else (found.then, found.moment)
+    meant = (*told, focus and focus.moment, found and found.sim_time)
+    spoken_of = next((time for time in meant if time is not None), None)
+    if spoken_of is None:
+        return None
+    return msgspec.structs.replace(when, landmark="clock", clock=spoken_of)
 
 
 def _decision(last: Turn | None) -> Focus | None:

@@ -8,7 +8,7 @@ import msgspec
 from xavi_dialogue.explain.query import QueryAction
 
 Relation = Literal["at", "before", "after", "within"]
-Landmark = Literal["now", "clock", "start", "end", "junction", "roundabout", "deed"]
+Landmark = Literal["now", "clock", "start", "end", "junction", "roundabout", "deed", "that"]
 
 ROUNDING = 1e-6  # [s]
 Item = TypeVar("Item")
@@ -18,7 +18,8 @@ class When(msgspec.Struct, frozen=True, kw_only=True):
     """What the words say, as yet unresolved.
 
     "Twenty seconds ago" is 20 s before now; "five seconds after you changed lanes" 5 s after a
-    deed; "in the last minute" within 60 s before now, "in the next" within 60 s after it.
+    deed; "in the last minute" within 60 s before now, "in the next" within 60 s after it. The
+    landmark "that" is the time that was spoken of before.
     """
 
     relation: Relation = "at"

@@ -37,6 +37,7 @@ class SpeechContext:
     closed: tuple[Query, ...] = ()  # that might be suggested, but would be declined now
     turn: int = 0  # earlier turns of the conversation: wording varies with it
     told: Told = frozenset()  # causes that this conversation has been told of; see `told`
+    suggested: frozenset[str] = frozenset()  # what was said lately that could be asked
     repeated: bool = False  # the very same was answered to the very same question before
 
 

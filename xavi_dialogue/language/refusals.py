@@ -82,7 +82,7 @@ def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utte
     about = (*refusal.suggestions, *about_vehicle(query, context))
     invited = (*answerable(about, context), *from_situation(context))
     offered = questions(fresh(invited, (query,)))
-    content = _content(query, refusal, offered[:1])
+    content = _content(query, refusal, _unsaid(offered, context))
     return _speak(_shortened(content, context), context, offered)
 
 
@@ -116,7 +116,7 @@ def realise_smalltalk(topic: str | None, context: SpeechContext) -> Utterance:
     """
     offered = questions(from_situation(context))
     last = next((question(query) for query in reversed(context.asked) if _telling(query)), None)
-    content = Refusal("smalltalk", topic, suggestion=next(iter(offered), None), last=last)
+    content = Refusal("smalltalk", topic, suggestion=_unsaid(offered, context), last=last)
     return _speak(content, context, offered)
 
 
@@ -132,7 +132,8 @@ def _telling(query: Query) -> bool:
 def _chat(
     reason: str, topic: str | None, context: SpeechContext, offered: tuple[str, ...]
 ) -> Utterance:
-    return _speak(Refusal(reason, topic, suggestion=next(iter(offered), None)), context, offered)
+    content = Refusal(reason, topic, suggestion=_unsaid(offered, context))
+    return _speak(content, context, offered)
 
 
 def _speak(content: Refusal, context: SpeechContext, suggestions: tuple[str, ...]) -> Utterance:
@@ -151,7 +152,12 @@ def _shortened(content: Refusal, context: SpeechContext) -> Refusal:
     return replace(content, known=known, many=Quantity(len(content.known), "count"))
 
 
-def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> Refusal:
+def _unsaid(offered: tuple[str, ...], context: SpeechContext) -> str | None:
+    """The first of what can be asked that has not been said lately."""
+    return next((one for one in offered if one not in context.suggested), None)
+
+
+def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Refusal:
     """The facts of a refusal as values that can be put into words; unfit ones are left out."""
     facts = refusal.facts
     named = _name(facts, "vehicle")
@@ -196,7 +202,7 @@ def _content(query: Query, refusal: NoExplanation, offered: tuple[str, ...]) -> 
         found=_quantity(facts, "distinct", "count"),
         needed=_quantity(facts, "needed", "count"),
         share=_quantity(facts, "coverage", "probability"),
-        suggestion=next(iter(offered), None),
+        suggestion=suggestion,
     )
 
 

@@ -158,7 +158,7 @@ def _landmarks(pieces: Sequence[Piece], marks: Marks, start: int) -> Found | Non
     found, begin = row
     kind, said = found[-1]
     bare = pieces[begin - 1].word != "as" or kind == "AFTER"
-    clause = _clause(pieces, marks, begin, bare=bare)
+    clause = _clause(pieces, marks, begin, bare=bare) or _that(kind, pieces, marks, begin)
     if clause is None or (kind == "BY" and clause[0].landmark == "deed"):
         return None
     when, end = replace(clause[0], relation=_relation(said)), clause[1]
@@ -169,12 +169,26 @@ def _landmarks(pieces: Sequence[Piece], marks: Marks, start: int) -> Found | Non
     return when, end
 
 
+def _that(kind: str, pieces: Sequence[Piece], marks: Marks, start: int) -> Found | None:
+    """As in "before that", where no more is said of it."""
+    mark = marks[start].get("THAT") if start < len(marks) else None
+    if mark is None or kind not in ("BEFORE", "AFTER") or not stands_alone(pieces, mark.end):
+        return None
+    return When(landmark="that"), mark.end
+
+
+def _then(_: Sequence[Piece], marks: Marks, start: int) -> Found | None:
+    """As in "at that time"."""
+    mark = marks[start].get("THEN")
+    return None if mark is None else (When(landmark="that"), mark.end)
+
+
 def _length_of(found: tuple[str, Mark]) -> tuple[float | None, bool]:
     return (None, False) if found[0] == "ABOUT" else _length(*found)
 
 
 _READERS: tuple[Callable[[Sequence[Piece], Marks, int], Found | None], ...] = (
-    *(_clocks, _lengths, _counts, _landmarks, _bare),
+    *(_clocks, _lengths, _counts, _then, _landmarks, _bare),
 )
 
 
