@@ -6,7 +6,7 @@ import msgspec
 
 from xavi_dialogue.dialogue.choices import chosen, goes_on, is_number, wants_another
 from xavi_dialogue.dialogue.following import in_conversation
-from xavi_dialogue.dialogue.mind import Said, Situation, refuse
+from xavi_dialogue.dialogue.mind import Said, Situation, refuse, reply_of, speech
 from xavi_dialogue.dialogue.pointing import ask_back, refer, scenes_for
 from xavi_dialogue.dialogue.quiz import judged
 from xavi_dialogue.dialogue.referents import scenes_of
@@ -17,8 +17,10 @@ from xavi_dialogue.explain.focus import resolve, tensed
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.when import Focus, When
 from xavi_dialogue.language.followup import AGAIN
+from xavi_dialogue.language.quizzing import realise_quiz
 from xavi_dialogue.language.times import when_said
 
+_FRAGMENT = 2  # words
 QUIZ = "quiz"  # the event of a request to be quizzed
 
 
@@ -42,13 +44,13 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     if memory.is_quizzing and wants_another(text):
         return Understood(text, Query(type="smalltalk", tense="present", event=QUIZ), aim="quiz")
     if is_number(text):  # of none of the choices, if there are any
-        return replace(ask_back(now, "no-question", offered), quiz=quiz)
+        return _put_again(now, quiz) if quiz else ask_back(now, "no-question", offered)
     vehicles = frozenset(vehicle for trace in now.record.traces for vehicle in trace.scene) | {0}
     parsed = now.mind.parse(text, vehicles, memory.previous)
     if not isinstance(parsed, Query):
-        return replace(ask_back(now, parsed.cause, parsed.readings), quiz=quiz)
-    if parsed.type == "ambiguous" and quiz is not None:
-        return replace(ask_back(now, "ambiguous", ()), quiz=quiz)
+        return _put_again(now, quiz) if quiz else ask_back(now, parsed.cause, parsed.readings)
+    if quiz is not None and (parsed.type == "ambiguous" or _is_fragment(text, parsed)):
+        return _put_again(now, quiz)
     if parsed.type == "smalltalk" and parsed.event == QUIZ:
         return Understood(text, parsed, aim="quiz")
     if before is not None and offered and _asks_nothing_new(parsed):
@@ -66,10 +68,21 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     return _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
 
 
+def _is_fragment(text: str, query: Query) -> bool:
+    """Whether it is a question only with the help of the one before it: "vehicle 1"."""
+    return query.refers_to_previous and query.event != AGAIN and len(text.split()) <= _FRAGMENT
+
+
 def _asks_nothing_new(query: Query) -> bool:
     """Whether it is "why?" or "are you sure?", which after a question of ours says nothing."""
     bare = query.event == AGAIN or query.type == "confidence"
     return bare and query.refers_to_previous
+
+
+def _put_again(now: Situation, quiz: Quiz) -> Said:
+    """Put a question of ours once more, to which there came no answer."""
+    utterance = realise_quiz(quiz, speech(now), again=True)
+    return Said(None, reply_of(now.record, utterance, "not-understood"), quiz=quiz)
 
 
 def _verdict(now: Situation, before: Turn, quiz: Quiz) -> Understood | None:

@@ -57,8 +57,14 @@ class Nothing:
     asked: bool  # the passenger has been asked before
 
 
-def realise_quiz(quiz: Asking, context: SpeechContext) -> Utterance:
-    """The question as the car puts it: "What would I have done if ...?"."""
+def realise_quiz(quiz: Asking, context: SpeechContext, *, again: bool = False) -> Utterance:
+    """The question as the car puts it: "What would I have done if ...?".
+
+    Args:
+        quiz: the question.
+        context: the situation.
+        again: it was put before, and the reply was no answer.
+    """
     about = quiz.about
     actor = vehicle_of(about.actor)
     in_lane = any(action in LANE_CHANGES for action in about.factual or ())
@@ -72,7 +78,9 @@ def realise_quiz(quiz: Asking, context: SpeechContext) -> Utterance:
         foil=doing(actor or EGO, foil, about.tense, in_lane=in_lane and actor is None),
         negated=about.negated,
     )
-    return _speak(expand(load_grammar("answer_quiz"), "QUIZ", content), context)
+    return _speak(
+        expand(load_grammar("answer_quiz"), "AGAIN" if again else "QUIZ", content), context
+    )
 
 
 def realise_verdict(
