@@ -166,8 +166,8 @@ def rides() -> dict[str, RecordedRide]:
     return {
         "hindered": ride_of(map(hindered, times), (BEGUN,), 67.0, plan),
         "obstructed": ride_of(map(obstructed, times), (BEGUN,), 67.0, plan),
-        "plenty": ride_of(map(plenty, (6.0, 10.0)), (BEGUN,), 10.0, {6.0: (1, 2), 10.0: (1, 2)}),
-        "risky": ride_of(map(risky, (6.0, 7.0, 8.0, 10.0)), (BEGUN,), 10.0, {8.0: (1,)}),
+        "plenty": ride_of(map(plenty, (6.0, 10.0)), (BEGUN,), 10.0),
+        "risky": ride_of(map(risky, (6.0, 7.0, 8.0, 10.0)), (BEGUN,), 10.0),
         "hopeless": ride_of(map(hopeless, (6.0, 10.0)), (BEGUN,), 10.0),
         "over": ride_of(map(over, (4.0, 6.0, 8.0)), (BEGUN, *moved, *done), 8.0),
     }
