@@ -32,7 +32,8 @@ def assert_is_evidence(turn: Turn, vehicle: int) -> None:
 
 def assert_is_end(turn: Turn) -> None:
     assert (turn.reply.kind, turn.reply.reason) == ("refusal", "out-of-scope")
-    assert "as far down" in turn.reply.text
+    wordings = ("as far down", "Beneath that", "nothing beneath")
+    assert any(words in turn.reply.text for words in wordings)
 
 
 @pytest.mark.parametrize(
