@@ -52,6 +52,14 @@ SAID = [
         "between 0:10 and 0:05 what happened",
         When(relation="within", landmark="clock", clock=5.0, until=10.0),
     ),
+    (
+        "what did you do between second 5 and second 12",
+        When(relation="within", landmark="clock", clock=5.0, until=12.0),
+    ),
+    (
+        "what happened between 5 and 12 seconds",
+        When(relation="within", landmark="clock", clock=5.0, until=12.0),
+    ),
     ("why did you slow down the first time", When(nth=1)),
     ("why did you slow down the 2nd time", When(nth=2)),
     ("why did you slow down the last time", When(nth=-1)),

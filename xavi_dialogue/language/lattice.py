@@ -12,6 +12,7 @@ from xavi_dialogue.language.wordlists import vocabulary
 from xavi_dialogue.language.words import is_number, vehicle_nouns
 
 CLOCK = "#:"  # how the word lists write any time of the ride
+COUNT = "#"  # and any number
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,7 @@ class Edge:
 
 
 Cuts = tuple[tuple[int, Edge], ...]  # edges in a row, each with its position
+Ways = tuple[tuple[str, ...], ...]  # the words of a text, as the lists may have them
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,15 +57,21 @@ class Lattice:
 def build(words: tuple[str, ...]) -> Lattice:
     """The lattice of a text whose spelling is corrected."""
     listed = tuple(CLOCK if is_clock(word) else word for word in words)
-    return Lattice(tuple(_edges(words, listed, start) for start in range(len(words))))
+    counted = tuple(COUNT if is_number(word) else word for word in listed)
+    ways = (listed,) if listed == counted else (listed, counted)
+    return Lattice(tuple(_edges(words, ways, start) for start in range(len(words))))
 
 
-def _edges(words: tuple[str, ...], listed: tuple[str, ...], start: int) -> tuple[Edge, ...]:
-    """What begins at a word; `listed` are the words as the lists have them."""
+def _edges(words: tuple[str, ...], ways: Ways, start: int) -> tuple[Edge, ...]:
+    """What begins at a word; `ways` are the words as the lists may have them."""
     word = words[start]
     if word == BREAK:
         return (Edge(start + 1, Token("BREAK", word, word), True),)
-    found = vocabulary().phrases.all_from(listed, start)
+    phrases = vocabulary().phrases
+    if is_number(word) and start and words[start - 1] in vehicle_nouns():
+        ways = ways[:1]  # "vehicle 2 seconds after that": a name
+    found = [match for listed in ways for match in phrases.all_from(listed, start)]
+    found = [match for k, match in enumerate(found) if match not in found[:k]]
     found.sort(key=lambda match: (_splits_a_name(words, start, match[0]), -match[0]))
     if not found:
         kind = "NUMBER" if is_number(word) else "UNKNOWN"

@@ -119,9 +119,11 @@ def _bare(pieces: Sequence[Piece], marks: Marks, start: int) -> Found | None:
 
 def _clocks(pieces: Sequence[Piece], marks: Marks, start: int) -> Found | None:
     """As in "at 0:12", "before 0:12", "between 0:05 and 0:10", "12 seconds in"."""
-    if row := in_a_row(marks, start, "BETWEEN", "EXACT", "AND", "EXACT"):
-        (_, (_, low), _, (_, high)), end = row
-        first, last = sorted((low.value, high.value))
+    row = in_a_row(marks, start, "BETWEEN", "EXACT|NUMERAL", "AND", "EXACT|AMOUNT|NUMERAL")
+    if row and any(kind in ("EXACT", "AMOUNT") for kind, _ in row[0]):
+        (_, (_, low), _, (kind, high)), end = row
+        until = _length(kind, high)[0] if kind == "AMOUNT" else high.value
+        first, last = sorted((low.value, until))
         return When(relation="within", landmark="clock", clock=first, until=last), end
     if row := in_a_row(marks, start, "ABOUT?", "BEFORE|AFTER|AT|BY?", "ABOUT?", "EXACT"):
         found, end = row
