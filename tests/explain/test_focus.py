@@ -244,7 +244,7 @@ def test_what_was_under_way_is_told_with_the_speed_then() -> None:
         (
             Query(type="what"),
             {"relation": "before", "landmark": "junction"},
-            "At 0:09, I moved to the left lane at 36 km/h, speeding up.",
+            "At 0:08, I moved to the left lane at 36 km/h, speeding up.",
         ),
         (
             Query(type="what"),
@@ -376,7 +376,7 @@ def test_braking_that_was_no_stop_is_called_what_it_was() -> None:
 
 
 def test_a_time_that_is_a_decision_s_is_called_so() -> None:
-    query = Query(type="why_not", counterfactual=("continue",))
+    query = Query(type="why", counterfactual=("continue",))
     said = say(query, relation="before", landmark="now", seconds=16.0)
     assert said.startswith("By my decision of 0:")
 

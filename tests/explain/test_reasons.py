@@ -11,7 +11,7 @@ import pytest
 from planner.events import Event
 from planner.trace import NotApplicable, PlanTrace, WhatIf
 from tests.conftest import ROOT
-from tests.fakes import inputs_of
+from tests.fakes import again, inputs_of
 from tests.traces import Aim, Ride, World, s1_ride, s1_world, s2_ride, trace_of
 from xavi_dialogue.app.golden import recording
 from xavi_dialogue.causal.influence import MIN_BITS
@@ -82,7 +82,7 @@ class Talk:
             self.wanted.append(output.need)
             came = self.again(output.need)
             if isinstance(came, PlanTrace):
-                output = self.put(RolloutsArrived("q", "ada", came))
+                output = self.put(RolloutsArrived("q", "ada", again(came, output.need)))
             else:
                 output = self.put(RolloutsFailed("q", "ada", came))
         assert isinstance(output, Answered)
@@ -417,7 +417,7 @@ def test_giving_way_is_no_choice_and_can_be_asked_about() -> None:
 def test_why_not_another_way_is_asked_of_the_turn_and_not_of_what_came_later() -> None:
     reply = talk(S2).ask("Why did you not turn left?", 9.0)
     assert reply.kind == "answer"
-    assert reply.text.startswith("I turned right")
+    assert reply.text.startswith("At 0:05, I turned right")
 
 
 def test_a_plan_that_was_given_up_is_not_spoken_of_as_done() -> None:

@@ -47,7 +47,7 @@ STARTS = {
     },
     "answer_refusals": {"REFUSAL", "CHOOSE"},
     "answer_questions": {"QUESTION"},
-    "answer_quiz": {"QUIZ", "VERDICT", "NOTHING"},
+    "answer_quiz": {"AGAIN", "VERDICT", "NOTHING"},
 }
 
 

@@ -245,7 +245,7 @@ def test_less_is_one_sentence_and_more_says_what_it_rests_on() -> None:
     more = realise(why(detail="more"), SLOWED, AHEAD).text
     assert less.count(".") == 1
     assert "vehicle 1" in less
-    assert "120 simulated drives in 32 different situations" in more
+    assert "I tried 120 drives in 32 situations" in more
     assert "85 %" in more
 
 

@@ -36,6 +36,9 @@ from xavi_dialogue.explain.ride import Ride, Unanswered, decline
 
 #: What is answered with the time that it is about.
 DATED = frozenset[QueryType](("why", "why_not", "what_if", "what", "where_goal"))
+#: What is answered from a decision that the question need not name, ...
+FOILS = frozenset[QueryType](("why_not", "what_if"))
+RECENT = 3.0  # [s] ... and with its time, where it is older than this
 
 Explainer: TypeAlias = Callable[[Query, Ride], Explanation]
 
@@ -121,7 +124,13 @@ def _checked(query: Query, ride: Ride, found: Explanation) -> Explanation:
 
 
 def _dated(query: Query, ride: Ride, found: Explanation) -> Explanation:
-    """The explanation with the time that it is about, where the question speaks of one."""
+    """The explanation with the time that it is about, where the question speaks of one.
+
+    So too where it asks of what might have been done, names nothing that was, and it is an
+    earlier decision that tells: a later one may find otherwise.
+    """
+    if ride.past is None and ride.ahead is None and _is_old(query, ride, found):
+        return replace(found, then=found.sim_time)
     if (ride.past is None and ride.ahead is None) or query.type not in DATED:
         return found
     moment = found.moment
@@ -133,6 +142,13 @@ def _dated(query: Query, ride: Ride, found: Explanation) -> Explanation:
     if moment is None and ride.past is None:
         return found
     return replace(found, then=found.sim_time if moment is None else moment)
+
+
+def _is_old(query: Query, ride: Ride, found: Explanation) -> bool:
+    """Whether a foil is told of from a decision that is past, though nothing says from which."""
+    named = query.factual or not query.counterfactual or query.negated
+    old = ride.now - found.sim_time > RECENT
+    return query.type in FOILS and not named and _ours(query) and old
 
 
 def _of_another(found: Explanation) -> bool:

@@ -11,12 +11,20 @@ from itertools import pairwise
 from msgspec.structs import replace
 
 from planner.trace import GoalPrediction, PlanTrace
+from xavi_dialogue.explain.deeds import HALTS
 from xavi_dialogue.explain.details import Grounds
 from xavi_dialogue.explain.explanation import Activity, Evidence, Explanation
 from xavi_dialogue.explain.motion import CHANGED, Motion, foresees
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import ROUNDING, Ride, prediction
-from xavi_dialogue.explain.vehicles import actor_of, last_seen, last_with, likeliest, matching
+from xavi_dialogue.explain.vehicles import (
+    actor_of,
+    halted,
+    last_seen,
+    last_with,
+    likeliest,
+    matching,
+)
 
 EVEN = 0.5  # probability from which something is more probable than not
 CERTAIN = 1e-3  # of probability, within which odds are not told apart
@@ -38,11 +46,12 @@ def how(query: Query, ride: Ride) -> Explanation:
     latest = last_with(ride, vehicle)
     asked = query.factual or query.counterfactual or ()
     actions: tuple[QueryAction, ...] = asked or _expected(ride, latest, vehicle)
-    end = _done(ride, vehicle, actions)
+    stays = query.tense != "past" and set(actions) <= HALTS and halted(ride, vehicle)
+    end = None if stays else _done(ride, vehicle, actions)
     known = _before(ride, vehicle, end)
-    beliefs = [_belief(ride, trace, vehicle, actions) for trace in known]
+    beliefs = [_belief(ride, trace, vehicle, actions, stays) for trace in known]
     last = beliefs[-1]
-    if last < EVEN:
+    if last < EVEN <= max(beliefs):
         top = max(range(len(known)), key=lambda k: (round(beliefs[k], 6), k))
         known, beliefs = known[: top + 1], beliefs[: top + 1]
     trace, motion = known[-1], ride.motion(vehicle)
@@ -85,10 +94,19 @@ def _before(ride: Ride, vehicle: int, end: float | None) -> list[PlanTrace]:
     return [trace for trace in known if trace.sim_time <= end + ROUNDING] or known[:1]
 
 
-def _belief(ride: Ride, trace: PlanTrace, vehicle: int, actions: tuple[QueryAction, ...]) -> float:
-    model = ride.model(trace)
+def _belief(
+    ride: Ride, trace: PlanTrace, vehicle: int, actions: tuple[QueryAction, ...], stays: bool
+) -> float:
+    """How probable it is that a vehicle does so, or that it stays where it is."""
+    model, known = ride.model(trace), prediction(trace, vehicle)
+    assert known is not None
     chances = model.choices(vehicle)
-    return min(sum(chances[choice] for choice in matching(model, vehicle, actions)), 1.0)
+    ways = (
+        frozenset((g, t) for g, t in chances if "stop" in known.goals[g].trajectories[t].actions)
+        if stays
+        else matching(model, vehicle, actions)
+    )
+    return min(sum(chances[way] for way in ways), 1.0)
 
 
 def _grounds(

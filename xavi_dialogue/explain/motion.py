@@ -73,6 +73,16 @@ class Motion:
             return "steady"
         return "slowing" if rate < 0.0 else "speeding-up"
 
+    @property
+    def since_standing(self) -> float | None:
+        """Since when [s] it stands, as far as is known; None where it drives."""
+        still = None
+        for moment, speed in zip(reversed(self.time), reversed(self.speed), strict=True):
+            if speed >= STANDING:
+                break
+            still = moment
+        return still
+
     def sightings(self) -> tuple[Sighting, ...]:
         """What was done, in order of its start."""
         found = [*self._speeds(), *self._stops(), *self._turns(), *self._changes()]
@@ -185,7 +195,8 @@ def join(tracks: Sequence[Track]) -> Motion:
 def foresees(way: TrajectoryPrediction, action: QueryAction) -> bool:
     """Whether a predicted trajectory contains an action, or a change of speed it describes.
 
-    Of a trajectory whose line the trace has no room for, the actions alone are known.
+    Who stands already stops if it stays, or stops again. Of a trajectory whose line the trace has
+    no room for, the actions alone are known.
     """
     if not way.speed:
         return any(step in _means(action) for step in way.actions)
@@ -194,8 +205,13 @@ def foresees(way: TrajectoryPrediction, action: QueryAction) -> bool:
     if action == "speed-up":
         return max(way.speed) >= min(way.speed) + CHANGED
     if action in ("stop", "give-way"):
-        return "stop" in way.actions or min(way.speed) < STANDING
+        return "stop" in way.actions or _halts(way.speed)
     return any(step in _means(action) for step in way.actions)
+
+
+def _halts(speed: Sequence[float]) -> bool:
+    off = next((k for k, value in enumerate(speed) if value >= STANDING), None)
+    return off is None or min(speed[off:]) < STANDING
 
 
 def _means(action: QueryAction) -> tuple[QueryAction, ...]:

@@ -44,9 +44,9 @@ def premise(ride: Ride, query: Query) -> Premise:
 def about_foil(ride: Ride, query: Query) -> Premise:
     """The decision at which a foil was an alternative.
 
-    That is the one of the premise; where the question names no deed and the foil did not apply
-    there, the last one at which it did, of those that came to what they chose. Which way to go
-    is asked of the last turn, though.
+    That is the one of the premise; where the question names no deed, and the foil did not apply
+    there or the ego has done nothing but drive on, the last one at which it did, of those that
+    came to what they chose. Which way to go is asked of the last turn, though.
 
     Raises:
         Unanswered: as for the premise, or the foil is what was done or is yet to be done.
@@ -64,7 +64,7 @@ def about_foil(ride: Ride, query: Query) -> Premise:
     on = found.deed is None or found.deed.action == "continue"
     if on and foil[0] in TURNS and len(foil) == 1 and foil[0] in planned(ride.latest):
         raise did_not_happen(ride, foil)
-    if _open(ride, found.trace, foil):
+    if _open(ride, found.trace, foil) and not (on and ride.past is None):
         return found
     others = [
         trace

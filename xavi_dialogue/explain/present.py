@@ -38,13 +38,18 @@ def what(query: Query, ride: Ride) -> Explanation:
     if ride.ahead is not None and not query.factual:
         return _to_come(ride, ride.ahead)
     driving = tuple(action for action in query.factual or () if action in DRIVING)
-    if driving and not ("stop" in driving and happened(ride, "stop")):
+    halt = happened(ride, "stop") if "stop" in driving else None
+    if halt is not None and query.tense == "past":
+        return _halt(query, ride, halt)
+    if driving and halt is None:
         driven = explain_driving(ride, driving, query.tense)
         if driven.done and query.tense == "past" and ride.past is None:
             raise did_not_happen(ride, query.factual or ())
         return driven if ride.past is None else _as_seen(driven, driving)
     if query.factual:
         found = premise(ride, query)
+        if query.tense == "past" and query.factual == ("exit-straight",) and ride.past is None:
+            _check_crossed(ride, query, found.deed)
         actions: tuple[QueryAction, ...] = query.factual
         moment = found.deed.time if found.deed else None
         return _activity(ride, actions, moment, seen=moment if query.tense == "past" else None)
@@ -74,6 +79,38 @@ def where(query: Query, ride: Ride) -> Explanation:
     goal = ride.latest.goal
     found = of_plan(ride, destination=Destination(EGO, goal.edge))
     return replace(found, arrival=0.0) if ride.arrived else found
+
+
+def _check_crossed(ride: Ride, query: Query, deed: Deed | None) -> None:
+    """That going straight on is not just what came after a turn.
+
+    Raises:
+        Unanswered: it is.
+    """
+    turns = [one for one in ride.deeds if one.action in CROSSINGS and one.ended is not None]
+    if turns and deed is not None and deed.action == "continue":
+        asked, last = query.factual, turns[-1]
+        raise decline(
+            "did-not-happen",
+            vehicle=EGO,
+            asked=asked,
+            did=False,
+            happened=(last.action,),
+            time=last.time,
+        )
+
+
+def _halt(query: Query, ride: Ride, deed: Deed) -> Explanation:
+    """That the ego stopped, and when it came to stand.
+
+    Raises:
+        Unanswered: it is still slowing down for it.
+    """
+    moment = ride.stood(deed)
+    if moment is None and deed.ended is None:
+        raise did_not_happen(ride, query.factual or ())
+    found = _activity(ride, ("stop",), deed.time if moment is None else moment)
+    return replace(found, activity=Activity(EGO, ("stop",), None, None, None))
 
 
 def _as_seen(found: Explanation, asked: tuple[QueryAction, ...]) -> Explanation:

@@ -16,7 +16,7 @@ from planner.trace import Action, PlanTrace, VehiclePrediction
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.explain.explanation import Facts, NeedRollout, NoExplanation, Reason
-from xavi_dialogue.explain.motion import Motion, join
+from xavi_dialogue.explain.motion import STANDING, Motion, join
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.when import Focus, pick
 
@@ -107,7 +107,21 @@ class Ride:
     @cached_property
     def deeds(self) -> tuple[Deed, ...]:
         """What the ego carried out, oldest first."""
-        return tuple(deed for deed in _deeds(self.events) if deed.carried_out)
+        return tuple(
+            deed for deed in _deeds(self.events) if deed.carried_out and not self._given_up(deed)
+        )
+
+    def stood(self, deed: Deed) -> float | None:
+        """When [s] the ego came to stand in a deed; None where it did not."""
+        motion, (_, end) = self.motion(EGO), deed.span
+        pairs = zip(motion.time, motion.speed, strict=True)
+        return next((t for t, v in pairs if deed.started <= t <= end and v < STANDING), None)
+
+    def _given_up(self, deed: Deed) -> bool:
+        """Whether it was a stop that came to no standstill."""
+        known = any(deed.started <= t <= deed.span[1] for t in self.motion(EGO).time)
+        over = deed.action == "stop" and deed.ended is not None
+        return over and known and self.stood(deed) is None
 
     @property
     def under_way(self) -> Deed | None:

@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from planner.events import Event
 from planner.trace import PlanTrace
 from sim.scene import EGO
+from xavi_dialogue.causal.effects import SCALES
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.causes import LIKELY, expected_actions, holding_up
@@ -20,6 +21,7 @@ from xavi_dialogue.explain.ride import Ride, Unanswered, chose, decline
 from xavi_dialogue.explain.when import pick
 
 RECENT = 2.0  # [s] since when something is still going on
+WORTH = 0.25  # of a component's scale: a difference that is a reason
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
 
 
@@ -38,16 +40,23 @@ def explain_driving(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) ->
     braked = seen.action != "speed-up"
     window = (seen.start - LEEWAY, seen.end + LEEWAY)
     causes = holding_up(model, plan, window) if braked else ()
+    done = () if seen.action in asked else (seen.action,)
     if braked and not causes and wait is None and chose(trace, "stop"):
-        return replace(against_best(ride, trace), moment=seen.start)
+        best = against_best(ride, trace)
+        if _tells(best):
+            return replace(best, moment=seen.start, done=done)
     given_way_to = None if wait is None else wait.vehicle
     causes = proven(ride, model, _first(model, causes, given_way_to), plan)
-    found = _explanation(ride, model, plan, causes, motion, seen)
-    if seen.action not in asked:
-        found = replace(found, done=(seen.action,))
+    found = replace(_explanation(ride, model, plan, causes, motion, seen), done=done)
     if wait is None and causes and causes[0].necessary is False:
         return replace(found, causes=(), cleared=causes[0].vehicle)
     return found
+
+
+def _tells(found: Explanation) -> bool:
+    """Whether a contrast tells of something that speaks for what was chosen."""
+    worse = any(e.delta >= WORTH * SCALES[e.component] for e in found.effects)
+    return worse or (found.outcome is not None and found.outcome.name != "done")
 
 
 def decision_of(ride: Ride, asked: tuple[QueryAction, ...], tense: Tense) -> PlanTrace:

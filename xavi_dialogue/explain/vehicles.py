@@ -7,7 +7,7 @@ from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Choice
 from xavi_dialogue.explain import hindered
 from xavi_dialogue.explain.causes import expected_actions
-from xavi_dialogue.explain.deeds import elsewhere
+from xavi_dialogue.explain.deeds import HALTS, elsewhere
 from xavi_dialogue.explain.details import Suspect
 from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
 from xavi_dialogue.explain.motion import foresees
@@ -142,6 +142,10 @@ def confidence(query: Query, ride: Ride) -> Explanation:
     asked = query.factual or query.counterfactual or ()
     if not asked:
         return _expectation(ride, trace, vehicle, ())
+    if query.tense == "present" and set(asked) <= HALTS and halted(ride, vehicle):
+        found = _expectation(ride, trace, vehicle, asked)
+        activity = Activity(vehicle, asked, None, 0.0, "standing")
+        return replace(found, activity=activity, destination=None, rival=())
     model = ride.model(trace)
     chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
     found = _expectation(ride, trace, vehicle, asked)
@@ -198,7 +202,16 @@ def actor_of(query: Query, ride: Ride) -> int:
     return vehicle
 
 
+def halted(ride: Ride, vehicle: int) -> bool:
+    """Whether a vehicle is in view and stands."""
+    return last_seen(ride, vehicle) is None and ride.motion(vehicle).trend == "standing"
+
+
 def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Explanation:
+    if query.tense == "present" and set(asked) <= HALTS and halted(ride, vehicle):
+        since = ride.motion(vehicle).since_standing
+        waiting = _expectation(ride, last_with(ride, vehicle), vehicle, asked, since)
+        return hindered.at_present(waiting, ride, vehicle)
     found = [last_time(ride, vehicle, action) for action in asked]
     if query.tense == "present":
         found = [s if s and s.end >= ride.now - RECENT else None for s in found]

@@ -10,9 +10,9 @@ from typing import Literal, TypeAlias
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points, suspect_point
-from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, vehicle_of
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, staying, vehicle_of
 from xavi_dialogue.language.hindrance import in_the_way
-from xavi_dialogue.language.insight import insight, whole
+from xavi_dialogue.language.insight import EVEN, insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.options import Aspect, aspect
 from xavi_dialogue.language.particulars import ARRIVAL
@@ -91,7 +91,9 @@ def _motive(query: Query, found: Explanation, actor: int, budget: Budget) -> Mot
         past=query.tense == "past",
         deed=doing(actor, deed, query.tense),
         expected=done > 0,
-        aim=doing(actor, aims, query.tense),
+        aim=doing(actor, staying(aims, standing), query.tense),
+        rival=doing(actor, staying(plain(found.rival), standing), query.tense),
+        unlikely=probability is not None and probability < EVEN,
         onward=aims == ("continue",),
         probability=1.0 if probability is None else probability,
         chance=None if probability is None else Quantity(probability, "probability"),
@@ -165,6 +167,7 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         probability = found.outcome.probability
     speed = activity.speed if activity else None
     trend = pace(speed, activity.trend if activity else None)
+    halted = trend == "standing"
     gone = found.seen is not None and not mine
     tense: Tense = "past" if gone else query.tense
     rules: dict[str, Literal["WHERE", "CONFIDENCE"]] = {
@@ -181,9 +184,9 @@ def _activity(query: Query, found: Explanation) -> ActivityPoint:
         past=tense == "past",
         now=doing(actor, known[:1] if mine else known, tense),
         next=doing(actor, known[1:], "future"),
-        forecast=doing(actor, expected, tense),
-        rival=doing(actor, plain(found.rival), tense),
-        halted=trend == "standing",
+        forecast=doing(actor, staying(expected, halted), tense),
+        rival=doing(actor, staying(plain(found.rival), halted), tense),
+        halted=halted,
         probability=probability,
         chance=None if probability is None else Quantity(probability, "probability"),
         motion=bool(known) or speed is not None or trend is not None,

@@ -28,7 +28,7 @@ def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
     """What speaks for what we did, how the foil would have turned out, and because of whom."""
     assert found.outcome is not None
     past = query.tense == "past"
-    fact = plain(query.factual or found.factual[: len(found.counterfactual)])
+    fact = plain(found.done or query.factual or found.factual[: len(found.counterfactual)])
     in_lane = bool(fact) and fact[0] in LANE_CHANGES
     foil = plain(found.counterfactual)
     outcome = found.outcome
@@ -39,6 +39,8 @@ def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
     because = points[0] if points and worse else None
     struck = outcome.collided_with
     purpose = outcome.name if outcome.name != "done" else _purpose(effects)
+    if purpose == "termination" and fact[:1] in (("stop",), ("slow-down",)):
+        purpose = None  # who stops does not do so to be there in good time
     rule: Literal["WHY", "WHAT_IF", "BRIEF"] = "WHAT_IF" if query.type == "what_if" else "WHY"
     return Contrast(
         rule="BRIEF" if rule == "WHY" and not budget.purpose else rule,
@@ -55,6 +57,7 @@ def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
         more=budget.more,
         evidence=_evidence(found.evidence),
         suspect=suspect_point(found),
+        denied=doing(EGO, query.factual or (), query.tense) if found.done else None,
     )
 
 

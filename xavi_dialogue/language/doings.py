@@ -25,6 +25,11 @@ def plain(actions: Iterable[str]) -> tuple[str, ...]:
     return tuple(kept)
 
 
+def staying(actions: Iterable[str], standing: bool) -> tuple[str, ...]:
+    """The actions of a vehicle: where it stands, to stop is to stay."""
+    return tuple("stay" if standing and action == "stop" else action for action in actions)
+
+
 def doing(actor: int, actions: Iterable[str], tense: Tense, in_lane: bool = False) -> Doing | None:
     """The actions as a phrase to be, or None where there is none."""
     kept = plain(actions)

@@ -5,12 +5,13 @@ from dataclasses import replace
 
 from msgspec.structs import replace as changed
 
+from xavi_dialogue.explain.actions import same
 from xavi_dialogue.explain.conditions import condition
 from xavi_dialogue.explain.details import Avoidance, Certainty, Grounds, Pivot
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import cause_point, contrast, effect_points
-from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, staying
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.points import (
     Budget,
@@ -85,10 +86,12 @@ def _grounds(
         budget.describe and one is not None and other is not None and abs(one - other) >= SLOWING
     )
     fit = grounds.fit
+    standing = found.activity is not None and found.activity.trend == "standing"
+    does = staying(grounds.actions, standing and query.tense != "past" and not grounds.done)
     return GroundsPoint(
         vehicle=Vehicle(vehicle),
         past=past,
-        doing=doing(vehicle, grounds.actions, "future") or Doing(vehicle, ("continue",), "future"),
+        doing=doing(vehicle, does, "future") or Doing(vehicle, ("continue",), "future"),
         chance=_chance(grounds.probability),
         brief=not budget.purpose,
         doubted=grounds.since is None,
@@ -110,8 +113,12 @@ def _grounds(
 
 
 def _sureness(query: Query, found: Explanation, certainty: Certainty, budget: Budget) -> Sureness:
-    foil = plain(found.counterfactual)[:1]
-    fact = plain(query.factual or found.factual[:1])[:1]
+    depth = max(len(found.counterfactual) - 1, 0)  # of the choice: before it both are the same
+    foil = found.counterfactual[depth:]
+    chosen = found.factual[depth : depth + 1] or found.factual[-1:]
+    asked = (query.factual or ())[:1]
+    named = bool(asked and chosen) and same(asked[0], chosen[0])
+    fact: tuple[str, ...] = asked if named else chosen
     in_lane = any(action in LANE_CHANGES for action in (*fact, *foil))
     return Sureness(
         choice=certainty.about == "choice" and bool(foil),

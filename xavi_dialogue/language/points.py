@@ -98,6 +98,7 @@ class Contrast:
     more: bool
     evidence: EvidencePoint | None
     suspect: SuspectPoint | None = None
+    denied: Doing | None = None  # what the question calls it, and was not
     way: int = 0  # in which of the ways it is worded
 
 
@@ -166,6 +167,8 @@ class Motive:
     deed: Doing | None  # what the question says it did
     expected: bool  # that is what its goal requires
     aim: Doing | None  # what its goal requires after that
+    rival: Doing | None  # what another goal would, which is nearly as probable
+    unlikely: bool  # the goal is less probable than not
     onward: bool  # its goal is just to go on, which explains nothing
     probability: float
     chance: Quantity | None

@@ -10,6 +10,7 @@ HOUR = 3600.0  # [s] beyond which no time is counted
 KILOMETRE = 1000.0  # [m] nor a distance
 FASTEST = 300  # [km/h] nor a speed
 MANY = 10_000  # nor anything else
+ROUNDING = 1e-6  # [s]
 LATEST = 100 * HOUR  # [s] of a ride
 
 
@@ -34,8 +35,8 @@ def quantity(amount: Quantity) -> str:
 
     Seconds to a half below 3 s and to a whole above, minutes from 100 s; metres to a whole below
     20 m, to 5 m below 100 m and to 10 m above; speeds to 1 km/h, probabilities to 5 % but never to
-    certainty, times of the ride as minutes and seconds. What is too large to be of use is only
-    said to be more than something.
+    certainty, times of the ride as minutes and full seconds, as clocks do. What is too large to be
+    of use is only said to be more than something.
     """
     value = amount.value
     match amount.unit:
@@ -113,7 +114,7 @@ def _metres(value: float) -> str:
 def _clock(value: float) -> str:
     if value > LATEST:
         return f"over {nearest(LATEST / HOUR)} hours"
-    whole = nearest(value)
+    whole = math.floor(value + ROUNDING)
     minutes, seconds = divmod(whole, 60)
     if whole <= HOUR:
         return f"{minutes}:{seconds:02d}"

@@ -140,13 +140,14 @@ def _passenger(query: Query, found: Explanation, context: SpeechContext, budget:
     content = select(query, found, budget, context.now)
     content = _worded(content, 0 if found.then is not None else context.turn % WAYS)
     grammar = load_grammar("answer_passenger")
-    tokens = expand(grammar, "AGAIN", context) + expand(grammar, _rule(content), content)
+    tokens = expand(grammar, _rule(content), content)
     plain = found.suspect is None and found.need is None and found.sight is None
     if found.then is not None and plain:
         at = Quantity(found.then, "clock")
-        decided = query.type in ("why", "why_not") and found.then == found.sim_time
+        decided = query.type == "why" and found.then == found.sim_time
         about = "decision" if decided and found.counterfactual else query.tense
         tokens = (*expand(grammar, "AT_TIME", at, about), *tokens)
+    tokens = (*expand(grammar, "AGAIN", context), *tokens)
     words, mentioned = inflect(tokens, context, describe=budget.describe)
     text = capitalise(rewrite(join(words), "passenger"))
     return Stages(content, tokens, words, text, mentioned)

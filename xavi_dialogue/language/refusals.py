@@ -19,6 +19,7 @@ from xavi_dialogue.language.suggestions import about_vehicle, answerable, fresh,
 from xavi_dialogue.language.wording import lexicon, rewrite
 
 MAX_CHOICES = 4
+WAYS = 3  # in which the end of all reasons is worded
 MAX_KNOWN = 5  # vehicles that are listed
 
 
@@ -47,11 +48,13 @@ class Refusal:
     only: bool = False  # what happened in its place is all that happened so far
     planned: bool = False  # what was asked about is yet to come ...
     probability: float | None = None  # ... and how probably
+    chance: Quantity | None = None  # the same, to be told
     at: Quantity | None = None  # when that was
     landmark: bool = False  # the topic is a place at which it was
     elsewhere: bool = False  # what happened is what was asked about, at another time
     once: bool = False  # it happened just once, ...
     times: Quantity | None = None  # ... or so many times
+    way: int = 0  # in which of the ways it is worded
     since: Quantity | None = None  # the record goes from here ...
     until: Quantity | None = None  # ... to here
     beyond: bool = False  # it is asked about what the plan does not reach
@@ -83,6 +86,7 @@ def refuse(query: Query, refusal: NoExplanation, context: SpeechContext) -> Utte
     invited = (*answerable(about, context), *from_situation(context))
     offered = questions(fresh(invited, (query,)))
     content = _content(query, refusal, _unsaid(offered, context))
+    content = replace(content, way=context.turn % WAYS)
     return _speak(_shortened(content, context), context, offered)
 
 
@@ -170,7 +174,8 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
     instead = _actions(facts, "happened")
     clause = _text(facts, "reason")
     did = facts.get("did") is True
-    if query.underspecified == "direction" and refusal.reason == "did-not-happen" and not did:
+    sideless = query.underspecified == "direction" and not did
+    if sideless and refusal.reason == "did-not-happen":
         asked = tuple(SIDELESS.get(action, action) for action in asked)
     return Refusal(
         reason=refusal.reason,
@@ -186,6 +191,7 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
         only=instead == ("continue",) and "time" not in facts,
         planned=facts.get("planned") is True,
         probability=_number_of(facts, "probability"),
+        chance=None if sideless else _quantity(facts, "probability", "probability"),
         at=_quantity(facts, "time", "clock"),
         landmark=facts.get("what") in ("junction", "roundabout"),
         elsewhere=facts.get("elsewhere") is True,
