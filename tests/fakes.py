@@ -3,9 +3,11 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
+import msgspec
+
 from planner.driver import DriveStep
 from planner.events import Event
-from planner.trace import PlanTrace
+from planner.trace import PlanTrace, WhatIf
 from sim.scene import Command, Scene, VehicleState
 from tests.traces import Ride, s1_ride
 from xavi_dialogue.app.ride import Moment
@@ -21,6 +23,7 @@ from xavi_dialogue.explain.explanation import (
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.language.parse import NotUnderstood
+from xavi_dialogue.transports.messages import WhatIfRequest
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
 
@@ -56,6 +59,7 @@ def scripted_mind() -> Mind:
         return Query(type="what", time=text, tense="present")
 
     def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:
+        first = record.traces[0].trace_id if record.traces else "none"
         wanted = {"lack": 1, "lack, break": 1, "lack more": 2, "lack forever": 99}.get(
             query.time or "", 0
         )
@@ -65,10 +69,10 @@ def scripted_mind() -> Mind:
             return NoExplanation(reason="too-little-evidence")
         if query.time == "suppose" and not record.extra:
             return NeedRollout(
-                trace_id="t", vehicle=1, goal="exit-right", vehicle_actions=("stop",)
+                trace_id=first, vehicle=1, goal="exit-right", vehicle_actions=("stop",)
             )
         if len(record.extra) < wanted:
-            return NeedRollout(trace_id="t", rollouts=len(record.extra) + 1)
+            return NeedRollout(trace_id=first, rollouts=len(record.extra) + 1)
         return activity(record)
 
     return Mind(parse, explain)
@@ -92,9 +96,10 @@ def moments_of(ride: Ride, *, step: float = 0.5, until: float | None = None) -> 
         yield Moment(scene, ("continue",), trace, events, "duration" if time >= last else None)
 
 
-def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-    """Plan again without a planner: the same trace."""
-    return trace
+def again(trace: PlanTrace, need: NeedRollout | WhatIfRequest) -> PlanTrace:
+    """Plan again without a planner: the same decision, said to be what was wanted."""
+    what_if = msgspec.convert(msgspec.to_builtins(need), WhatIf)
+    return msgspec.structs.replace(trace, what_if=what_if)
 
 
 def s1_moments() -> Iterator[Moment]:

@@ -321,7 +321,14 @@ def _write(text: str) -> None:
 
 
 def _note(text: str) -> None:
-    print(f"xavi: {text}", file=sys.stderr, flush=True)
+    line = f"xavi: {text}"
+    if sys.stderr.isatty():
+        from shutil import get_terminal_size
+
+        from xavi_dialogue.transports.commands import wrapper
+
+        line = wrapper(get_terminal_size().columns).fill(line)
+    print(line, file=sys.stderr, flush=True)
 
 
 add(app, _errors, _write)

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -105,14 +106,76 @@ def test_conversations_are_forgotten(
 
 def test_what_was_typed_is_forgotten_as_well(path: Path) -> None:
     typed_file().parent.mkdir(parents=True, exist_ok=True)
-    typed = TypedLines(typed_file())
-    for line in ("Why?", SURE, "/pause", "Tell me " + "more " * 30):
-        typed.append_string(line)
-    xavi("forget", "ada", "--yes", "--store", str(path))
-    left = [*TypedLines(typed_file()).load_history_strings()]
-    assert left == ["Tell me " + "more " * 30, "/pause"]
-    xavi("forget", "bob", "--yes", "--store", str(path))
-    assert [*TypedLines(typed_file()).load_history_strings()] == ["/pause"]
+    typed_file().unlink(missing_ok=True)
+    for line in ("Why?", SURE, "/save secret.txt", "long " * 1000):
+        TypedLines(typed_file(), "ada").append_string(line)
+    TypedLines(typed_file(), "bob").append_string("Why?")
+    for _ in range(2):  # a question that was cancelled is no turn
+        assert xavi("forget", "ada", "--yes", "--store", str(path)).exit_code == 0
+        assert typed() == ["Why?"]
+        TypedLines(typed_file(), "ada").append_string("cancelled")
+    assert xavi("forget", "--older-than", "1", "--yes", "--store", str(path)).exit_code == 0
+    assert typed() == ["Why?", "cancelled"]
+    assert xavi("forget", "--all", "--yes", "--store", str(path)).exit_code == 0
+    assert typed_file().read_bytes() == b""
+    TypedLines(typed_file(), "ada").append_string("cancelled")
+    path.unlink()
+    assert "Nothing" in xavi("forget", "--all", "--yes", "--store", str(path)).stdout
+    assert typed_file().read_bytes() == b""
+
+
+def typed() -> list[str]:
+    """What was typed, oldest first."""
+    return [*TypedLines(typed_file(), "any").load_history_strings()][::-1]
+
+
+def test_what_was_typed_and_cannot_be_erased_is_told(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    TypedLines(typed_file(), "ada").append_string("Why?")
+    monkeypatch.setattr("xavi_dialogue.transports.typed.erase", fail)
+    done = xavi("forget", "ada", "--yes", "--store", str(path))
+    assert (done.exit_code, done.stdout) == (1, "")
+    assert "typed cannot be erased: Permission denied" in done.stderr
+
+
+def test_erasing_succeeds_only_when_the_words_are_gone(path: Path) -> None:
+    reader = sqlite3.connect(path, isolation_level=None)
+    reader.execute("BEGIN")
+    reader.execute("SELECT * FROM turns").fetchall()
+    for _ in range(2):
+        done = xavi("forget", "ada", "--yes", "--store", str(path))
+        assert (done.exit_code, done.stdout) == (1, "")
+        assert "erase again" in done.stderr
+        assert SURE.encode() in words(path)
+    reader.close()
+    done = xavi("forget", "ada", "--yes", "--store", str(path))
+    assert (done.exit_code, SURE.encode() in words(path)) == (2, False)
+    assert "there are: bob" in done.stderr
+
+
+def words(path: Path) -> bytes:
+    return b"".join(file.read_bytes() for file in path.parent.glob(f"{path.name}*"))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["sessions"], ["sessions", "--export"], ["sessions", "ada"], ["chat", "--session", "ada"]],
+)
+def test_a_damaged_turn_is_one_clear_line_that_says_how_to_forget_it(
+    path: Path, arguments: list[str]
+) -> None:
+    path.write_bytes(path.read_bytes().replace(SURE.encode(), b"\xff" + SURE.encode()[1:]))
+    done = xavi(*arguments, "--store", str(path))
+    assert (done.exit_code, "you sure" in done.stdout) == (1, False)
+    [line] = done.stderr.splitlines()
+    assert f"`xavi forget ada --store {path}`" in line
+    assert xavi("sessions", "--json", "bob", "--store", str(path)).exit_code == 0
+    assert xavi("forget", "ada", "--yes", "--store", str(path)).stdout == "2 turns were erased.\n"
+    assert json.loads(xavi("sessions", "--json", "--store", str(path)).stdout)[0]["name"] == "bob"
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """What was said: asked why, listed, saved and erased, over a bus within one process."""
 
 import asyncio
+import resource
+import signal
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -26,6 +28,8 @@ from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import (
     AskReply,
     AskRequest,
+    CancelReply,
+    CancelRequest,
     CarState,
     EventReport,
     Failure,
@@ -193,15 +197,73 @@ def test_no_file_is_written_over_and_none_without_anything_said(
         minutes.save(str(tmp_path / "nowhere" / "said.txt"), NOW)
 
 
+def test_what_is_saved_is_for_its_owner_alone(
+    minutes: Minutes, client: Client, tmp_path: Path
+) -> None:
+    client.ask("One?")
+    for name in ("said.txt", "said.jsonl"):
+        minutes.save(str(tmp_path / name), NOW)
+        assert (tmp_path / name).stat().st_mode & 0o777 == 0o600
+
+
+def test_what_cannot_be_saved_whole_leaves_nothing_in_its_way(
+    minutes: Minutes, client: Client, tmp_path: Path
+) -> None:
+    for k in range(20):
+        client.ask(f"{k} " + "long " * 200)
+    file = tmp_path / "said.txt"
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
+        with pytest.raises(CommandError, match="cannot be written: File too large"):
+            minutes.save(str(file), NOW)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, before)
+    assert not file.exists()
+    assert minutes.save(str(file), NOW).startswith("Saved 20")
+
+
+def test_a_place_that_nobody_has_is_no_place_to_save(minutes: Minutes, client: Client) -> None:
+    client.ask("One?")
+    with pytest.raises(CommandError, match="There is no place ~nobody-of-this-name/x"):
+        minutes.save("~nobody-of-this-name/x", NOW)
+
+
+def test_forgetting_needs_no_history(client: Client, service: FakeService) -> None:
+    client.ask("One?")
+    service.hub.connect().serve(KEYS.of("@rpc/history"), lambda call: call.refuse(b""))
+    assert Minutes(client, "ada", HEADER).forget() == "Erased one question and its answer."
+
+
+def test_whether_a_service_answers_needs_no_history(client: Client, service: FakeService) -> None:
+    class Serving:
+        def check(self) -> None:
+            pass
+
+    bus = service.hub.connect()
+    bus.serve(KEYS.of("@rpc/history"), lambda call: call.reply(b"x" * HistoryReply.LIMIT * 2))
+    bus.serve(KEYS.of("@rpc/cancel"), lambda call: call.reply(cancelled(call.payload)))
+    behind = Convoy(Serving(), Serving(), bus)  # type: ignore[arg-type]
+    assert behind.recover(client)
+
+
+def cancelled(payload: bytes) -> bytes:
+    """That there was nothing to cancel."""
+    wanted = unpack(payload, CancelRequest)
+    return pack(CancelReply(request=wanted.request, cancelled=False))
+
+
 def test_forgetting_tells_how_much_it_was_and_takes_what_was_typed_with_it(
     client: Client,
 ) -> None:
-    typed: list[str] = []
-    minutes = Minutes(client, "ada", HEADER, typed.extend)
+    typed = ["/save secret.txt"]  # also where nothing came of it
+    minutes = Minutes(client, "ada", HEADER, typed.clear)
     assert minutes.forget() == "There was nothing to erase."
+    assert typed == []
     client.ask("One?")
     assert minutes.forget() == "Erased one question and its answer."
-    assert typed == ["One?"]
     client.ask("One?")
     client.ask("Two?")
     assert minutes.forget() == "Erased 2 questions and their answers."
@@ -209,7 +271,7 @@ def test_forgetting_tells_how_much_it_was_and_takes_what_was_typed_with_it(
 
 
 def test_what_could_not_be_erased_is_told(client: Client, service: FakeService) -> None:
-    def fail(_: object) -> None:
+    def fail() -> None:
         raise PermissionError(13, "Permission denied")
 
     with pytest.raises(CommandError, match="typed is not erased: Permission denied"):
@@ -261,6 +323,29 @@ def test_now_is_what_the_passenger_has_been_told_of(client: Client, service: Fak
     assert client.now() == 5.0
     happens(9.0, ride="another")
     assert client.now() == 5.0
+
+
+def test_a_question_that_is_refused_is_told_in_brackets(
+    client: Client, service: FakeService
+) -> None:
+    service.refuses = True
+    refused = "(the dialogue service refused: not now)"
+    reply = client.ask("One?", 3.0)
+    assert (reply.text, reply.reason, reply.sim_time) == (refused, "busy", 3.0)
+    told = asyncio.run(cabin(client, FakeConvoy(service, able=False)).ask("One?", "r1"))
+    assert told == refused
+
+
+@pytest.mark.parametrize("answer", [lambda c: c.refuse(b"junk"), lambda c: c.reply(b"junk")])
+def test_a_service_that_talks_nonsense_ends_no_conversation(
+    pipe: "Pipe", service: FakeService, answer: Callable[[Call], None]
+) -> None:
+    service.hub.connect().serve(KEYS.of("@rpc/ask"), answer)
+    assert pipe.say("One?")
+    service.appear()
+    assert pipe.say("Two?")
+    assert pipe.out[0].startswith("(the dialogue service ")
+    assert pipe.out[1:] == ["Answer to Two?"]
 
 
 class FakeConvoy:
@@ -370,6 +455,24 @@ def test_the_latest_moment_is_told_as_such(pipe: Pipe) -> None:
     assert pipe.say("@ 2.0s", "/plan", "One?")
     assert pipe.notes == ["this is how it is at 8.0 s"]
     assert pipe.service.turns[0].reply.sim_time == 2.0
+
+
+@pytest.mark.parametrize("line", ["@ 1e9s", "@ -5s", "@ nan s", "@", "@ 8 o'clock", "@" * 99])
+def test_what_is_no_moment_is_no_question_either(pipe: Pipe, line: str) -> None:
+    assert pipe.say(line, "One?")
+    [note] = pipe.notes
+    assert note == f"a moment is written @ 8.0s, not {line[:40]!r}"
+    assert pipe.out == ["Answer to One?"]
+    assert pipe.service.turns[0].reply.sim_time == 8.0
+
+
+def test_a_refused_question_does_not_end_the_conversation(pipe: Pipe) -> None:
+    pipe.service.refuses = True
+    assert pipe.say("One?")
+    pipe.service.refuses = False
+    assert pipe.say("\U0001f600" * 5000, "Two?")
+    assert pipe.out[0] == "(the dialogue service refused: not now)"
+    assert pipe.out[2] == "Answer to Two?"
 
 
 def test_quit_ends_and_a_question_is_not_too_long(pipe: Pipe) -> None:

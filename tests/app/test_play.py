@@ -3,6 +3,7 @@
 import pytest
 
 from planner.trace import PlanTrace
+from tests.fakes import again as same_again
 from tests.fakes import inputs_of
 from tests.traces import s1_ride
 from xavi_dialogue.app.local import Replan, make_mind
@@ -12,10 +13,6 @@ from xavi_dialogue.transports.transcript import TranscriptError, read, write
 
 RIDE = s1_ride()
 NEEDS_A_PLAN = "> What if vehicle 1 hadn't been there?\n"
-
-
-def same_again(trace: PlanTrace, _: NeedRollout) -> PlanTrace:
-    return trace
 
 
 def played(body: str, again: Replan = same_again, style: str = "passenger") -> Played:
@@ -43,7 +40,7 @@ def test_a_question_meanwhile_is_turned_away() -> None:
 
     def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         wanted.append(need)
-        return trace
+        return same_again(trace, need)
 
     both = played(f"{NEEDS_A_PLAN}! meanwhile\n> Hello?\n> Hello?\n", again)
     assert len(wanted) >= 1

@@ -4,16 +4,19 @@ import json
 import sqlite3
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from planner import trace as plan_trace
-from tests.fakes import s1_moments, scripted_mind
+from planner.events import Event
+from tests.fakes import again, s1_moments, scripted_mind
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.desk import MAX_PAST, Answer
 from xavi_dialogue.app.ledger import InOrder
-from xavi_dialogue.app.memory import Keeping, Memory
+from xavi_dialogue.app.memory import PURGED_EVERY, Keeping, Memory
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.service import Service
 from xavi_dialogue.dialogue.reply import Reply
@@ -39,14 +42,18 @@ from xavi_dialogue.transports.messages import (
     ForgetRequest,
     HistoryReply,
     HistoryRequest,
+    PastTurn,
     WhatIfRequest,
     pack,
     unpack,
 )
-from xavi_dialogue.transports.store import DAY, NewTurn, Store
+from xavi_dialogue.transports.store import DAY, NewTurn, RideName, Store
 
 KEYS = Keys()
 ASK = KEYS.of("@rpc/ask")
+
+
+EMPTY = HistoryReply(session="ada", seq=0, sim_time=0.0, wall_time=0.0, turns=())
 
 
 class Bench:
@@ -101,6 +108,14 @@ class Bench:
         self.service.work()
         [reply] = came
         return reply
+
+
+def planned(bench: Bench, asked: Call) -> None:
+    """Reply to the service as the car does once it has planned again."""
+    wanted = unpack(asked.payload, WhatIfRequest)
+    traces = bench.service.desk.dialogue.traces
+    [trace] = [trace for trace in traces if trace.trace_id == wanted.trace_id]
+    asked.reply(plan_trace.encode(again(trace, wanted)))
 
 
 @pytest.fixture
@@ -185,12 +200,11 @@ def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
 
 def test_the_car_plans_again_on_request(bench: Bench) -> None:
     bench.drive()
-    trace = bench.service.desk.dialogue.traces[0]
     wanted: list[WhatIfRequest] = []
 
     def plan(asked: Call) -> None:
         wanted.append(unpack(asked.payload, WhatIfRequest))
-        asked.reply(plan_trace.encode(trace))
+        planned(bench, asked)
 
     bench.car.serve(KEYS.of("@rpc/whatif"), plan)
     came = bench.send("lack more")
@@ -200,12 +214,11 @@ def test_the_car_plans_again_on_request(bench: Bench) -> None:
 
 def test_the_car_is_told_what_is_supposed_of_another_vehicle(bench: Bench) -> None:
     bench.drive()
-    trace = bench.service.desk.dialogue.traces[0]
     wanted: list[WhatIfRequest] = []
 
     def plan(asked: Call) -> None:
         wanted.append(unpack(asked.payload, WhatIfRequest))
-        asked.reply(plan_trace.encode(trace))
+        planned(bench, asked)
 
     bench.car.serve(KEYS.of("@rpc/whatif"), plan)
     assert bench.ask("suppose").kind == "answer"
@@ -268,9 +281,33 @@ def test_a_cancelled_question_gets_no_reply(bench: Bench) -> None:
     bench.service.work()
     assert unpack(outcomes[0], CancelReply).cancelled
     assert [type(one).__mro__[1] for one in came] == [NoAnswer]
-    held[0].reply(plan_trace.encode(bench.service.desk.dialogue.traces[0]))
+    planned(bench, held[0])
     bench.service.work()  # too late, and no harm done
     assert bench.ask("answer").kind == "answer"
+
+
+def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(bench: Bench) -> None:
+    bench.drive()
+    held: list[Call] = []
+    bench.car.serve(KEYS.of("@rpc/whatif"), held.append)
+    bench.send("suppose")
+    wanted = pack(CancelRequest(request="q1", session="ada"))
+    bench.passenger.request(KEYS.of("@rpc/cancel"), wanted, 1.0, lambda _: None)
+    bench.service.work()
+    came = bench.send("lack")  # under the same name
+    planned(bench, held[0])
+    bench.service.work()
+    assert (came, bench.service.desk.dialogue.planned) == ([], {})
+    planned(bench, held[1])
+    bench.service.work()
+    assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]
+
+
+def test_a_car_that_plans_something_else_has_failed(bench: Bench) -> None:
+    bench.drive()
+    trace = bench.service.desk.dialogue.traces[0]
+    bench.car.serve(KEYS.of("@rpc/whatif"), lambda asked: asked.reply(plan_trace.encode(trace)))
+    assert bench.ask("lack").reason == "planner-failed"
 
 
 def test_another_ride_begins_another_record(bench: Bench) -> None:
@@ -285,6 +322,23 @@ def test_the_history_of_a_session_can_be_read(bench: Bench) -> None:
     bench.ask("answer")
     bench.ask("refuse", request="q2")
     assert bench.history() == ["answer", "refuse"]
+
+
+def reply_of(text: str) -> Reply:
+    return Reply(text=text, kind="answer", sim_time=0.0)
+
+
+def test_a_history_has_the_latest_turns_that_fit(bench: Bench) -> None:
+    large = reply_of("\U0001f600" * 10_000)
+    turns = tuple(Turn(text=str(k), query=None, reply=large) for k in range(60))
+    bench.service.desk.resume("ada", turns)
+    told = [int(text) for text in bench.history()]
+    assert told == [*range(60 - len(told), 60)]
+    size = len(pack(EMPTY)) + len(told) * len(msgspec.json.encode(PastTurn("59", large)))
+    assert HistoryReply.LIMIT - 60_000 < size < HistoryReply.LIMIT
+    huge = Turn(text="huge", query=None, reply=reply_of("x" * 2**20))
+    bench.service.desk.resume("ada", (turns[0], huge, turns[1], turns[2]))
+    assert bench.history() == ["1", "2"]
 
 
 @pytest.mark.parametrize("rpc", ["ask", "history", "forget", "cancel"])
@@ -309,8 +363,7 @@ def test_a_fault_of_ours_costs_one_answer(
     bench: Bench, text: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     bench.drive()
-    trace = bench.service.desk.dialogue.traces[0]
-    bench.car.serve(KEYS.of("@rpc/whatif"), lambda asked: asked.reply(plan_trace.encode(trace)))
+    bench.car.serve(KEYS.of("@rpc/whatif"), partial(planned, bench))
     reply = bench.ask(text)
     assert (reply.kind, reply.reason) == ("refusal", "planner-failed")
     assert "ZeroDivisionError" in caplog.text
@@ -449,7 +502,7 @@ def test_who_is_forgotten_gets_no_answer_any_more(bench: Bench) -> None:
     came = bench.send("lack")
     bench.forget("ada")
     assert [type(one).__mro__[1] for one in came] == [NoAnswer]
-    held[0].reply(plan_trace.encode(bench.service.desk.dialogue.traces[0]))
+    planned(bench, held[0])
     bench.service.work()  # too late, and no harm done
     assert bench.history() == []
     assert bench.ask("answer").kind == "answer"
@@ -507,3 +560,74 @@ def test_what_is_too_old_goes_when_the_service_starts(kept: Keeping) -> None:
         store.keep([NewTurn("ada", None, time.time() - 31 * DAY, old)])
     Bench(Memory(kept)).service.work()
     assert texts(kept) == []
+
+
+def test_a_damaged_turn_is_told_and_others_are_spoken_with_as_ever(kept: Keeping) -> None:
+    first = Bench(Memory(kept))
+    first.drive()
+    first.ask("answer")
+    first.ask("answer", request="q2", session="bob")
+    with sqlite3.connect(kept.path) as other:
+        other.execute("UPDATE turns SET turn = x'ff' WHERE session = 'ada'")
+    other.close()
+    warnings: list[str] = []
+    bench = Bench(Memory(kept, warnings.append))
+    bench.drive()
+    assert bench.ask("answer").kind == "answer"
+    [warning] = warnings
+    assert "xavi forget ada" in warning
+    bench.ask("refuse", request="q2", session="bob")
+    assert texts(kept, "bob") == ["answer", "refuse"]
+    assert bench.forget("ada").forgotten
+    assert texts(kept) == []
+    bench.ask("answer", request="q3")
+    assert (texts(kept), len(warnings)) == (["answer"], 1)
+
+
+def test_what_no_file_can_hold_costs_no_other_turn(kept: Keeping) -> None:
+    warnings: list[str] = []
+    memory = Memory(kept, warnings.append)
+    memory.hear(RideName("r1"), 2**63, 100.0, Event("arrived", 3.0))
+    reply = Reply(text="So.", kind="answer", sim_time=0.0)
+    memory.keep("ada", RideName("r1"), 100.0, Turn(text="Why?", query=None, reply=reply))
+    [warning] = warnings
+    assert "cannot be kept" in warning
+    assert texts(kept) == ["Why?"]
+    memory.close()
+
+
+def test_what_is_erased_is_forgotten_once_nobody_reads_it_any_more(kept: Keeping) -> None:
+    bench = Bench(Memory(kept))
+    bench.drive()
+    bench.ask("answer")
+    reader = sqlite3.connect(kept.path, isolation_level=None)
+    reader.execute("BEGIN")
+    reader.execute("SELECT * FROM turns").fetchall()
+    assert not bench.forget("ada").forgotten
+    assert not bench.forget("ada").forgotten
+    bench.ask("refuse", request="q2")  # which is kept all the same
+    assert texts(kept) == ["refuse"]
+    reader.close()
+    assert bench.forget("ada").forgotten
+
+
+def test_what_was_erased_is_purged_by_and_by(kept: Keeping) -> None:
+    memory = Memory(kept)
+    reply = Reply(text="xyzzy", kind="answer", sim_time=0.0)
+    memory.keep("ada", None, 100.0, Turn(text="Why?", query=None, reply=reply))
+    reader = sqlite3.connect(kept.path, isolation_level=None)
+    reader.execute("BEGIN")
+    reader.execute("SELECT * FROM turns").fetchall()
+    assert memory.forget("ada") is None
+    memory.tidy(1000.0, idle=True)
+    reader.close()
+    memory.tidy(1001.0, idle=True)
+    assert b"xyzzy" in words(kept)
+    memory.tidy(1000.0 + PURGED_EVERY, idle=True)
+    assert b"xyzzy" not in words(kept)
+    memory.close()
+
+
+def words(keeping: Keeping) -> bytes:
+    files = keeping.path.parent.glob(f"{keeping.path.name}*")
+    return b"".join(file.read_bytes() for file in files)

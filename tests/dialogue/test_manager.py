@@ -1,6 +1,8 @@
+import msgspec
 import pytest
 
-from tests.fakes import inputs_of, scripted_mind
+from planner.trace import WhatIf
+from tests.fakes import again, inputs_of, scripted_mind
 from tests.traces import s1_ride
 from xavi_dialogue.dialogue.events import (
     Answered,
@@ -136,16 +138,43 @@ def test_missing_evidence_is_asked_for_and_then_used() -> None:
     talk = Talk(SCRIPTED)
     wanted = talk.ask("lack more")
     assert isinstance(wanted, RolloutsWanted)
-    again = talk.put(RolloutsArrived("q", "ada", RIDE.traces[0]))
-    assert isinstance(again, RolloutsWanted)
-    assert again.need != wanted.need
-    assert isinstance(talk.put(RolloutsArrived("q", "ada", RIDE.traces[1])), Answered)
+    more = talk.put(arrived(wanted))
+    assert isinstance(more, RolloutsWanted)
+    assert more.need != wanted.need
+    assert isinstance(talk.put(arrived(more)), Answered)
+
+
+def arrived(wanted: Output) -> RolloutsArrived:
+    """What was wanted, planned."""
+    assert isinstance(wanted, RolloutsWanted)
+    [trace] = [trace for trace in RIDE.traces if trace.trace_id == wanted.need.trace_id]
+    return RolloutsArrived(wanted.request, wanted.session, again(trace, wanted.need))
+
+
+def test_rollouts_that_are_not_those_waited_for_change_nothing() -> None:
+    """Late ones, for a question that was cancelled, may come under the name of another."""
+    talk = Talk(SCRIPTED)
+    late = arrived(talk.ask("suppose"))
+    talk.dialogue, _ = advance(SCRIPTED, talk.dialogue, Cancelled("q", "ada"))
+    wanted = talk.ask("lack")
+    right = arrived(wanted)
+    for wrong in (
+        late.trace,
+        RIDE.traces[0],
+        again(RIDE.traces[1], wanted.need),  # of another decision
+        msgspec.structs.replace(right.trace, what_if=WhatIf(rollouts=2)),
+    ):
+        before = talk.dialogue
+        with pytest.raises(IllegalEvent, match="not those it waits for"):
+            talk.put(RolloutsArrived("q", "ada", wrong))
+        assert talk.dialogue == before
+    assert talk.dialogue.planned == {}
+    assert isinstance(talk.put(right), Answered)
 
 
 def test_what_was_planned_once_is_not_asked_for_again() -> None:
     talk = Talk(SCRIPTED)
-    talk.ask("lack")
-    talk.put(RolloutsArrived("q", "ada", RIDE.traces[0]))
+    talk.put(arrived(talk.ask("lack")))
     assert isinstance(talk.ask("lack", session="bob"), Answered)
 
 
@@ -155,7 +184,7 @@ def test_planning_again_has_an_end() -> None:
     rounds = 0
     while isinstance(output, RolloutsWanted):
         rounds += 1
-        output = talk.put(RolloutsArrived("q", "ada", RIDE.traces[0]))
+        output = talk.put(arrived(output))
     assert rounds == MAX_ROUNDS
     assert output.reply.reason == "too-little-evidence"
 
@@ -171,20 +200,20 @@ def test_a_failed_plan_is_told() -> None:
 
 def test_a_second_question_finds_the_session_busy() -> None:
     talk = Talk(SCRIPTED)
-    talk.ask("lack")
+    wanted = talk.ask("lack")
     assert talk.reply("answer", request="q2").reason == "busy"
     assert talk.reply("answer", request="q3", session="bob").kind == "answer"
-    assert isinstance(talk.put(RolloutsArrived("q", "ada", RIDE.traces[0])), Answered)
+    assert isinstance(talk.put(arrived(wanted)), Answered)
 
 
 def test_a_cancelled_question_is_forgotten() -> None:
     talk = Talk(SCRIPTED)
-    talk.ask("lack")
+    wanted = talk.ask("lack")
     talk.dialogue, outputs = advance(SCRIPTED, talk.dialogue, Cancelled("q", "ada"))
     assert outputs == ()
     assert talk.dialogue.session("ada").turns == ()
     with pytest.raises(IllegalEvent, match="rollouts arrived"):
-        talk.put(RolloutsArrived("q", "ada", RIDE.traces[0]))
+        talk.put(arrived(wanted))
 
 
 def test_who_is_turned_away_is_told_why() -> None:

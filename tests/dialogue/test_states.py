@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.fakes import scripted_mind
+from tests.fakes import again, scripted_mind
 from tests.traces import s1_ride
 from xavi_dialogue.app.diagram import drawn
 from xavi_dialogue.dialogue.events import (
@@ -25,7 +25,7 @@ from xavi_dialogue.dialogue.events import (
     TraceRecorded,
     TurnedAway,
 )
-from xavi_dialogue.dialogue.manager import advance, fold
+from xavi_dialogue.dialogue.manager import MAX_ROUNDS, advance, fold
 from xavi_dialogue.dialogue.state import Dialogue, Session
 from xavi_dialogue.dialogue.states import (
     PHASES,
@@ -39,6 +39,7 @@ from xavi_dialogue.dialogue.states import (
     diagram,
 )
 from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.explanation import NeedRollout
 
 ROOT = Path(__file__).resolve().parents[2]
 RIDE = s1_ride(draws=20)
@@ -52,6 +53,11 @@ def turns_of(*texts: str) -> tuple[Turn, ...]:
     return state.session("ada").turns
 
 
+# What "lack", "lack more" and "lack forever" wait for, one after another.
+PLANNED = [
+    again(RIDE.traces[0], NeedRollout(trace_id=RIDE.traces[0].trace_id, rollouts=rollouts))
+    for rollouts in range(1, MAX_ROUNDS + 1)
+]
 TURNS = turns_of("answer", "refuse", "either")
 requests = st.sampled_from(["q1", "q2"])
 sessions = st.sampled_from(["ada", "bob"])
@@ -65,7 +71,7 @@ asked = st.builds(Asked, requests, sessions, texts, at=st.sampled_from([4.0, 7.0
 inputs = st.one_of(
     asked,
     st.builds(TurnedAway, asked, st.sampled_from(["timed-out", "planner-unavailable"])),
-    st.builds(RolloutsArrived, requests, sessions, st.sampled_from(RIDE.traces)),
+    st.builds(RolloutsArrived, requests, sessions, st.sampled_from([*RIDE.traces, *PLANNED])),
     st.builds(RolloutsFailed, requests, sessions, st.just("planner-failed")),
     st.builds(Cancelled, requests, sessions),
     st.builds(Forgotten, sessions),

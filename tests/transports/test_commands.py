@@ -46,7 +46,7 @@ def test_speeds() -> None:
     assert (commands.factor("0"), commands.factor("2.5")) == (0.0, 2.5)
 
 
-@pytest.mark.parametrize("width", [40, 59, 60, 120])
+@pytest.mark.parametrize("width", [40, 50, 59, 60, 120])
 def test_every_command_is_listed_within_the_width(width: int) -> None:
     lines = commands.listed("terminal", width).splitlines()
     assert max(map(len, lines)) <= width
@@ -55,3 +55,13 @@ def test_every_command_is_listed_within_the_width(width: int) -> None:
     assert {form.name for form in forms("terminal")} - {form.name for form in forms("pipe")} == {
         *("pause", "resume", "speed")
     }
+
+
+def test_lines_break_at_spaces_alone() -> None:
+    note = (
+        "this conversation is 20261121-164210-3f9c: --session 20261121-164210-3f9c goes on with it"
+    )
+    for width in range(10, 100):
+        lines = commands.wrapper(width).wrap(note)
+        assert [word for line in lines for word in line.split()] == note.split()
+        assert max(map(len, lines)) <= max(width, len(name) + 1)

@@ -8,6 +8,7 @@ from tests.fakes import EGO
 from tests.traces import s1_ride
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.transports.messages import (
+    MAX_TEXT,
     MESSAGES,
     AskReply,
     AskRequest,
@@ -83,7 +84,7 @@ def test_every_message_has_a_schema_of_its_own(kind: type[AskRequest]) -> None:
         ({"session": "x" * 65}, Malformed),
         ({"text": 7}, Malformed),
         ({"text": "x" * 5000}, Malformed),
-        ({"text": "x" * 20000}, TooLarge),
+        ({"text": "x" * 60000}, TooLarge),
         ({"deadline_ms": -1}, Malformed),
         ({"deadline_ms": 1e9}, Malformed),
         ({"at": "noon"}, Malformed),
@@ -113,6 +114,28 @@ def test_a_wrong_message_gets_its_error(
 def test_what_is_no_message_gets_a_typed_error(data: bytes) -> None:
     with pytest.raises(Malformed):
         unpack(data, AskRequest)
+
+
+@pytest.mark.parametrize("character", ["x", "\u00e4", "\U0001f600", '"'])
+def test_a_question_of_all_its_characters_fits(character: str) -> None:
+    asked = {**ASK, "text": character * MAX_TEXT}
+    for data in (msgspec.json.encode(asked), json.dumps(asked).encode()):
+        assert len(unpack(data, AskRequest).text) == MAX_TEXT
+    with pytest.raises(Malformed):
+        unpack(json.dumps({**asked, "text": character * (MAX_TEXT + 1)}).encode(), AskRequest)
+
+
+@pytest.mark.parametrize(
+    ("example", "field"),
+    [(0, "seed"), (0, "traces"), (0, "events"), (0, "orders"), (1, "seq"), (2, "seq")],
+)
+@pytest.mark.parametrize("number", [2**53, 2**63, 2**64, 10**100])
+def test_no_number_is_larger_than_any_file_holds(example: int, field: str, number: int) -> None:
+    known = json.loads(pack(EXAMPLES[example]))
+    kind = type(EXAMPLES[example])
+    assert unpack(json.dumps({**known, field: 2**53 - 1}).encode(), kind)
+    with pytest.raises(Malformed):
+        unpack(json.dumps({**known, field: number}).encode(), kind)
 
 
 def test_the_schema_must_be_told() -> None:

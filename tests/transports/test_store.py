@@ -18,8 +18,16 @@ from planner.events import Event
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.explain.query import Query
-from xavi_dialogue.transports.database import Damaged, Newer, StoreError, TooLarge, Unwritable
-from xavi_dialogue.transports.store import DAY, MAX_TURN, NewEvent, NewTurn, RideName, Store
+from xavi_dialogue.transports.database import (
+    Damaged,
+    Database,
+    Newer,
+    StoreError,
+    Unfit,
+    Unpurged,
+    Unwritable,
+)
+from xavi_dialogue.transports.store import DAY, MAX_TURN, New, NewEvent, NewTurn, RideName, Store
 
 RIDE = RideName("r1", "s1", 4)
 SECRET = "xyzzy-plugh"
@@ -120,7 +128,7 @@ def test_exported_lines_say_what_they_are(path: Path) -> None:
 def test_all_is_kept_or_nothing(path: Path) -> None:
     big = new(turn=turn(answer="x" * MAX_TURN))
     with Store(path) as store:
-        with pytest.raises(TooLarge, match="at most"):
+        with pytest.raises(Unfit, match="at most"):
             store.keep([new(), event(), big])
         assert lines(store) == []
 
@@ -151,16 +159,76 @@ def test_what_is_forgotten_is_gone_from_the_files(path: Path, session: str | Non
         assert [one.name for one in other.sessions()] == (["bob"] if session else [])
 
 
-def test_forgetting_waits_for_nobody_who_reads_and_says_so(path: Path) -> None:
+def reader_of(path: Path) -> sqlite3.Connection:
+    """Another program in the middle of reading."""
+    reader = sqlite3.connect(path, isolation_level=None)
+    reader.execute("BEGIN")
+    reader.execute("SELECT * FROM turns").fetchall()
+    return reader
+
+
+def owing(path: Path) -> sqlite3.Connection:
+    """A file out of which a session was erased while somebody was reading it."""
     with Store(path, patience=0.05) as store:
-        store.keep([new()])
-        reader = sqlite3.connect(path, isolation_level=None)
-        reader.execute("BEGIN")
-        reader.execute("SELECT * FROM turns").fetchall()
-        with pytest.raises(Unwritable):
-            store.forget("ada")
+        store.keep([new(f"{SECRET} {k} " + "long " * k) for k in range(50)])
+        store.keep([new("Hello!", "bob")])
+        reader = reader_of(path)
+        for _ in range(3):
+            with pytest.raises(Unpurged, match="erase again"):
+                store.forget("ada")
+            assert store.names() == ("bob",)
+            assert SECRET.encode() in everything(path)
+    return reader
+
+
+def test_what_is_erased_while_somebody_reads_is_purged_by_the_next_to_forget(path: Path) -> None:
+    with Store(path, patience=0.05) as other:
+        reader = owing(path)
+        size = len(everything(path))
+        for _ in range(3):
+            with pytest.raises(Unpurged):
+                other.forget("eve")
+        assert len(everything(path)) < size + 2 * 4096 * 50
         reader.close()
-        assert store.sessions() == ()
+        assert other.forget("eve") == 0
+        assert SECRET.encode() not in everything(path)
+        assert other.names() == ("bob",)
+        assert other.forget("bob") == 1
+
+
+@pytest.mark.parametrize("next_one", ["opens", "closes", "purges"])
+def test_what_is_erased_while_somebody_reads_is_purged_as_soon_as_it_can_be(
+    path: Path, next_one: str
+) -> None:
+    with Store(path, patience=0.05) as other, Store(path) as third:
+        reader = owing(path)
+        reader.close()
+        assert SECRET.encode() in everything(path)
+        match next_one:
+            case "opens":
+                with Store(path):
+                    assert SECRET.encode() not in everything(path)
+            case "closes":
+                third.close()
+            case _:
+                other.purge()
+        assert SECRET.encode() not in everything(path)
+
+
+def test_what_is_erased_on_a_full_disk_is_purged_when_there_is_room(path: Path) -> None:
+    with Store(path) as store, Store(path) as other:
+        store.keep([new(f"{SECRET} {k} " + "long " * k) for k in range(50)])
+        other.keep([new("Hello!", "bob")])
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Database, "_compact", no_room)
+            with pytest.raises(Unpurged, match="full"):
+                store.forget("ada")
+        assert store.forget("eve") == 0
+        assert SECRET.encode() not in everything(path)
+
+
+def no_room(_: Database, __: int) -> None:
+    raise Unwritable("the disk is full")
 
 
 def test_what_is_too_old_goes(path: Path) -> None:
@@ -382,15 +450,91 @@ def test_a_file_that_cannot_be_used_is_named_and_left_alone(
     assert (path.read_bytes() if path.is_file() else b"") == before
 
 
-def test_a_turn_of_another_shape_names_the_session(path: Path) -> None:
+def spoil(path: Path, sql: str, *given: object) -> None:
+    with sqlite3.connect(path) as other:
+        other.execute(sql, given)
+    other.close()
+
+
+def flip(path: Path, before: bytes, after: bytes) -> None:
+    """Let bytes decay on the disk."""
+    data = path.read_bytes()
+    assert before in data
+    path.write_bytes(data.replace(before, after))
+
+
+SPOILT = {
+    "another shape": ("UPDATE turns SET turn = '{}' WHERE session = 'ada'", "{turns}{listed}"),
+    "no JSON": ("UPDATE turns SET turn = '{]' WHERE session = 'ada'", "{turns}{listed}{lines}"),
+    "bytes": ("UPDATE turns SET turn = x'ff' WHERE session = 'ada'", "{turns}{listed}{lines}"),
+    "no time": ("UPDATE turns SET sim_time = 'xyz' WHERE session = 'ada'", "{listed}"),
+    "no date": ("UPDATE turns SET wall_time = 9e99 WHERE session = 'ada'", "{listed}{lines}"),
+    "infinite": ("UPDATE turns SET wall_time = 1e999 WHERE session = 'ada'", "{listed}{lines}"),
+    "a place of bytes": ("UPDATE rides SET scenario = x'00'", "{listed}"),
+    "an odd number": ("UPDATE turns SET number = 'x' WHERE session = 'ada'", "{lines}"),
+    "no event": ("UPDATE events SET event = x'ff'", "{lines}"),
+    "a damaged byte": (None, "{turns}{listed}{lines}"),
+}
+
+
+@pytest.mark.parametrize("spoilt", SPOILT)
+def test_what_is_damaged_of_a_session_names_it_and_can_be_forgotten(
+    path: Path, spoilt: str
+) -> None:
+    with Store(path) as store:
+        store.keep([new(SECRET), event(), new("Hello!", "bob", ride=None)])
+    sql, where = SPOILT[spoilt]
+    if sql is None:
+        flip(path, SECRET.encode(), b"\xff" + SECRET.encode()[1:])
+    else:
+        spoil(path, sql)
+    with Store(path) as store:
+        reads = {
+            "{turns}": lambda: store.turns("ada", 9),
+            "{listed}": store.sessions,
+            "{lines}": lambda: lines(store),
+        }
+        for name, read in reads.items():
+            if name in where:
+                with pytest.raises(Damaged, match=f"`xavi forget ada --store {path}`"):
+                    read()
+        assert [one.text for one in store.turns("bob", 9)] == ["Hello!"]
+        assert [one.question for one in store.sessions("bob")] == ["Hello!"]
+        assert store.names() == ("ada", "bob")
+        assert store.forget("ada") == 1
+        assert [line.get("session") for line in lines(store)] == ["bob"]
+
+
+@pytest.mark.parametrize("name", [b"\xff", "a\x1b[31m", ""])
+def test_a_damaged_name_can_be_forgotten_with_all_others(path: Path, name: object) -> None:
     with Store(path) as store:
         store.keep([new()])
-        with sqlite3.connect(path) as other:
-            other.execute("UPDATE turns SET turn = '{}'")
-        other.close()
-        with pytest.raises(Damaged, match="xavi forget ada"):
-            store.turns("ada", 9)
-        assert store.forget("ada") == 1
+    spoil(path, "UPDATE turns SET session = CAST(? AS TEXT)", name)
+    with Store(path) as store:
+        for read in (store.names, store.sessions, lambda: lines(store)):
+            with pytest.raises(Damaged, match="`xavi forget --all --store"):
+                read()  # type: ignore[operator]
+        assert store.forget() == 1
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [
+        NewEvent(RIDE, 2**63, 100.0, Event("arrived", 3.0)),
+        NewTurn("ada", RideName("r1", "s1", 2**63), 100.0, turn()),
+        NewTurn("ada", RideName("\udcff"), 100.0, turn()),
+        NewTurn("ada", RIDE, 100.0, turn("\udcff")),
+        NewTurn("ada", RIDE, float("nan"), turn()),
+    ],
+    ids=["sequence", "seed", "ride", "text", "time"],
+)
+def test_what_no_file_can_hold_is_refused_with_all_that_came_with_it(path: Path, odd: New) -> None:
+    with Store(path) as store:
+        with pytest.raises(StoreError):
+            store.keep([new(), odd])
+        assert lines(store) == []
+        store.keep([new()])
+        assert len(lines(store)) == 1
 
 
 def test_a_folder_that_cannot_be_written_is_named(tmp_path: Path) -> None:

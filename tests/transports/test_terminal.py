@@ -37,7 +37,7 @@ class FakeCabin:
     did: list[object] = field(default_factory=list)
     broken: bool = False
     names: int = 0  # of requests
-    forget_typed: Callable[[list[str]], None] = lambda _: None
+    forget_typed: Callable[[], None] = lambda: None
     answered: asyncio.Event = field(default_factory=asyncio.Event)
 
     def status(self) -> str:
@@ -72,7 +72,7 @@ class FakeCabin:
 
     async def forget(self) -> str:
         self.did.append("forget")
-        self.forget_typed([])
+        self.forget_typed()
         return "Erased."
 
     def cancel(self, request: str) -> None:
@@ -481,7 +481,7 @@ def test_colours_are_there_or_not(*, colours: bool) -> None:
 def test_lines_typed_before_come_back_with_the_arrow_until_they_are_erased(
     tmp_path: Path, *, kept: bool
 ) -> None:
-    typed = TypedLines(tmp_path / "history") if kept else UnkeptLines()
+    typed = TypedLines(tmp_path / "history", "ada") if kept else UnkeptLines()
 
     async def scene() -> None:
         async with terminal(typed) as t:

@@ -60,12 +60,11 @@ def through_pipe(
     with convoy(ride.scenario, ride.seed, speed, ride.keeping, warn) as behind:
         client = Client(behind.bus, Keys(), ride.session)
         first_scene(behind, client)
-        scene = behind.drive(client, control.Until(None), halt=True)
-        if ride.resume is not None and scene.sim_time < ride.resume:
-            scene = behind.drive(client, control.Until(ride.resume), halt=True)
-        note(f"asking at {scene.sim_time:.1f} s")
+        scene = behind.drive(client, control.Until(ride.resume), halt=True)
+        at = scene.sim_time if ride.resume is None else ride.resume
+        note(f"asking at {at:.1f} s")
         minutes = Minutes(client, ride.session, ride.header)
-        piped = Piped(behind, client, minutes, write, note, as_json, scene, scene.sim_time)
+        piped = Piped(behind, client, minutes, write, note, as_json, scene, at)
         for raw in lines:
             if not piped.take(raw):
                 return
@@ -100,7 +99,7 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
 
     from xavi_dialogue.transports.screen import Keyboard, silent_screen
     from xavi_dialogue.transports.terminal import TerminalChat
-    from xavi_dialogue.transports.typed import TypedLines, UnkeptLines
+    from xavi_dialogue.transports.typed import TypedLines, UnkeptLines, erase
 
     narrator = Narrator()
 
@@ -119,8 +118,8 @@ async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], sp
     typed: TypedLines | UnkeptLines = UnkeptLines()
     if ride.keeping is not None:
         history.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        typed = TypedLines(history)
-        typed.expire(datetime.now() - timedelta(days=ride.keeping.days))
+        erase(history, before=datetime.now() - timedelta(days=ride.keeping.days))
+        typed = TypedLines(history, ride.session)
     minutes = Minutes(client, ride.session, ride.header, typed.forget)
     cabin = RemoteCabin(behind, client, minutes)
     with create_app_session(output=silent_screen(sys.stdout, os.environ.get("TERM"))):

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import NoExplanation
+from xavi_dialogue.explain.explanation import NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext, Style
 from xavi_dialogue.transports.bus import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
@@ -15,6 +15,7 @@ from xavi_dialogue.transports.messages import (
     MAX_TEXT,
     AskReply,
     AskRequest,
+    CancelReply,
     CancelRequest,
     EventReport,
     Failure,
@@ -34,6 +35,8 @@ from xavi_dialogue.transports.text import clean
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] that a reply may take on its way
 PATIENCE = 3.0  # [s] for what takes no thought
+NONSENSE = "the dialogue service sent nonsense"
+REFUSED = "the dialogue service refused"
 POLL = 0.1  # [s] between looks at whether waiting still makes sense
 
 
@@ -85,6 +88,7 @@ class Client:
         """Ask; `done` gets the reply, or why there is none, on a thread of the bus.
 
         A service that says nothing at all within the deadline counts as one that has timed out.
+        Where it refuses the question, or says what cannot be read, that is a reply in brackets.
         """
         asked = AskRequest(
             request=request or new_request(),
@@ -97,7 +101,7 @@ class Client:
         key = self._keys.of("@rpc/ask")
 
         def settle(came: Outcome) -> None:
-            done(_late(at, style) if isinstance(came, TooLate) else _reply(came))
+            done(_late(at, style) if isinstance(came, TooLate) else _reply(came, at))
 
         self._bus.request(key, pack(asked), DEADLINE + GRACE, settle)
 
@@ -118,6 +122,15 @@ class Client:
         """Tell the service that an answer is no longer wanted."""
         wanted = CancelRequest(request=request, session=self._session)
         self._bus.request(self._keys.of("@rpc/cancel"), pack(wanted), 1.0, lambda _: None)
+
+    def probe(self) -> None:
+        """Make sure that the service answers; waits for it.
+
+        Raises:
+            ServiceLost: it does not.
+        """
+        nothing = CancelRequest(request=new_request(), session=self._session)
+        self._call("@rpc/cancel", pack(nothing), CancelReply)
 
     def history(self) -> tuple[PastTurn, ...]:
         """The latest turns of the session, oldest first; waits for them.
@@ -141,7 +154,7 @@ class Client:
         try:
             return unpack(call(self._bus, self._keys.of(tail), wanted, PATIENCE), kind)
         except MessageError as error:
-            raise ServiceLost(f"the dialogue service sent nonsense: {error}") from error
+            raise ServiceLost(f"{NONSENSE}: {error}") from error
         except NoAnswer as error:
             raise _lost(error) from error
 
@@ -191,13 +204,23 @@ def new_request() -> str:
     return secrets.token_hex(8)
 
 
-def _reply(came: Outcome) -> Reply | ServiceLost:
+def _reply(came: Outcome, at: float | None) -> Reply | ServiceLost:
+    if isinstance(came, Refused):
+        failure = _failure(came)
+        return _bracketed(
+            _refusal(failure), "planner-failed" if failure is None else failure.reason, at
+        )
     if isinstance(came, NoAnswer):
         return _lost(came)
     try:
         return unpack(came, AskReply).reply()
     except MessageError as error:
-        return ServiceLost(f"the dialogue service sent nonsense: {error}")
+        return _bracketed(f"{NONSENSE}: {error}", "planner-failed", at)
+
+
+def _bracketed(text: str, reason: Reason, at: float | None) -> Reply:
+    """What is no answer of the car's, after which the conversation goes on."""
+    return Reply(text=f"({clean(text)})", kind="refusal", reason=reason, sim_time=at or 0.0)
 
 
 def _late(at: float | None, style: Style) -> Reply:
@@ -211,11 +234,20 @@ def _late(at: float | None, style: Style) -> Reply:
 
 
 def _lost(came: NoAnswer) -> ServiceLost:
-    if not isinstance(came, Refused):
-        return ServiceLost("the dialogue service does not answer")
+    if isinstance(came, Refused):
+        return ServiceLost(_refusal(_failure(came)))
+    return ServiceLost("the dialogue service does not answer")
+
+
+def _failure(came: Refused) -> Failure | None:
+    """What the service said on refusing; None where it cannot be read."""
     try:
-        failure = unpack(came.payload, Failure)
+        return unpack(came.payload, Failure)
     except MessageError:
-        return ServiceLost("the dialogue service refused")
-    reason = clean(failure.detail) or failure.reason
-    return ServiceLost(f"the dialogue service refused: {reason}")
+        return None
+
+
+def _refusal(failure: Failure | None) -> str:
+    if failure is None:
+        return REFUSED
+    return f"{REFUSED}: {clean(failure.detail) or failure.reason}"

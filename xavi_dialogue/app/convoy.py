@@ -53,7 +53,7 @@ class Convoy:
         while time.monotonic() < give_up and not self.over.wait(RETRY):
             self.service.check()
             with suppress(ServiceLost):
-                client.history()
+                client.probe()
                 return True
         return False
 

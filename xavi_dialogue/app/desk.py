@@ -136,12 +136,14 @@ class Desk:
         self._tell(Forgotten(session))
         return len(self.past.pop(session, ())), dropped
 
-    def deliver(self, request: str, result: PlanTrace | Reason) -> list[Errand]:
+    def deliver(self, errand: PlanAgain, result: PlanTrace | Reason) -> list[Errand]:
         """Go on with a question for which the planner planned again, or did not."""
-        question = self.questions.get(request)
-        if question is None or not question.begun:
-            return []  # cancelled or given up meanwhile
-        session = question.asked.session
+        asked = errand.question.asked
+        request, session = asked.request, asked.session
+        pending = self.dialogue.session(session).pending
+        waits = self.questions.get(request) is errand.question and errand.question.begun
+        if not waits or pending is None or pending.need != errand.need:
+            return []  # cancelled or given up meanwhile, or begun anew on another ride
         if isinstance(result, str):
             return self._tell(RolloutsFailed(request, session, result))
         arrived = RolloutsArrived(request, session, result)
@@ -154,7 +156,8 @@ class Desk:
             if not question.begun:
                 errands += self._begin(question, now)
             elif question.deadline <= now:
-                errands += self.deliver(request, "timed-out")
+                session = question.asked.session
+                errands += self._tell(RolloutsFailed(request, session, "timed-out"))
         return errands
 
     def next_deadline(self) -> float | None:

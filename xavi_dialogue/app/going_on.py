@@ -8,7 +8,8 @@ from pathlib import Path
 from sim.scenario import Scenario
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.narration import clock
-from xavi_dialogue.transports.store import Store, Summary
+from xavi_dialogue.transports.rows import Summary
+from xavi_dialogue.transports.store import Store
 
 DEFAULT_SCENARIO = "s1"
 
@@ -65,7 +66,7 @@ def find(keeping: Keeping | None, session: str) -> Going:
     if keeping is None or not keeping.path.exists():
         return Going(session)
     with Store(keeping.path) as store:
-        return Going(session, next((one for one in store.sessions() if one.name == session), None))
+        return Going(session, next(iter(store.sessions(session)), None))
 
 
 def fresh(now: datetime, salt: str) -> Going:

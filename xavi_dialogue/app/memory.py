@@ -11,12 +11,13 @@ from pathlib import Path
 from planner.events import Event
 from xavi_dialogue.app.desk import MAX_PAST
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.transports.database import StoreError
+from xavi_dialogue.transports.database import Damaged, StoreError, Unfit, Unpurged
 from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
 
 PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
 EXPIRED_EVERY = 3600.0  # [s]
+PURGED_EVERY = 10.0  # [s] as long as what was erased is still in the files
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,8 @@ class Memory:
     _store: Store | None = None
     _missed: list[New] = field(default_factory=list)  # not yet written
     _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
+    _unpurged: bool = False  # something is erased, and still in the files
+    _purged: float = 0.0  # [s] wall time when that was last tried to be mended
     _failing: bool = False
     _unsynced: bool = False  # written, but not yet on the disk itself
     _expired: float = 0.0  # [s] wall time when what is too old was last erased
@@ -57,10 +60,17 @@ class Memory:
         if self.keeping is None or session in self._unforgotten:
             return ()
         try:
-            return self._opened(self.keeping).turns(session, MAX_PAST)
+            store = self._opened(self.keeping)
         except StoreError as error:
             self._fail(error)
             return ()
+        try:
+            return store.turns(session, MAX_PAST)
+        except Damaged as error:  # others may be spoken with as ever
+            self.warn(f"what was said before is not known any more: {error}")
+        except StoreError as error:
+            self._fail(error)
+        return ()
 
     def keep(self, session: str, ride: RideName | None, wall_time: float, turn: Turn) -> None:
         """Keep a turn, and all that was missed; in the file when this returns, if at all."""
@@ -95,8 +105,14 @@ class Memory:
                 self._unsynced = False
                 self._opened(self.keeping).sync()
             if now >= self._expired + EXPIRED_EVERY:
-                self._expired = now
+                self._expired = self._purged = now
                 self._opened(self.keeping).expire(self.keeping.days, now)
+            if idle and self._unpurged and now >= self._purged + PURGED_EVERY:
+                self._purged = now
+                self._opened(self.keeping).purge()
+                self._unpurged = False
+        except Unpurged:
+            self._unpurged = True
         except StoreError as error:
             self._fail(error)
 
@@ -109,10 +125,17 @@ class Memory:
             return 0
         self._unforgotten.add(session)
         try:
-            return self._erase(self._opened(self.keeping))
+            store = self._opened(self.keeping)
+            erased = self._erase(store)
+            if self._unpurged:
+                store.purge()
+                self._unpurged = False
+        except Unpurged:
+            return None
         except StoreError as error:
             self._fail(error)
             return None
+        return erased
 
     def close(self) -> None:
         """Close the file."""
@@ -130,7 +153,7 @@ class Memory:
         try:
             store = self._opened(keeping)
             self._erase(store)
-            store.keep(self._missed)
+            self._keep(store)
         except StoreError as error:
             self._fail(error)
             return
@@ -140,10 +163,23 @@ class Memory:
             self._failing = False
             self.warn("what is said is kept again, and what was missed as well")
 
+    def _keep(self, store: Store) -> None:
+        try:
+            store.keep(self._missed)
+        except Unfit:  # one of them, for which the others need not be lost
+            for new in self._missed:
+                try:
+                    store.keep([new])
+                except Unfit as error:
+                    self.warn(str(error))
+
     def _erase(self, store: Store) -> int:
         erased = 0
         for session in sorted(self._unforgotten):
-            erased += store.forget(session)
+            try:
+                erased += store.forget(session)
+            except Unpurged:  # it is erased; what is still in the files must not hold up answers
+                self._unpurged = True
             self._unforgotten.discard(session)
         return erased
 

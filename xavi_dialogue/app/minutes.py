@@ -1,6 +1,7 @@
 """What was said in a session: listed, kept in a file, erased."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+import os
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -18,7 +19,7 @@ from xavi_dialogue.transports.transcript import At, Exchange, Transcript
 NOTHING = "Nothing has been said in this session yet."
 JSON_LINES = ".jsonl"
 
-Forget: TypeAlias = Callable[[Collection[str]], None]  # the questions; raises OSError
+Forget: TypeAlias = Callable[[], None]  # raises OSError
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Minutes:
     client: Client
     session: str
     header: tuple[tuple[str, str], ...]  # of transcripts
-    forget_typed: Forget | None = None  # erases what is kept of questions on this side
+    forget_typed: Forget | None = None  # erases what is kept on this side of what was typed
 
     def why(self) -> str:
         """The question why: of what was said last, else of what was done last."""
@@ -58,7 +59,7 @@ class Minutes:
         turns = self._turns()
         if not turns:
             raise CommandError(f"{NOTHING} There is nothing to save.")
-        file = Path(name or f"{self.session}-{now:%Y%m%d-%H%M%S}.txt").expanduser()
+        file = _file(name or f"{self.session}-{now:%Y%m%d-%H%M%S}.txt")
         if file.suffix == JSON_LINES:
             text = "".join(f"{msgspec.json.encode(turn).decode()}\n" for turn in turns)
         else:
@@ -68,11 +69,10 @@ class Minutes:
 
     def forget(self) -> str:
         """Erase what was said; says how much it was."""
-        turns = self._turns()
         try:
             erased = self.client.forget()
             if self.forget_typed is not None:
-                self.forget_typed([turn.text for turn in turns])
+                self.forget_typed()
         except ServiceLost as error:
             raise CommandError(f"Nothing is erased: {error}.") from error
         except OSError as error:
@@ -112,10 +112,23 @@ def _counted(turns: int) -> str:
     return "one question and its answer" if turns == 1 else f"{turns} questions and their answers"
 
 
-def _create(file: Path, text: str) -> None:
+def _file(name: str) -> Path:
     try:
-        with file.open("x", encoding="utf-8") as new:
-            new.write(text)
+        return Path(name).expanduser()
+    except RuntimeError as error:
+        raise CommandError(f"There is no place {clean(name)}: {error}") from error
+
+
+def _create(file: Path, text: str) -> None:
+    """Write a new file that only its owner can read, whole or not at all."""
+    try:
+        made = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        try:
+            with os.fdopen(made, "wb") as new:
+                new.write(text.encode())
+        except OSError:
+            file.unlink()
+            raise
     except FileExistsError:
         raise CommandError(
             f"There is a file {clean(str(file))} already; it stays as it is. Name another."

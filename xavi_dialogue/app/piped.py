@@ -18,6 +18,7 @@ from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import moment
 
 Write: TypeAlias = Callable[[str], None]
+SHOWN = 40  # characters of a line that is none
 WIDTH = 100  # columns of what /help lists
 HELP = (
     "A line is a question, a moment that moves time such as @ 8.0s, or one of these commands.\n"
@@ -54,6 +55,8 @@ class Piped:
                 return self._obey(commands.read(line, "pipe"))
             except CommandError as error:
                 self.note(str(error))
+        elif line.startswith("@"):
+            self.note(f"a moment is written @ 8.0s, not {line[:SHOWN]!r}")
         elif line:
             self._ask(line)
         return True

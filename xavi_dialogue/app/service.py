@@ -30,6 +30,7 @@ from xavi_dialogue.transports.bus import (
     TooLate,
 )
 from xavi_dialogue.transports.messages import (
+    KIB,
     MESSAGES,
     AnyMessage,
     AskReply,
@@ -54,7 +55,7 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.schema import schema_of
 from xavi_dialogue.transports.store import RideName
 
-MAX_TURNS = 100  # in a history
+MAX_TURNS = 100  # in a history, and fewer where they would be too large
 IDLE = 0.5  # [s] between looks at whether to stop
 CAR_MESSAGES = (SceneReport, TraceReport, EventReport)  # the car tells their schemas
 
@@ -204,6 +205,7 @@ class Service:
             return
         self._know(wanted.session)
         turns = self.desk.past[wanted.session][-MAX_TURNS:]
+        past = tuple(PastTurn(turn.text, turn.reply) for turn in turns)
         ledger = self.desk.ledger
         scene = None if ledger is None else ledger.scene
         reply = HistoryReply(
@@ -211,7 +213,7 @@ class Service:
             seq=self._next(),
             sim_time=0.0 if scene is None else scene.sim_time,
             wall_time=time.time(),
-            turns=tuple(PastTurn(turn.text, turn.reply) for turn in turns),
+            turns=_latest(past, HistoryReply.LIMIT - KIB),
         )
         call.reply(pack(reply))
 
@@ -241,11 +243,11 @@ class Service:
             request=request,
             deadline_ms=remaining * 1000.0,
         )
-        done = partial(self._post, self._on_planned, request)
+        done = partial(self._post, self._on_planned, errand)
         self._bus.request(self._keys.of("@rpc/whatif"), pack(wanted), remaining, done)
 
-    def _on_planned(self, request: str, outcome: Outcome) -> None:
-        self._run(self.desk.deliver(request, _planned(outcome)))
+    def _on_planned(self, errand: PlanAgain, outcome: Outcome) -> None:
+        self._run(self.desk.deliver(errand, _planned(outcome)))
 
     def _next(self) -> int:
         self._replies += 1
@@ -255,6 +257,16 @@ class Service:
 def _do(job: _Job) -> None:
     with contextlib.suppress(BusError):  # who asked is gone
         job()
+
+
+def _latest(turns: tuple[PastTurn, ...], limit: int) -> tuple[PastTurn, ...]:
+    """As many of the latest turns as have so many bytes."""
+    taken = 0
+    for kept, turn in enumerate(reversed(turns)):
+        taken += len(msgspec.json.encode(turn)) + 1
+        if taken > limit:
+            return turns[len(turns) - kept :]
+    return turns
 
 
 def _planned(outcome: Outcome) -> PlanTrace | Reason:

@@ -1,13 +1,17 @@
 """The commands `xavi sessions` and `xavi forget`: what is kept of conversations, and erasing it."""
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from textwrap import shorten
+from typing import Protocol
 
 from xavi_dialogue.app.narration import clock
-from xavi_dialogue.transports.store import DAY, Store, Summary
+from xavi_dialogue.transports.database import Unwritable
+from xavi_dialogue.transports.rows import Summary
+from xavi_dialogue.transports.store import DAY, Store
 from xavi_dialogue.transports.text import one_line
 
 WIDEST = 48  # characters of a question in the table
@@ -16,6 +20,16 @@ HEAD = ("session", "turns", "last spoken in", "ride", "the last question")
 
 class SessionUsageError(ValueError):
     """What is asked of the kept conversations makes no sense."""
+
+
+class Typed(Protocol):
+    """What was typed at the terminal."""
+
+    def sessions(self) -> frozenset[str]:
+        """In which something was typed."""
+
+    def erase(self, session: str | None, before: float | None) -> None:
+        """Erase what was typed in a session, or all, before a wall time [s], or ever."""
 
 
 @dataclass(frozen=True)
@@ -45,29 +59,20 @@ class Wanted:
         return f"what was said in {whose} more than {self.older_than:g} days ago"
 
 
-def kept(path: Path) -> tuple[Summary, ...]:
-    """All sessions; none where there is no file.
+def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
+    """The session of that name, or all; none where there is no file.
 
     Raises:
         StoreError: the file cannot be read.
-    """
-    if not path.exists():
-        return ()
-    with Store(path) as store:
-        return store.sessions()
-
-
-def chosen(sessions: Sequence[Summary], name: str | None) -> tuple[Summary, ...]:
-    """The sessions of that name, or all.
-
-    Raises:
         SessionUsageError: there is none of that name; with the list of those there are.
     """
-    found = tuple(one for one in sessions if name in (None, one.name))
-    if name is not None and not found:
-        known = ", ".join(one.name for one in sessions) or "none at all"
-        raise SessionUsageError(f"there is no conversation {name}; there are: {known}")
-    return found
+    if path.exists():
+        with Store(path) as store:
+            _check(name, store)
+            return store.sessions(name)
+    if name is not None:
+        raise _unknown(name, ())
+    return ()
 
 
 def export(path: Path, name: str | None) -> Iterator[str]:
@@ -77,10 +82,12 @@ def export(path: Path, name: str | None) -> Iterator[str]:
         StoreError: the file cannot be read.
         SessionUsageError: there is none of that name.
     """
-    chosen(kept(path), name)
     if path.exists():
         with Store(path) as store:
+            _check(name, store)
             yield from store.export(name)
+    elif name is not None:
+        raise _unknown(name, ())
 
 
 def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str:
@@ -103,7 +110,7 @@ def forget(
     wanted: Wanted,
     now: float,
     agreed: Callable[[str], bool],
-    untype: Callable[[Sequence[str]], None],
+    typed: Typed,
 ) -> str:
     """Erase, and say how much; nothing where that is not agreed to.
 
@@ -112,29 +119,68 @@ def forget(
         wanted: what goes.
         now: wall time [s].
         agreed: asks whether to erase what is described in words.
-        untype: erases questions from what was typed, too.
+        typed: what was typed, of which the same goes.
 
     Raises:
         StoreError: it cannot be erased.
         SessionUsageError: it is not clear what goes, or there is no such session.
     """
     wanted.check()
-    chosen(kept(path), wanted.session)
-    if not agreed(f"erase {wanted.words()}?"):
-        return "Nothing was erased."
-    if not path.exists():
-        return "Nothing was kept."
-    before = None if wanted.older_than is None else now - wanted.older_than * DAY
-    with Store(path) as store:
-        questions = store.questions(wanted.session, before)
+    with Store(path) if path.exists() else nullcontext() as store:
+        if wanted.session is not None:
+            _know(wanted.session, store, typed)
+        if not agreed(f"erase {wanted.words()}?"):
+            return "Nothing was erased."
+        before = None if wanted.older_than is None else now - wanted.older_than * DAY
+        _erase(typed, wanted.session, before)
+        if store is None:
+            return "Nothing was kept."
         erased = store.forget(wanted.session, before)
-    untype(questions)
     return f"{erased} turn{' was' if erased == 1 else 's were'} erased."
+
+
+def _know(session: str, store: Store | None, typed: Typed) -> None:
+    """Make sure that there is something of a session, or that nothing of it is left.
+
+    Raises:
+        SessionUsageError: there is nothing; with the list of those there are.
+        StoreError: the file cannot be read, or what was erased is still in it.
+    """
+    if session in typed.sessions():
+        return
+    if store is None:
+        raise _unknown(session, ())
+    if not store.holds(session):
+        store.purge()
+    _check(session, store)
+
+
+def _check(name: str | None, store: Store) -> None:
+    """Make sure that there is a session of that name, if any.
+
+    Raises:
+        SessionUsageError: there is none; with the list of those there are.
+        StoreError: the file cannot be read.
+    """
+    if name is not None and not store.holds(name):
+        raise _unknown(name, store.names())
+
+
+def _erase(typed: Typed, session: str | None, before: float | None) -> None:
+    try:
+        typed.erase(session, before)
+    except OSError as error:
+        raise Unwritable(f"what was typed cannot be erased: {error.strerror}") from error
+
+
+def _unknown(name: str, others: Sequence[str]) -> SessionUsageError:
+    known = ", ".join(others) or "none at all"
+    return SessionUsageError(f"there is no conversation {name}; there are: {known}")
 
 
 def _row(one: Summary, zone: Callable[[float], datetime]) -> tuple[str, ...]:
     ride = ""
     if one.scenario is not None and one.sim_time is not None:
-        ride = f"{Path(one.scenario).name} {one.seed} at {clock(one.sim_time)}"
+        ride = f"{one_line(Path(one.scenario).name)} {one.seed} at {clock(one.sim_time)}"
     question = shorten(one_line(one.question), WIDEST, placeholder=" ...")
     return (one.name, str(one.turns), f"{zone(one.last):%Y-%m-%d %H:%M}", ride, question)

@@ -1,7 +1,7 @@
 """The commands `xavi sessions` and `xavi forget`; what they need is imported when they run."""
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
@@ -74,7 +74,7 @@ def _sessions(errors: Errors, write: Write) -> Command:
                 for line in kept.export(store_file(store), session):
                     write(line)
                 return
-            found = kept.chosen(kept.kept(store_file(store)), session)
+            found = kept.kept(store_file(store), session)
             if as_json:
                 write(msgspec.json.encode(found).decode())
             else:
@@ -101,7 +101,7 @@ def _forget(errors: Errors, write: Write) -> Command:
         with errors():
             wanted = kept.Wanted(session, everything, older_than)
             agreed = _agreed if not yes else lambda _: True
-            write(kept.forget(store_file(store), wanted, time.time(), agreed, _untype))
+            write(kept.forget(store_file(store), wanted, time.time(), agreed, _Typed()))
 
     return forget
 
@@ -113,12 +113,27 @@ def typed_file() -> Path:
     return user_state_path("xavi-dialogue") / "history"
 
 
-def _untype(questions: Sequence[str]) -> None:
-    # Deferred: a quarter of a second that is wasted where nothing was typed.
-    if typed_file().exists():
-        from xavi_dialogue.transports.typed import TypedLines
+class _Typed:
+    """The file of what was typed; a quarter of a second goes to reading it where there is any."""
 
-        TypedLines(typed_file()).forget(questions)
+    def sessions(self) -> frozenset[str]:
+        """See Typed."""
+        if not typed_file().exists():
+            return frozenset()
+        from xavi_dialogue.transports import typed
+
+        return typed.sessions(typed_file())
+
+    def erase(self, session: str | None, before: float | None) -> None:
+        """See Typed."""
+        if not typed_file().exists():
+            return
+        from datetime import datetime
+
+        from xavi_dialogue.transports import typed
+
+        moment = None if before is None else datetime.fromtimestamp(max(before, 0.0))
+        typed.erase(typed_file(), session, moment)
 
 
 def _agreed(question: str) -> bool:

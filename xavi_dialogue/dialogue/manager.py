@@ -9,6 +9,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TypeAlias
 
+import msgspec
+
+from planner.trace import PlanTrace, WhatIf
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
@@ -163,9 +166,20 @@ def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[S
 def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNED)
     assert pending.need is not None
+    if not _is_wanted(dialogue, pending.need, event.trace):
+        raise IllegalEvent(f"rollouts for {event.request!r} that are not those it waits for")
     dialogue = replace(dialogue, planned={**dialogue.planned, pending.need: event.trace})
     pending = replace(pending, extra=(*pending.extra, event.trace))
     return _think(mind, dialogue, session, pending)
+
+
+def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
+    """Whether a trace is the decision that was to be planned again, changed as it was to be."""
+    if trace.what_if != msgspec.convert(msgspec.to_builtins(need), WhatIf):
+        return False
+    moment = (trace.sim_time, trace.decision)
+    known = (t for t in dialogue.traces if (t.sim_time, t.decision) == moment)
+    return any(t.trace_id == need.trace_id for t in known)
 
 
 def _give_up(mind: Mind, dialogue: Dialogue, event: RolloutsFailed) -> Step:

@@ -99,8 +99,15 @@ def listed(place: Place, width: int) -> str:
         else:
             lines.append(usage)
             hanging = first = "  "
-        lines.append(textwrap.fill(does, width, initial_indent=first, subsequent_indent=hanging))
+        lines.append(wrapper(width, first, hanging).fill(does))
     return "\n".join(lines)
+
+
+def wrapper(width: int, first: str = "", hanging: str = "") -> textwrap.TextWrapper:
+    """Breaks lines of at most `width` columns at spaces alone: `--session` stays in one piece."""
+    return textwrap.TextWrapper(
+        width, first, hanging, break_on_hyphens=False, break_long_words=False
+    )
 
 
 def _nearest(name: str, among: Iterable[Form]) -> str:

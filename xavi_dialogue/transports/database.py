@@ -4,7 +4,8 @@
     ├── Damaged      not a database, not ours, or broken
     ├── Newer        written by a later version of this program
     ├── Unwritable   no such place, no permission, disk full, locked: may work again later
-    └── TooLarge     more than may be kept
+    │   └── Unpurged what was erased is still in the files
+    └── Unfit        too large to be kept, or a number or text that no file can hold
 
 Every message names the file and says how to mend it.
 """
@@ -26,6 +27,7 @@ Row: TypeAlias = tuple[Any, ...]
 Writing: TypeAlias = sqlite3.Connection
 
 _BROKEN = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR})
+_UNFIT = (OverflowError, UnicodeError, ValueError, sqlite3.DataError, sqlite3.InterfaceError)
 
 
 class StoreError(Exception):
@@ -44,8 +46,12 @@ class Unwritable(StoreError):
     """It cannot be opened or written now; that may work again later."""
 
 
-class TooLarge(StoreError):
-    """More than may be kept."""
+class Unpurged(Unwritable):
+    """What was erased is still in the files, until they are used again with nobody reading."""
+
+
+class Unfit(StoreError):
+    """Too large to be kept, or a number or text that no file can hold."""
 
 
 class Database:
@@ -65,14 +71,16 @@ class Database:
             Newer: its tables have a later version.
             Unwritable: it cannot be opened or made.
         """
-        self.path = path
+        self.path, self._patience = path, patience
         self._make()
         with self._translated():
             self._connection = sqlite3.connect(path, timeout=patience, isolation_level=None)
+        # One damaged byte spoils what it stands in and not all that is read with it.
+        self._connection.text_factory = lambda text: text.decode(errors="surrogateescape")
         try:
             self._open(tables, version)
         except BaseException:
-            self.close()
+            self._connection.close()  # and no more: it may not be ours
             raise
 
     @contextlib.contextmanager
@@ -119,29 +127,65 @@ class Database:
         finally:
             os.close(log)
 
+    def owe(self, file: Writing) -> None:
+        """Note in the file itself, with what is deleted, that the files are to be purged of it."""
+        file.execute("CREATE TABLE IF NOT EXISTS owed (erased INTEGER, compacted INTEGER)")
+        file.execute("INSERT INTO owed SELECT 0, 0 WHERE NOT EXISTS (SELECT 1 FROM owed)")
+        file.execute("UPDATE owed SET erased = erased + 1")
+
     def purge(self) -> None:
-        """Let nothing of what was deleted be left in the files.
+        """Let nothing be left in the files of what was deleted, by whomever, if anything is.
 
         Raises:
-            Unwritable: something is left as long as somebody else reads, or the disk is full.
+            Unpurged: something is left as long as somebody else reads, or the disk is full. The
+                next to open, purge or close the file sees to it.
         """
+        owed = self._owed()
+        if owed is None:
+            return
+        erased, compacted = owed
         try:
-            with self._translated():
-                self._connection.execute("VACUUM")
+            if compacted < erased:  # else only the log is left, and would grow with every attempt
+                self._compact(erased)
+        except Unwritable as error:
+            raise Unpurged(str(error)) from error
         finally:
             [(busy, _, _)] = self.rows("PRAGMA wal_checkpoint(TRUNCATE)")
         if busy:
-            raise Unwritable(
+            raise Unpurged(
                 f"what was erased may still be in {self.path}-wal while another program reads it;"
                 " end that program and erase again"
             )
+        with self.writing() as file:
+            if self._owed() == (erased, erased):  # nobody has deleted more meanwhile
+                file.execute("DROP TABLE owed")
+
+    def _purge_in_passing(self) -> None:
+        """Purge the files if that is owed and nobody has to be waited for."""
+        with contextlib.suppress(StoreError):
+            self.rows("PRAGMA busy_timeout = 0")
+            self.purge()
+
+    def _compact(self, erased: int) -> None:
+        with self._translated():
+            self._connection.execute("VACUUM")
+        with self.writing() as file:
+            file.execute("UPDATE owed SET compacted = max(compacted, ?)", (erased,))
+
+    def _owed(self) -> tuple[int, int] | None:
+        """How often was deleted, and up to which time compacted; None: nothing is owed."""
+        if not self.rows("SELECT 1 FROM sqlite_master WHERE name = 'owed'"):
+            return None
+        rows = self.rows("SELECT erased, compacted FROM owed")
+        return rows[0] if rows else None
 
     def cap(self, size: int) -> None:
         """Let the file grow to no more than `size` bytes, or than it has."""
         self.rows(f"PRAGMA max_page_count = {max(size // PAGE, 1)}")
 
     def close(self) -> None:
-        """Close the file."""
+        """Close the file, purged if that can be."""
+        self._purge_in_passing()
         with self._translated():
             self._connection.close()
 
@@ -177,6 +221,8 @@ class Database:
                 file.execute(f"PRAGMA user_version = {version}")
         if self.rows("PRAGMA quick_check(1)") != [("ok",)]:
             raise Damaged(_mend(self.path, "it is damaged"))
+        self._purge_in_passing()
+        self.rows(f"PRAGMA busy_timeout = {round(self._patience * 1000.0)}")
 
     def _set_up(self) -> None:
         self.rows("PRAGMA journal_mode = WAL")
@@ -204,13 +250,18 @@ class Database:
     def _translated(self) -> Iterator[None]:
         try:
             yield
-        except (sqlite3.OperationalError, sqlite3.DatabaseError) as error:
-            code = getattr(error, "sqlite_errorcode", None)
-            if code is None:
-                raise  # a fault of ours in using the library
+        except _UNFIT as error:
+            raise Unfit(f"this cannot be kept in {self.path}: {_plain(error)}") from error
+        except sqlite3.Error as error:
+            code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_MISUSE)
             if code & 0xFF in _BROKEN:
-                raise Damaged(_mend(self.path, str(error))) from error
-            raise Unwritable(_hint(self.path, str(error))) from error
+                raise Damaged(_mend(self.path, _plain(error))) from error
+            raise Unwritable(_hint(self.path, _plain(error))) from error
+
+
+def _plain(error: Exception) -> str:
+    """What an error says, without what cannot be printed."""
+    return str(error).encode(errors="backslashreplace").decode()
 
 
 def _mend(path: Path, problem: str) -> str:

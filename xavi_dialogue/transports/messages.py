@@ -22,7 +22,9 @@ from xavi_dialogue.language.context import Style
 from xavi_dialogue.transports.text import clean, one_line
 
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$")]
-Count = Annotated[int, msgspec.Meta(ge=0)]
+# What every language reads exactly, and every file holds (RFC 8259, 6).
+Whole = Annotated[int, msgspec.Meta(ge=1 - 2**53, le=2**53 - 1)]
+Count = Annotated[int, msgspec.Meta(ge=0, le=2**53 - 1)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
@@ -32,6 +34,7 @@ CarState = Literal["driving", "paused", "ended"]
 
 KIB = 1024
 MAX_TEXT = 4096  # characters of a question
+MAX_CHARACTER = 12  # bytes of one in JSON: two escapes such as \ud83d\ude00
 
 
 class MessageError(ValueError):
@@ -73,7 +76,7 @@ class SceneReport(Report, frozen=True, kw_only=True):
     LIMIT = 256 * KIB
 
     schema: Literal["xavi.scene/1"] = "xavi.scene/1"
-    vehicles: dict[int, VehicleState]
+    vehicles: dict[Whole, VehicleState]
     state: CarState
     speed_factor: float  # simulated seconds per second; 0: as fast as possible
     plan: tuple[Action, ...]
@@ -81,7 +84,7 @@ class SceneReport(Report, frozen=True, kw_only=True):
     events: Count  # reports on key `event` so far
     orders: Count = 0  # lines on its standard input that the car has obeyed
     scenario: Folder | None = None  # name or folder, and seed: how to drive the ride again
-    seed: int | None = None
+    seed: Whole | None = None
 
 
 class TraceReport(Report, frozen=True, kw_only=True):
@@ -105,7 +108,7 @@ class EventReport(Report, frozen=True, kw_only=True):
 class AskRequest(Message, frozen=True, kw_only=True):
     """A passenger's question."""
 
-    LIMIT = 16 * KIB
+    LIMIT = MAX_TEXT * MAX_CHARACTER + 4 * KIB
 
     schema: Literal["xavi.ask/1"] = "xavi.ask/1"
     request: Name
@@ -215,8 +218,8 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     request: Name
     trace_id: Name
     actions: Actions = ()  # that the ego takes first
-    removed: int | None = None  # a vehicle that is not there
-    vehicle: int | None = None  # another vehicle that acts as supposed:
+    removed: Whole | None = None  # a vehicle that is not there
+    vehicle: Whole | None = None  # another vehicle that acts as supposed:
     goal: Place | None = None  # where it goes: the kind of a goal, or its edge
     vehicle_actions: Actions = ()  # what it does first
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions

@@ -7,13 +7,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Self, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import msgspec
 
 from planner.events import Event
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.transports.database import Damaged, Database, TooLarge, Writing
+from xavi_dialogue.transports.database import Database, Unfit, Writing
+from xavi_dialogue.transports.rows import Line, Summary, checked, decoded, known
 
 VERSION = 1
 SCHEMA = "xavi.memory/1"  # of exported lines
@@ -71,40 +72,12 @@ class NewEvent:
 New: TypeAlias = NewTurn | NewEvent
 
 
-class Summary(msgspec.Struct, frozen=True):
-    """One session, as `xavi sessions` lists it."""
-
-    name: str
-    turns: int
-    first: float  # [s] wall time of the first turn that is kept
-    last: float  # [s] of the last
-    scenario: str | None  # of the last turn on a ride
-    seed: int | None
-    sim_time: float | None  # [s] at which that turn's question was asked
-    question: str  # of the last turn
-
-
-class _Line(msgspec.Struct, omit_defaults=True):
-    """One exported line: a turn, or an event."""
-
-    schema: str
-    session: str | msgspec.UnsetType = msgspec.UNSET
-    number: int | msgspec.UnsetType = msgspec.UNSET
-    ride: str | msgspec.UnsetType = msgspec.UNSET
-    seq: int | msgspec.UnsetType = msgspec.UNSET
-    wall_time: float | msgspec.UnsetType = msgspec.UNSET
-    turn: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
-    event: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
-
-
-class _Asked(msgspec.Struct):
-    text: str
-
-
 class Store:
     """The file of all conversations of one user; several processes may use it at once.
 
-    Every method raises StoreError where the file cannot be used; then it has changed nothing.
+    Every method raises StoreError where the file cannot be used; then it has changed nothing. Where
+    that is for one session's sake, the error is Damaged and says how to forget the session, which
+    needs nothing of it to be read.
     """
 
     def __init__(self, path: Path, *, patience: float = PATIENCE) -> None:
@@ -121,7 +94,7 @@ class Store:
         """Keep all of these, or none; an event that is there already stays as it is.
 
         Raises:
-            TooLarge: a turn has more than 256 KiB.
+            Unfit: a turn has more than 256 KiB, or something is no text or number for a file.
         """
         with self._file.writing() as file:
             for new in news:
@@ -138,27 +111,31 @@ class Store:
         """The latest turns of a session, oldest first."""
         sql = "SELECT turn FROM turns WHERE session = ? ORDER BY number DESC LIMIT ?"
         rows = self._file.rows(sql, (session, limit))
-        try:
-            return tuple(msgspec.json.decode(turn, type=Turn) for (turn,) in reversed(rows))
-        except (msgspec.MsgspecError, UnicodeDecodeError) as error:
-            raise Damaged(
-                f"a turn of session {session} in {self.path} cannot be read ({error});"
-                f" `xavi forget {session}` erases the session"
-            ) from error
+        return tuple(decoded(self.path, session, turn, Turn) for (turn,) in reversed(rows))
 
-    def sessions(self) -> tuple[Summary, ...]:
-        """All sessions, the one that was spoken in last at the end."""
+    def holds(self, session: str) -> bool:
+        """Whether there is anything of a session; whatever became of the names of others."""
+        return bool(self._file.rows("SELECT 1 FROM turns WHERE session = ? LIMIT 1", (session,)))
+
+    def names(self) -> tuple[str, ...]:
+        """Of all sessions; none of their turns is read."""
+        rows = self._file.rows("SELECT DISTINCT session FROM turns ORDER BY session")
+        return tuple(known(self.path, name) for (name,) in rows)
+
+    def sessions(self, name: str | None = None) -> tuple[Summary, ...]:
+        """All sessions, or that of a name, the one that was spoken in last at the end."""
         rows = self._file.rows(
             "SELECT name, count, first, last, scenario, seed, driven.sim_time, said.turn FROM"
             " (SELECT session AS name, count(*) AS count, min(wall_time) AS first,"
             " max(wall_time) AS last, max(number) AS latest,"
             " max(CASE WHEN ride IS NOT NULL THEN number END) AS riding"
-            " FROM turns GROUP BY session)"
+            " FROM turns WHERE ?1 IS NULL OR session = ?1 GROUP BY session)"
             " JOIN turns AS said ON said.session = name AND said.number = latest"
             " LEFT JOIN turns AS driven ON driven.session = name AND driven.number = riding"
-            " LEFT JOIN rides ON id = driven.ride ORDER BY last, name"
+            " LEFT JOIN rides ON id = driven.ride ORDER BY last, name",
+            (name,),
         )
-        return tuple(Summary(*(*row[:-1], _question(row[-1]))) for row in rows)
+        return tuple(Summary.of(self.path, row) for row in rows)
 
     def forget(self, session: str | None = None, before: float | None = None) -> int:
         """Erase turns, and the rides that nobody speaks of any more.
@@ -168,37 +145,43 @@ class Store:
             before: [s] wall time; None: all.
 
         Returns:
-            How many turns were erased.
+            How many turns were erased; after that, neither these nor those that were erased before
+            are in the files any more.
+
+        Raises:
+            Unpurged: they are erased, but still in the files: to be called again.
         """
         whose, when = "session = ?", "wall_time < ?"
         limits = {whose: session, when: before}
         given = {limit: value for limit, value in limits.items() if value is not None}
         chosen = " AND ".join(given) or "true"
         with self._file.writing() as file:
-            spoken = file.execute(
-                f"SELECT DISTINCT ride FROM turns WHERE {chosen}", [*given.values()]
+            spoken = (
+                "SELECT DISTINCT rides.rowid FROM rides JOIN turns ON turns.ride = rides.id"
+                f" WHERE {chosen}"
             )
-            rides = {ride for (ride,) in spoken if ride is not None}
+            rides = {row for (row,) in file.execute(spoken, [*given.values()])}
             erased = file.execute(f"DELETE FROM turns WHERE {chosen}", [*given.values()]).rowcount
             if session is None:
-                sql = "SELECT id FROM rides WHERE ? IS NULL OR begun < ?"
-                rides |= {ride for (ride,) in file.execute(sql, (before, before))}
+                sql = "SELECT rowid FROM rides WHERE ?1 IS NULL OR begun < ?1"
+                rides |= {row for (row,) in file.execute(sql, (before,))}
             silent = (
                 "DELETE FROM rides"
-                " WHERE id = ? AND NOT EXISTS (SELECT 1 FROM turns WHERE turns.ride = rides.id)"
+                " WHERE rowid = ? AND NOT EXISTS (SELECT 1 FROM turns WHERE turns.ride = rides.id)"
             )
-            gone = sum(file.execute(silent, (ride,)).rowcount for ride in sorted(rides))
-        if erased or gone:
-            self._file.purge()
+            gone = sum(file.execute(silent, (row,)).rowcount for row in sorted(rides))
+            if erased or gone:
+                self._file.owe(file)
+        self._file.purge()
         return erased
 
-    def questions(self, session: str | None = None, before: float | None = None) -> tuple[str, ...]:
-        """The questions of the turns that `forget` would erase."""
-        sql = (
-            "SELECT turn FROM turns WHERE (?1 IS NULL OR session = ?1)"
-            " AND (?2 IS NULL OR wall_time < ?2)"
-        )
-        return tuple(_question(turn) for (turn,) in self._file.rows(sql, (session, before)))
+    def purge(self) -> None:
+        """Let nothing be left in the files of what was erased, by whomever, if anything is.
+
+        Raises:
+            Unpurged: something is left.
+        """
+        self._file.purge()
 
     def expire(self, days: float, now: float) -> int:
         """Erase what is older than so many days; how many turns that were."""
@@ -212,13 +195,20 @@ class Store:
             f" WHERE {chosen} ORDER BY session, number"
         )
         for name, number, ride, wall_time, turn in self._file.rows(sql, given):
-            yield _json(_Line(SCHEMA, name, number, ride, wall_time=wall_time, turn=_raw(turn)))
+            fields = {"number": number, "ride": ride, "wall_time": wall_time}
+            yield self._line(name, {"session": name, **fields}, "turn", turn)
         sql = (
-            "SELECT ride, seq, event FROM events"
-            f" WHERE ride IN (SELECT ride FROM turns WHERE {chosen}) ORDER BY ride, seq"
+            "SELECT ride, seq, event,"
+            " (SELECT min(session) FROM turns WHERE turns.ride = events.ride)"
+            f" FROM events WHERE ride IN (SELECT ride FROM turns WHERE {chosen}) ORDER BY ride, seq"
         )
-        for ride, seq, event in self._file.rows(sql, given):
-            yield _json(_Line(SCHEMA, ride=ride, seq=seq, event=_raw(event)))
+        for ride, seq, event, name in self._file.rows(sql, given):
+            yield self._line(name, {"ride": ride, "seq": seq}, "event", event)
+
+    def _line(self, name: object, fields: dict[str, object], kind: str, text: object) -> str:
+        session = known(self.path, name)
+        held = decoded(self.path, session, text, dict[str, Any])
+        return _json(checked(self.path, session, {"schema": SCHEMA, **fields, kind: held}, Line))
 
     def sync(self) -> None:
         """Wait until what is kept outlives a power cut, too; a process that dies it does anyway."""
@@ -247,7 +237,7 @@ class Store:
         text = _json(new.turn)
         size = len(text.encode())
         if size > MAX_TURN:
-            raise TooLarge(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
+            raise Unfit(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
         ride = None if new.ride is None else new.ride.id
         row = (new.session, ride, new.turn.reply.sim_time, new.wall_time, text, new.session)
         file.execute(
@@ -268,17 +258,6 @@ def _keep_ride(file: Writing, ride: RideName, wall_time: float) -> None:
         " scenario = coalesce(scenario, excluded.scenario), seed = coalesce(seed, excluded.seed)",
         (ride.id, wall_time, ride.scenario, ride.seed),
     )
-
-
-def _question(turn: str) -> str:
-    try:
-        return msgspec.json.decode(turn, type=_Asked).text
-    except (msgspec.MsgspecError, UnicodeDecodeError):
-        return ""
-
-
-def _raw(text: str) -> msgspec.Raw:
-    return msgspec.Raw(text.encode())
 
 
 def _json(value: object) -> str:

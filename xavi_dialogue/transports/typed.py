@@ -1,9 +1,14 @@
-"""The lines that a passenger typed, kept for the arrow keys, until they are to be forgotten."""
+"""The lines that passengers typed, kept for the arrow keys, until they are to be forgotten.
+
+With each stands when it was typed, and in which session: what was typed is forgotten with what was
+said, also where nothing came of it. A line of which the session is not known goes with any.
+"""
 
 import os
 import re
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
@@ -12,78 +17,100 @@ from prompt_toolkit.history import FileHistory, InMemoryHistory
 _ENTRIES = re.compile(rb"^(?=# )", re.MULTILINE)  # lines that were typed begin with a plus
 
 
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    raw: bytes
+    time: datetime | None  # local; None: not known
+    session: str | None  # None: not known
+
+    def within(self, session: str | None, before: datetime | None) -> bool:
+        """Whether it was typed in a session, None being any, and before a moment, if any."""
+        if session is not None and self.session not in (None, session):
+            return False
+        return before is None or (self.time is not None and self.time < before)
+
+
 class TypedLines(FileHistory):
     """Lines in a file that only its owner can read."""
 
-    def __init__(self, file: Path) -> None:
+    def __init__(self, file: Path, session: str) -> None:
         super().__init__(str(file))
-        self._file = file
-        self._mine: set[str] = set()  # typed in this conversation
+        self._file, self._session = file, session
 
     def store_string(self, string: str) -> None:
         """See History."""
-        if not self._file.exists():
-            self._file.touch(mode=0o600)
-        self._mine.add(string)
-        super().store_string(string)
+        lines = "".join(f"+{line}\n" for line in string.split("\n"))
+        entry = f"\n# {datetime.now()} {self._session}\n{lines}"
+        flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND
+        with os.fdopen(os.open(self._file, flags, 0o600), "ab") as file:
+            file.write(entry.encode(errors="replace"))
 
-    def forget(self, questions: Collection[str]) -> None:
-        """Erase what was typed in this conversation, and wherever else a question was typed.
+    def forget(self) -> None:
+        """Erase what was typed in this session.
 
         Raises:
             OSError: the file cannot be written.
         """
-        gone = {question.strip() for question in questions}
-
-        def stays(entry: bytes) -> bool:
-            typed = _typed(entry)
-            return typed not in self._mine and not gone & {
-                " ".join(line.split()) for line in typed.splitlines()
-            }
-
-        self._keep(stays)
-        self._mine.clear()
+        erase(self._file, self._session)
         self._loaded_strings = [*self.load_history_strings()]
-
-    def expire(self, before: datetime) -> None:
-        """Erase what was typed before a moment of local time.
-
-        Raises:
-            OSError: the file cannot be written.
-        """
-        self._keep(lambda entry: not _older(entry, before))
-
-    def _keep(self, stays: Callable[[bytes], bool]) -> None:
-        """Write the file anew with the entries that stay, each with its time."""
-        if not self._file.exists():
-            return
-        entries = _ENTRIES.split(self._file.read_bytes())
-        kept = [entry for entry in entries if stays(entry)]
-        if len(kept) < len(entries):
-            new = self._file.with_name(f"{self._file.name}.{os.getpid()}")
-            new.touch(mode=0o600)
-            new.write_bytes(b"".join(kept))
-            new.replace(self._file)
 
 
 class UnkeptLines(InMemoryHistory):
     """Lines that are in no file."""
 
-    def forget(self, _: Collection[str]) -> None:
+    def forget(self) -> None:
         """Drop all of them."""
         self._storage.clear()
         self._loaded_strings = []
 
 
-def _typed(entry: bytes) -> str:
-    """What was typed, which may be several lines."""
-    lines = entry.decode(errors="replace").split("\n")
-    return "\n".join(line[1:] for line in lines if line.startswith("+"))
+def sessions(file: Path) -> frozenset[str]:
+    """The sessions in which something was typed, as far as they are known.
+
+    Raises:
+        OSError: the file cannot be read.
+    """
+    return frozenset(entry.session for entry in _entries(file) if entry.session is not None)
 
 
-def _older(entry: bytes, before: datetime) -> bool:
-    """Whether the time at the head of an entry is there, and before a moment."""
-    head = entry.partition(b"\n")[0].removeprefix(b"# ").decode(errors="replace")
-    with suppress(ValueError, TypeError):
-        return datetime.fromisoformat(head.strip()) < before
-    return False
+def erase(file: Path, session: str | None = None, before: datetime | None = None) -> None:
+    """Erase what was typed.
+
+    Args:
+        file: the file; there may be none.
+        session: whose; None: everybody's.
+        before: local time; None: all.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    if session is None and before is None:
+        _write(file, lambda _: False)
+    else:
+        _write(file, lambda entry: not entry.within(session, before))
+
+
+def _write(file: Path, stays: Callable[[_Entry], bool]) -> None:
+    """Write the file anew with the entries that stay, as they are."""
+    entries = [*_entries(file)]
+    kept = [entry.raw for entry in entries if stays(entry)]
+    if len(kept) < len(entries):
+        new = file.with_name(f"{file.name}.{os.getpid()}")
+        new.touch(mode=0o600)
+        new.write_bytes(b"".join(kept))
+        new.replace(file)
+
+
+def _entries(file: Path) -> Iterator[_Entry]:
+    if file.exists():
+        for raw in filter(None, _ENTRIES.split(file.read_bytes())):
+            yield _read(raw)
+
+
+def _read(raw: bytes) -> _Entry:
+    """An entry; its head is such as `# 2026-11-21 16:42:10.5 sunday`, or lacks the session."""
+    head = raw.partition(b"\n")[0].decode(errors="replace").split()
+    day, hour, session, *_ = [*head[1:], "", "", ""]
+    with suppress(ValueError):
+        return _Entry(raw, datetime.fromisoformat(f"{day} {hour}"), session or None)
+    return _Entry(raw, None, None)
