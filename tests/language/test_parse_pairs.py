@@ -40,3 +40,56 @@ def test_a_time_alone_is_put_into_the_question_before(before: str, text: str) ->
 @pytest.mark.parametrize("text", ["And vehicle 20?", "What about 2?"])
 def test_a_number_alone_is_a_vehicle(text: str) -> None:
     assert after("What did you do?", text).actor == f"vehicle:{text.strip('?').split()[-1]}"
+
+
+@pytest.mark.parametrize(
+    ("before", "text", "actor", "cause"),
+    [
+        ("Why did you stop?", "Because of the blue car?", "ego", "vehicle:blue"),
+        ("Why did you stop?", "The blue car?", "vehicle:blue", None),
+        ("Why did vehicle 1 stop?", "Because of vehicle 2?", "vehicle:1", "vehicle:2"),
+        ("Why did vehicle 1 stop?", "And vehicle 2?", "vehicle:2", None),
+        ("Why did you stop?", "Is it because of the other one?", "ego", "vehicle:other"),
+    ],
+)
+def test_what_is_laid_to_a_vehicle_is_not_what_it_did(
+    before: str, text: str, actor: str, cause: str | None
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor, found.factual) == ("why", actor, ("stop",))
+    assert found.hypothesised_cause == cause
+
+
+@pytest.mark.parametrize("text", ["No, I meant 2", "I meant vehicle 2.", "no i mean number 2"])
+def test_a_number_may_be_what_was_meant(text: str) -> None:
+    found = after("What is vehicle 1 doing?", text)
+    assert (found.type, found.actor, found.tense) == ("what", "vehicle:2", "present")
+
+
+@pytest.mark.parametrize("text", ["Is it safe?", "Is this safe?"])
+def test_it_is_what_we_do_where_nothing_is_compared(text: str) -> None:
+    found = after("What is vehicle 1 doing?", text)
+    assert (found.type, found.actor, found.event) == ("compare", "ego", "safer")
+
+
+@pytest.mark.parametrize(
+    ("text", "actor", "foil"),
+    [
+        ("what if hed stayed in the roundabout", "vehicle:it", "continue-next-exit"),
+        ("what if hed turned left", "vehicle:it", "exit-left"),
+        ("what if wed turned left", "ego", "exit-left"),
+        ("what if youd turned left", "ego", "exit-left"),
+    ],
+)
+def test_he_is_never_us(text: str, actor: str, foil: str) -> None:
+    found = query(text)
+    assert (found.type, found.actor, found.counterfactual) == ("what_if", actor, (foil,))
+
+
+@pytest.mark.parametrize(
+    ("text", "event"),
+    [("thx bye", "farewell"), ("thanks, goodbye", "farewell"), ("thx hi", "thanks")],
+)
+def test_who_says_goodbye_wants_no_more(text: str, event: str) -> None:
+    found = query(text)
+    assert (found.type, found.event) == ("smalltalk", event)

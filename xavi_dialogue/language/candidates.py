@@ -135,10 +135,13 @@ def _found(lattice: Lattice, cuts: Cuts, budget: Budget) -> list[tuple[float, Fo
     all_found: list[tuple[float, Found]] = []
     for index in _beginnings(tuple(edge.token for _, edge in cuts)):
         begin = cuts[index][0]
+        laid = index > 0 and cuts[index - 1][1].token.terminal == "BECAUSE"
         ends = frozenset({*_ends(cuts, index), len(lattice.edges)})
         before = _before(cuts, index)
         prices = Prices(costs().skip, None, limits.cost - before)
         for rule in STARTS:
+            if laid and rule == "replace":
+                continue  # "because of vehicle 2?" puts no vehicle into the question before
             for found in search(rule, lattice, begin, ends, prices, budget):
                 extra = before + _behind(tuple(e.token for at, e in cuts if at >= found.end))
                 if found.cost + extra <= limits.cost:

@@ -155,7 +155,9 @@ def _proposed(reading: Reading, tense: Tense) -> Query:
 
 
 def _again(reading: Reading, previous: Query) -> Query:
-    """A bare "why?" or "why not?" after another question."""
+    """A bare "why?" or "why not?" after another question; "because of vehicle 2?"."""
+    if reading.query.hypothesised_cause:
+        return _laid_to(reading, previous)
     if reading.query.negated:
         return _refer(
             previous, type="why_not", factual=None, counterfactual=_asked(previous), negated=False
@@ -205,10 +207,11 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
     arriving = query.type == "when" and reading.named_actor  # complete as it stands
     elliptic = query.type in ("confidence", "compare", "sensitivity", "when", "how")
     if _empty(query) and elliptic and not arriving and not _turns_away(reading, previous):
-        if not reading.named_actor:
+        compared = _asked(previous) if query.type == "compare" else None
+        if not reading.named_actor and (compared or query.type != "compare"):
             changes["actor"] = previous.actor
         if query.type == "compare":
-            changes["counterfactual"] = _asked(previous)
+            changes["counterfactual"] = compared
         else:
             changes["factual"] = previous.factual
             changes["counterfactual"] = previous.counterfactual

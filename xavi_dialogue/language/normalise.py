@@ -20,6 +20,7 @@ _CLOCK = re.compile(r"\d{1,3}:\d{2}")
 _PIECES = re.compile(r"[^\W\d_]+(?:['-][^\W\d_]+)*|(?<!\d)\d{1,3}:\d{2}(?!\d)|\d+|[.,;:!?…–—()-]")
 _MARKS = frozenset(".,;:!?…–—()-")
 _MODALS = frozenset({"could", "would", "should", "might", "must"})
+_SUBJECTS = frozenset({"i", "you", "he", "she", "it", "we", "they"})
 BREAK = ","  # how every clause mark is written from here on
 
 
@@ -78,9 +79,14 @@ def _supposing(words: list[str], pieces: list[str]) -> list[str]:
 
 
 def _mend(words: list[str]) -> None:
-    """Put "could of" and "you had have" right, in which an "have" and a "would" were misheard."""
-    if words[-1] == "of" and words[-2:-1] and words[-2] in _MODALS:
-        words[-1] = "have"
+    """Put "could of" and "you had have" right, in which an "have" and a "would" were misheard.
+
+    So, too, "would we of".
+    """
+    if words[-1] == "of" and words[-2:-1]:
+        asked = words[-2] in _SUBJECTS and words[-3:-2] and words[-3] in _MODALS
+        if words[-2] in _MODALS or asked:
+            words[-1] = "have"
     if words[-2:] == ["had", "have"]:
         words[-2] = "would"
 

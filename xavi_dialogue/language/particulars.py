@@ -32,7 +32,7 @@ MEASURES: dict[str, frozenset[str]] = {
 }
 #: `Query.event` of small talk, that which asks most for an answer first.
 COURTESIES = (
-    *("quiz", "repeat", "recall", "identity", "thanks", "greeting", "farewell"),
+    *("quiz", "repeat", "recall", "identity", "farewell", "thanks", "greeting"),
     *("dissent", "assent"),
 )
 #: Actors that a comparison does not speak of: our own car, and pronouns for what is compared.
@@ -176,6 +176,14 @@ def _leaning(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return fields
 
 
+def _again(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    """A bare "why?"; "because of vehicle 2?" says what the reason may be."""
+    fields = _leaning(tree, ()) | {"negated": "NOT" in terminals(tree)}
+    because = first(tree, "because")
+    cause = first(because, "actor") if because else None
+    return fields | ({"hypothesised_cause": actor(cause)} if cause else {})
+
+
 def _courtesy(whole: tuple[Token, ...]) -> str | None:
     """What kind of small talk it is: that which asks most for an answer."""
     said = {value for t in whole for terminal, value in t.senses if terminal == "SMALL"}
@@ -196,7 +204,7 @@ PARTICULARS: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "smalltalk": lambda _tree, whole: {"event": _courtesy(whole)},
     "more": _detail("more"),
     "less": _detail("less"),
-    "again": lambda tree, _whole: _leaning(tree, ()) | {"negated": "NOT" in terminals(tree)},
+    "again": _again,
     "replace": _leaning,
     "correction": _leaning,
     "command": _command,
