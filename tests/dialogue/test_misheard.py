@@ -4,7 +4,7 @@ import pytest
 
 from tests.dialogue.talking import Talk
 
-SLOWED = "I did not stop. I slowed down at 0:29."
+SLOWED = "I did not stop. I slowed down at 0:28."
 
 
 @pytest.mark.parametrize(
