@@ -64,4 +64,4 @@ def test_lines_break_at_spaces_alone() -> None:
     for width in range(10, 100):
         lines = commands.wrapper(width).wrap(note)
         assert [word for line in lines for word in line.split()] == note.split()
-        assert max(map(len, lines)) <= max(width, len(name) + 1)
+        assert max(map(len, lines)) <= max(width, len("20261121-164210-3f9c:"))

@@ -285,17 +285,23 @@ def _expectation(
     asked: tuple[QueryAction, ...],
     moment: float | None = None,
 ) -> Explanation:
-    """What a decision expects of a vehicle: its likeliest actions, and the likeliest goal."""
-    model = ride.model(trace)
+    """What a decision expects of a vehicle: its likeliest actions, and the likeliest goal.
+
+    Raises:
+        Unanswered: the record lacks its goals, or its motion up to then.
+    """
     known = prediction(trace, vehicle)
     assert known is not None
     ranked = sorted(range(len(known.goals)), key=lambda g: -known.goals[g].probability)
+    motion = ride.motion(vehicle).until(trace.sim_time)
+    if not ranked or not motion.speed:
+        raise decline("trace-gap", vehicle=vehicle, time=trace.sim_time)
+    model = ride.model(trace)
     aim = known.goals[ranked[0]]
     actions, probability = likeliest(model, vehicle, ranked[0])
     rival: tuple[QueryAction, ...] = ()
     if len(ranked) > 1 and known.goals[ranked[1]].probability >= NEARLY * aim.probability:
         rival, _ = likeliest(model, vehicle, ranked[1])
-    motion = ride.motion(vehicle).until(trace.sim_time)
     return Explanation(
         factual=tuple(a for a in actions if a in asked),
         counterfactual=(),
