@@ -109,8 +109,8 @@ def _timed(now: Situation, meant: Understood) -> Understood | Said:
     when = _when(now)
     if when is None:
         onward = goes_on(now.asked.text) and not query.factual
-        leans = query.refers_to_previous or onward
-        if last is None or not leans or query.tense != "past":
+        leans = (query.refers_to_previous or onward) and query.tense == "past"
+        if last is None or not leans or _turns_to_us(query, last):
             return replace(meant, focus=None)
         return replace(meant, focus=last.focus or meant.focus)
     found = resolve(when, now.record, query)
@@ -119,6 +119,15 @@ def _timed(now: Situation, meant: Understood) -> Understood | Said:
     if found is None:
         return meant
     return replace(meant, query=tensed(query, found), focus=found)
+
+
+def _turns_to_us(query: Query, last: Turn) -> bool:
+    """Whether a question is about what we decided, after one about what another vehicle did.
+
+    The time that was spoken of was that vehicle's.
+    """
+    other = last.query is not None and last.query.actor != "ego"
+    return other and query.type in ("what_if", "why_not", "compare", "sensitivity", "how_avoid")
 
 
 def _when(now: Situation) -> When | None:
