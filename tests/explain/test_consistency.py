@@ -6,7 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from planner.events import Event
-from planner.trace import Action, PlanTrace
+from planner.trace import Action, HeldUp, PlanTrace
 from tests.explain.asking import told
 from tests.traces import Aim, End, Way, World, s1_ride, s2_ride, straight_track, trace_of
 from xavi_dialogue.explain.explanation import Explanation, NoExplanation
@@ -161,6 +161,22 @@ def standing(turns: float, halts: float) -> Record:
     return Record(4.0, (trace_of(world, draws=20, time=4.0, history={1: track}),))
 
 
+def test_who_may_be_in_the_way_of_what_waits_is_named_as_such() -> None:
+    (trace,) = standing(0.4, 0.2).traces
+    held = HeldUp(0, 4.0, 9.0, "blocked", 0.0, 0.0)
+    (known,) = trace.predictions
+    goals = tuple(
+        replace(g, trajectories=tuple(replace(w, held_up=(held,)) for w in g.trajectories))
+        if g.kind == "continue"
+        else g
+        for g in known.goals
+    )
+    blocked = replace(trace, predictions=(replace(known, goals=goals),))
+    assert say(about("why"), Record(4.0, (blocked,))) == (
+        "Vehicle 1 may be waiting because I am standing ahead of it."
+    )
+
+
 def about(kind: str, *, asked: bool = False, tense: str = "present") -> Query:
     factual = ("stop",) if asked else None
     return Query(type=kind, actor="vehicle:1", factual=factual, tense=tense)  # type: ignore[arg-type]
@@ -170,7 +186,7 @@ def about(kind: str, *, asked: bool = False, tense: str = "present") -> Query:
 def test_why_it_stands_is_asked_of_its_waiting(asked: bool) -> None:
     text = say(about("why", asked=asked), standing(0.7, 0.2))
     assert text == (
-        "I cannot tell what vehicle 1 is waiting for: nothing that I foresee is in its way."
+        "I cannot tell what vehicle 1 is waiting for: I see nobody who is likely to be in its way."
     )
 
 

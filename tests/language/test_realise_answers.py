@@ -78,7 +78,7 @@ def grounds(**changes) -> Grounds:
         ),
         (
             {"probability": 0.6, "latest": 0.1},
-            "At 0:20 I put the chance that vehicle 1 would turn right at 60 %, but later at 10 %.",
+            "At 0:20 I put the chance that vehicle 1 would turn right at 60 %, but now at 10 %.",
         ),
     ],
 )

@@ -67,14 +67,22 @@ def behind(found: Explanation, ride: Ride, vehicle: int, seen: Sighting) -> Expl
     return _explained(found, ride, [nearest], vehicle, _within(seen.start, seen.start))
 
 
-def at_present(found: Explanation, ride: Ride, vehicle: int) -> Explanation:
-    """With those who make a vehicle brake or stand, if it is now seen to."""
+def at_present(found: Explanation, ride: Ride, vehicle: int, least: float = LIKELY) -> Explanation:
+    """With those who make a vehicle brake or stand, if it is now seen to.
+
+    Args:
+        found: what is explained beside.
+        ride: the record.
+        vehicle: that brakes or stands.
+        least: how probable it must be that somebody is in its way.
+    """
     trace = ride.traces[-1] if ride.traces else None
     if trace is None or ride.now - trace.sim_time > FRESH or prediction(trace, vehicle) is None:
         return found
     if ride.motion(vehicle).trend not in ("slowing", "standing"):
         return found
-    return _explained(found, ride, [trace], vehicle, _within(trace.sim_time, ride.now))
+    window = _within(trace.sim_time, ride.now)
+    return _explained(found, ride, [trace], vehicle, window, least=least)
 
 
 def foreseen(
@@ -97,10 +105,11 @@ def _explained(
     vehicle: int,
     relevant: Callable[[HeldUp], bool],
     given: frozenset[Choice] | None = None,
+    least: float = LIKELY,
 ) -> Explanation:
     met = _meetings(ride, traces, vehicle, relevant, given)
-    named = [other for other in sorted(met) if _share(met[other]) >= LIKELY]
-    if not named and _share([one for ones in met.values() for one in ones]) >= LIKELY:
+    named = [other for other in sorted(met) if _share(met[other]) >= least]
+    if not named and _share([one for ones in met.values() for one in ones]) >= least:
         named = [max(sorted(met), key=lambda other: _share(met[other]))]
     if not named:
         return found

@@ -211,7 +211,7 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
     if query.tense == "present" and set(asked) <= HALTS and halted(ride, vehicle):
         since = ride.motion(vehicle).since_standing
         waiting = _expectation(ride, last_with(ride, vehicle), vehicle, asked, since)
-        return hindered.at_present(waiting, ride, vehicle)
+        return hindered.at_present(waiting, ride, vehicle, least=EXPECTED)
     found = [last_time(ride, vehicle, action) for action in asked]
     if query.tense == "present":
         found = [s if s and s.end >= ride.now - RECENT else None for s in found]

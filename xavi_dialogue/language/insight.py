@@ -98,6 +98,7 @@ def _grounds(
         fell=grounds.since is not None and grounds.latest < EVEN,
         at=Quantity(found.sim_time, "clock"),
         latest=_chance(grounds.latest),
+        current=query.tense != "past" and not grounds.done and found.seen is None,
         start=start if grew and quantity(start) != quantity(end) else None,
         end=end if grew else None,
         before=_chance(grounds.before),

@@ -227,7 +227,8 @@ class GroundsPoint:
     doubted: bool  # it was not more probable than not
     fell: bool  # it was, and is no longer
     at: Quantity  # when the chance was that
-    latest: Quantity  # the chance by the latest decision
+    latest: Quantity  # the chance by the latest decision ...
+    current: bool  # ... which is of now
     start: Quantity | None  # decisions between which the belief grew most, if at different times
     end: Quantity | None  # None: it never grew
     before: Quantity
