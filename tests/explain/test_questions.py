@@ -235,6 +235,23 @@ def test_a_way_out_that_collides_as_well_is_none():
     assert found.avoidance.other == pytest.approx(0.6)
 
 
+def test_why_we_collided_is_what_was_expected_and_what_would_have_avoided_it():
+    found = ask(crash_ride(), type="why", event="crash")
+    impact = found.impact
+    assert (impact.vehicle, impact.decided, found.moment) == (1, 4.0, 8.0)
+    assert impact.chance == pytest.approx(0.8)
+    assert (found.counterfactual[0], found.avoidance.possible) == ("change-left", True)
+    when = ask(crash_ride(), type="when", event="crash")
+    assert (when.moment, when.impact, when.avoidance) == (8.0, impact, None)
+
+
+def test_a_collision_before_anything_was_planned_has_no_known_reason():
+    early = crash_ride()
+    events = (Event("collided", 2.0, vehicle=1),)
+    found = ask(Ride(8.0, early.traces, events), type="why", event="crash")
+    assert (found.impact.vehicle, found.impact.chance, found.avoidance) == (1, None, None)
+
+
 def test_what_did_not_happen_needs_no_avoiding():
     assert ask(S1, type="how_avoid", event="crash").facts["what"] == "crash"
     assert ask(S1, type="how_avoid", factual=("stop",)).reason == "did-not-happen"

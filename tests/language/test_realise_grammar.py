@@ -40,6 +40,7 @@ STARTS = {
         "METHOD",
         "SURENESS",
         "EVASION",
+        "IMPACT",
         "FACTOR",
         "UNMOVED",
         "COMPARISON",

@@ -12,6 +12,8 @@ from sim.scene import EGO
 from xavi_dialogue.dialogue.memory import Memory
 from xavi_dialogue.dialogue.referents import PREFIX
 from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.avoidance import CRASH
+from xavi_dialogue.explain.details import Impact
 from xavi_dialogue.explain.explanation import Cause, Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query, QueryAction
 
@@ -37,6 +39,8 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         return query
     if found is None:
         return _of_refusal(query, last)
+    if found.impact is not None:
+        return _of_collision(before, found.impact)
     if before.type == "what":
         return _of_doing(query, found)
     if before.type not in (*_REASONED, "confidence", "how", "where_goal"):
@@ -83,6 +87,17 @@ def _of_doing(query: Query, found: Explanation) -> Query:
     if doing is None or not told or query.factual or not doing.actions:
         return query
     return msgspec.structs.replace(query, factual=doing.actions[:1])
+
+
+def _of_collision(before: Query, impact: Impact) -> Query | None:
+    """After an answer that told of a collision: why, and then what we expected of that vehicle."""
+    if before.type not in ("why", "how"):
+        return Query(type="why", event=CRASH, refers_to_previous=True)
+    if impact.vehicle is None or not impact.actions:
+        return None
+    expected = _last_of(impact.actions)
+    actor = f"{PREFIX}{impact.vehicle}"
+    return Query(type="how", actor=actor, factual=expected, refers_to_previous=True)
 
 
 def _reasoned(memory: Memory) -> Turn | None:

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from msgspec.structs import replace
 
+from planner.events import Event
 from planner.trace import Action, PlanTrace, Rollout
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import effects
@@ -85,13 +86,18 @@ def how_avoid(query: Query, ride: Ride) -> Explanation:
     return _without_options(ride, mishap, moment, looked)
 
 
+def crashed(ride: Ride) -> Event | None:
+    """The last collision, if there was one."""
+    return next((event for event in reversed(ride.events) if event.kind == "collided"), None)
+
+
 def _mishap(query: Query, ride: Ride) -> tuple[Mishap, float]:
     """What happened and when [s]: what the question names, else the worst.
 
     Raises:
         Unanswered: it did not happen.
     """
-    crash = next((e for e in reversed(ride.events) if e.kind == "collided"), None)
+    crash = crashed(ride)
     motion = ride.motion(EGO)
     named = [NAMED[action] for action in query.factual or () if action in NAMED]
     if not named:

@@ -63,6 +63,20 @@ class Avoidance(msgspec.Struct, frozen=True):
     options: int  # that were looked at
 
 
+class Impact(msgspec.Struct, frozen=True):
+    """A collision that happened, and what the last decision before it expected.
+
+    Without such a decision that knew the vehicle, `decided` and all after it is absent.
+    """
+
+    vehicle: int | None  # that we collided with, where that is known
+    decided: float | None = None  # [s] when that decision was taken
+    chance: float | None = None  # of a collision with that vehicle under its plan
+    actions: tuple[Action, ...] = ()  # what it expected of that vehicle before anything else ...
+    probability: float = 0.0  # ... and how surely
+    deed: QueryAction | None = None  # what we did last, where the question is of all that happened
+
+
 class Pivot(msgspec.Struct, frozen=True):
     """What a decision hangs on.
 

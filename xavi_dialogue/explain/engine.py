@@ -88,7 +88,7 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
     """
     try:
         ride = Ride(record)
-        return _dated(query, ride, _checked(query, ride, _explainer(query)(query, ride)))
+        return _dated(query, ride, _checked(query, ride, _explainer(query, ride)(query, ride)))
     except Unanswered as unanswered:
         return unanswered.result
     except CausalError:  # a record that contradicts itself explains nothing
@@ -129,6 +129,8 @@ def _dated(query: Query, ride: Ride, found: Explanation) -> Explanation:
     So too where it asks of what might have been done, names nothing that was, and it is an
     earlier decision that tells: a later one may find otherwise.
     """
+    if found.impact is not None:
+        return found  # it has a time of its own
     if ride.past is None and ride.ahead is None and _is_old(query, ride, found):
         return replace(found, then=found.sim_time)
     if (ride.past is None and ride.ahead is None) or query.type not in DATED:
@@ -155,13 +157,15 @@ def _of_another(found: Explanation) -> bool:
     return found.activity is not None and found.activity.vehicle != OURSELVES
 
 
-def _explainer(query: Query) -> Explainer:
+def _explainer(query: Query, ride: Ride) -> Explainer:
     if query.type == "out_of_scope" and query.reason == "not-an-action":
         raise decline("not-an-action")
     if query.type == "ambiguous":
         raise decline("ambiguous")
     if collision.names_collision(query):
         return collision.collision
+    if collision.tells_collision(query, ride):
+        return collision.happened
     if (aspect := _aspect(query)) is not None:
         return aspect
     if _ours(query) and query.event == timing.ARRIVAL:

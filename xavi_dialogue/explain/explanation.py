@@ -14,6 +14,7 @@ from xavi_dialogue.explain.details import (
     Choices,
     Contrary,
     Grounds,
+    Impact,
     Need,
     Pivot,
     Ranking,
@@ -145,6 +146,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     - How about another vehicle: `grounds`. How about the ego: `options` with the best of them
       as a contrast, or the `steps` that are still to come.
     - Which is safer or smoother: as for a foil, with a `ranking` by that measure.
+    - Of a collision that happened: `impact` at `moment`; why, with the `avoidance` too.
     - How to avoid, what matters: `avoidance` or `pivot`, with the alternative as a contrast.
 
     By the aspect that a question has beside its type:
@@ -178,6 +180,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
     grounds: Grounds | None = None
     certainty: Certainty | None = None
     avoidance: Avoidance | None = None
+    impact: Impact | None = None
     pivot: Pivot | None = None
     ranking: Ranking | None = None
     suspect: Suspect | None = None

@@ -12,6 +12,7 @@ from xavi_dialogue.explain.query import Query, Tense
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points, suspect_point
 from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, staying, vehicle_of
 from xavi_dialogue.language.hindrance import in_the_way
+from xavi_dialogue.language.impact import ImpactPoint, impact_point
 from xavi_dialogue.language.insight import EVEN, insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.options import Aspect, aspect
@@ -22,7 +23,7 @@ from xavi_dialogue.language.ranking import Comparison, comparison
 from xavi_dialogue.language.sights import pace
 
 #: All that an answer may say.
-AnyContent: TypeAlias = Content | Comparison | Aspect
+AnyContent: TypeAlias = Content | Comparison | Aspect | ImpactPoint
 SPREAD = 2.0  # [s] a range of times worth giving
 
 
@@ -30,6 +31,8 @@ def select(query: Query, found: Explanation, budget: Budget, now: float) -> AnyC
     """What to say at time `now` [s] in answer to `query`, within `budget`."""
     actor = vehicle_of(query.actor)
     watched = found.activity or found.destination
+    if found.impact is not None:
+        return impact_point(query, found, found.impact, budget, now)
     aside = aspect(query, found, budget, now)
     if aside is not None:
         return aside

@@ -215,6 +215,7 @@ def _inherit(reading: Reading, query: Query, previous: Query) -> Query:
         else:
             changes["factual"] = previous.factual
             changes["counterfactual"] = previous.counterfactual
+            changes |= {"event": CRASH} if previous.event == CRASH else {}
         if not reading.tensed:
             changes["tense"] = previous.tense
     if query.actor == "vehicle:unknown" and not reading.tensed:

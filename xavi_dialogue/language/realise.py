@@ -16,6 +16,7 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.content import AnyContent, select
 from xavi_dialogue.language.context import SpeechContext, Utterance
 from xavi_dialogue.language.generator import Token, expand
+from xavi_dialogue.language.impact import ImpactPoint
 from xavi_dialogue.language.morphology import inflect
 from xavi_dialogue.language.options import NeedPoint, OptionsPoint, StayPoint
 from xavi_dialogue.language.orthography import capitalise, count_sentences, count_words, join
@@ -56,6 +57,7 @@ RULES: dict[type, str] = {
     Method: "METHOD",
     Sureness: "SURENESS",
     Evasion: "EVASION",
+    ImpactPoint: "IMPACT",
     Factor: "FACTOR",
     Unmoved: "UNMOVED",
     Comparison: "COMPARISON",
@@ -101,7 +103,7 @@ def stages(query: Query, found: Explanation, context: SpeechContext) -> Stages:
     Style `paper` applies to contrasts, of which alone the paper has sentences. Style `passenger`
     takes the fullest wording that keeps within its limits of words and sentences.
     """
-    if context.style == "paper" and found.counterfactual and found.outcome is not None:
+    if context.style == "paper" and _contrasts(found):
         return _paper(found, context)
     more = context.detail == "more"
     limit = MAX_WORDS_MORE if more else MAX_WORDS
@@ -111,6 +113,10 @@ def stages(query: Query, found: Explanation, context: SpeechContext) -> Stages:
         if short and count_words(made.text) <= limit:
             break
     return made
+
+
+def _contrasts(found: Explanation) -> bool:
+    return bool(found.counterfactual) and found.outcome is not None and found.impact is None
 
 
 def _budgets(context: SpeechContext) -> Iterator[Budget]:

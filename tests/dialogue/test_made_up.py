@@ -1,0 +1,89 @@
+"""Answers about made-up rides: what rides seldom bring, and what was answered wrongly."""
+
+from functools import cache
+
+import pytest
+
+from tests import oddities, stories
+from tests.dialogue.talking import MIND
+from xavi_dialogue.app.local import Conversation, NoPlan
+from xavi_dialogue.dialogue.events import EventRecorded, TraceRecorded
+from xavi_dialogue.dialogue.manager import fold
+from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.transports.ride_file import RecordedRide, key
+
+
+@cache
+def made_up() -> dict[str, RecordedRide]:
+    return stories.rides() | oddities.rides()
+
+
+@cache
+def driven(name: str) -> Dialogue:
+    ride = made_up()[name]
+    return fold(MIND, [*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events)])
+
+
+def hear(name: str, *texts: str) -> str:
+    """The reply to the last of some questions in one conversation about a ride."""
+    ride = made_up()[name]
+
+    def again(_, need):
+        if key(need) not in ride.whatifs:
+            raise NoPlan("planner-unavailable")
+        return ride.whatifs[key(need)]
+
+    talk = Conversation(MIND, again, driven(name))
+    return [talk.ask(text, ride.halt).text for text in texts][-1]
+
+
+# Collisions ----------------------------------------------------------------------------------
+
+COLLIDED = "We collided with the car ahead on the left (vehicle 1) at 0:09."
+REASON = (
+    "At 0:07 I expected it to go straight on (70 %), and put the chance of hitting it at 30 %. "
+    "Had I stopped then, that of any collision would have been under 5 %."
+)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("When did we crash?", "Did we hit vehicle 1?", "Did we crash?", "Will we crash?"),
+        *("Whom did we crash into?", "When did we hit vehicle 1?"),
+    ],
+)
+def test_a_collision_is_told_with_whom_and_when(text: str) -> None:
+    assert hear("crash", text) == COLLIDED
+
+
+@pytest.mark.parametrize("text", ["What happened?", "Who did we hit?", "Are we there yet?"])
+def test_a_collision_is_what_happened(text: str) -> None:
+    told = "I went straight on, and at 0:09 we collided with the car ahead on the left (vehicle 1)."
+    assert hear("crash", text) == told
+
+
+@pytest.mark.parametrize(
+    "text", ["Why did we crash?", "Why did you hit vehicle 1?", "What caused the crash?"]
+)
+def test_nobody_decides_to_collide(text: str) -> None:
+    assert hear("crash", text) == f"We collided with vehicle 1 at 0:09. {REASON}"
+
+
+@pytest.mark.parametrize("before", ["Did we crash?", "What happened?", "When did we crash?"])
+def test_why_after_a_collision_asks_of_it(before: str) -> None:
+    assert hear("crash", before, "Why?").endswith(REASON)
+    beneath = "I put the chance that vehicle 1 would go straight on at 70 %."
+    assert hear("crash", before, "Why?", "Why?").startswith(beneath)
+    assert "at 0:09" in hear("crash", before, "When?")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("Why did you crash into vehicle 1?", "When did we crash?", "Why did we crash?"),
+        *("Did we hit vehicle 1?", "Did we crash?"),
+    ],
+)
+def test_where_there_was_no_collision_that_is_said(text: str) -> None:
+    assert hear("hindered", text).startswith("We have not collided with anybody.")
