@@ -58,5 +58,11 @@ def test_planning_again_is_part_of_a_local_answer() -> None:
     conversation = Conversation(scripted_mind(), again)
     drive_to(s1_moments(), conversation, None)
     assert conversation.ask("answer", 7.0).kind == "answer"
-    refused = conversation.ask("lack", 7.0)  # of a decision that was never taken
+    assert conversation.ask("lack", 7.0).kind == "answer"
+    assert len(conversation.dialogue.planned) == 1
+
+
+def test_a_decision_that_was_never_taken_cannot_be_planned_again() -> None:
+    conversation = Conversation(scripted_mind(), again)
+    refused = conversation.ask("lack", 7.0)
     assert (refused.kind, refused.reason) == ("refusal", "planner-failed")
