@@ -9,6 +9,7 @@ from planner.events import Event
 from planner.trace import Action, HeldUp, PlanTrace
 from tests.explain.asking import told
 from tests.traces import Aim, End, Way, World, s1_ride, s2_ride, straight_track, trace_of
+from xavi_dialogue.explain.engine import settled
 from xavi_dialogue.explain.explanation import Explanation, NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.record import Record
@@ -32,10 +33,10 @@ def say(query: Query, record: Record) -> str:
 def lane(time: float, left: float, plan: Action = "continue", alone: bool = False) -> PlanTrace:
     """A decision: straight on takes 10 s, and the left lane `left` [s]."""
     aims = {1: (Aim("continue", 1.0, (Way(("continue",)),)),)}
-    plans = (("continue",),) if alone else (("continue",), ("change-left",))
+    plans: tuple[tuple[Action, ...], ...] = (("continue",), ("change-left",))
     world = World(
         aims,
-        plans,
+        plans[:1] if alone else plans,
         lambda actions, _: (End(time=left if actions[0] == "change-left" else 10.0), 1),
         plan=(plan,),
     )
@@ -210,9 +211,9 @@ def test_a_belief_that_never_was_is_told_as_it_is_now() -> None:
     assert "at 10 %" in say(about("how", asked=True), record)
 
 
-def test_what_is_improbable_is_not_expected_and_its_chance_is_told() -> None:
-    assert say(about("what", asked=True, tense="future"), standing(0.7, 0.2)) == (
-        "I do not expect vehicle 1 to stop: I put the chance of that at 20 %."
+def test_whether_what_stands_will_stop_is_whether_it_will_stay() -> None:
+    assert say(about("what", asked=True, tense="future"), standing(0.4, 0.35)) == (
+        "I cannot tell yet whether vehicle 1 will turn right or stay where it is."
     )
 
 
@@ -236,3 +237,12 @@ def test_below_one_half_nothing_is_believed() -> None:
         "I cannot tell yet whether vehicle 1 will turn right or go straight on. "
         "Judging by its path, I put the chance that it will turn right at 45 %."
     )
+
+
+def test_what_is_improbable_is_not_expected_and_its_chance_is_told() -> None:
+    turns = Query(type="what", actor="vehicle:1", factual=("exit-left",), tense="future")
+    assert say(turns, driving(0.5)) == (
+        "I do not expect vehicle 1 to turn left: I put the chance of that at 20 %."
+    )
+    either = settled(replace(turns, underspecified="direction"), driving(0.5))
+    assert "not expect" not in say(either, driving(0.5))

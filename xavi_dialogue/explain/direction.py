@@ -14,7 +14,7 @@ from xavi_dialogue.explain.motion import foresees
 from xavi_dialogue.explain.premise import TURNS
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, planned, prediction
-from xavi_dialogue.explain.vehicles import vehicle_of
+from xavi_dialogue.explain.vehicles import matching, vehicle_of
 
 MIRRORED: dict[QueryAction, QueryAction] = {
     "change-left": "change-right",
@@ -86,7 +86,10 @@ def _turn(
 
 
 def _known(query: Query, ride: Ride) -> Callable[[QueryAction], bool]:
-    """Tells whether the one asked about did an action, or is expected to."""
+    """Tells whether the one asked about did an action, or is expected to.
+
+    What another may do to either side, it is expected to do to the likelier one.
+    """
     vehicle = vehicle_of(query)
     if vehicle is None or vehicle == 0:
         plan = planned(ride.latest)
@@ -94,6 +97,14 @@ def _known(query: Query, ride: Ride) -> Callable[[QueryAction], bool]:
     motion = ride.motion(vehicle)
     expected = prediction(ride.latest, vehicle)
     ways = [way for goal in expected.goals for way in goal.trajectories] if expected else []
+    if query.tense == "future" and query.underspecified == "direction" and expected:
+        model = ride.model(ride.latest)
+        chances = model.choices(vehicle)
+
+        def chance(action: QueryAction) -> float:
+            return sum(chances[way] for way in matching(model, vehicle, (action,)))
+
+        return lambda action: chance(action) > chance(MIRRORED.get(action, action))
     if query.tense == "future":
         return lambda action: any(foresees(way, action) for way in ways)
     return lambda action: motion.last(action) is not None

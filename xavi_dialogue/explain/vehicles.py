@@ -208,7 +208,8 @@ def halted(ride: Ride, vehicle: int) -> bool:
 
 
 def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...]) -> Explanation:
-    if query.tense == "present" and set(asked) <= HALTS and halted(ride, vehicle):
+    present = query.tense == "present" or (bool(asked) and query.tense == "future")
+    if present and set(asked) <= HALTS and halted(ride, vehicle):
         since = ride.motion(vehicle).since_standing
         waiting = _expectation(ride, last_with(ride, vehicle), vehicle, asked, since)
         return hindered.at_present(waiting, ride, vehicle, least=EXPECTED)
