@@ -93,3 +93,99 @@ def test_he_is_never_us(text: str, actor: str, foil: str) -> None:
 def test_who_says_goodbye_wants_no_more(text: str, event: str) -> None:
     found = query(text)
     assert (found.type, found.event) == ("smalltalk", event)
+
+
+@pytest.mark.parametrize(
+    ("before", "text", "kind", "actor", "event"),
+    [
+        (None, "how fast we goin", "out_of_scope", "ego", "speed"),
+        (None, "how fast are we going", "out_of_scope", "ego", "speed"),
+        (None, "how fast vehicle 1 going", "out_of_scope", "vehicle:1", "speed"),
+        (None, "How far is it?", "when", "ego", "arrival"),
+        ("Why did you change lanes?", "How far is it?", "when", "ego", "arrival"),
+        ("What is vehicle 1 doing?", "How far is it?", "when", "vehicle:1", "distance"),
+        (None, "how many cars round us", "out_of_scope", "ego", "count"),
+        (None, "anyone coming", "out_of_scope", "ego", "count"),
+        ("Why did you change lanes?", "anyone coming?", "out_of_scope", "ego", "count"),
+        (None, "anyone coming from the right", "what", "vehicle:from-right", None),
+        (
+            "What is vehicle 1 doing?",
+            "what about from the right",
+            "what",
+            "vehicle:from-right",
+            None,
+        ),
+        (None, "What is the car coming from the right doing?", "what", "vehicle:right", None),
+        (None, "which one is the closest", "where_goal", "vehicle:nearest", "place"),
+        (None, "What is the nearest car doing?", "what", "vehicle:nearest", None),
+        (None, "Which lane is this?", "what", "ego", "lane"),
+        (None, "what else could we do here", "what", "ego", "options"),
+        ("Why did you slow down?", "And what now?", "what", "ego", None),
+        ("Why did you slow down?", "Tell me more about vehicle 1", "what", "vehicle:1", None),
+        ("What is vehicle 1 doing?", "is it still in the roundabout", "what", "vehicle:1", None),
+    ],
+)
+def test_what_is_seen_and_in_short(
+    before: str | None, text: str, kind: str, actor: str, event: str | None
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor, found.event) == (kind, actor, event)
+    assert found.factual is None
+
+
+@pytest.mark.parametrize("before", [None, "What is vehicle 1 doing?", "Why did you change lanes?"])
+@pytest.mark.parametrize(
+    ("text", "tense"),
+    [
+        ("hmm ok. will we crash", "future"),
+        ("will it hit us", "future"),
+        ("did it nearly hit us", "past"),
+        ("did we crash", "past"),
+    ],
+)
+def test_a_collision_is_no_deed(before: str | None, text: str, tense: str) -> None:
+    found = after(before, text)
+    assert (found.type, found.event, found.tense) == ("what", "crash", tense)
+
+
+@pytest.mark.parametrize(
+    ("before", "kind", "foil", "event"),
+    [
+        (None, "what", None, "crash"),
+        ("Why did you stop?", "what_if", ("stop",), None),
+        ("What if you had turned left?", "compare", ("exit-left",), "safer"),
+    ],
+)
+@pytest.mark.parametrize("text", ["would we of crashed", "Would we have crashed?"])
+def test_whether_we_would_have_crashed_goes_on_from_what_was_supposed(
+    before: str | None, text: str, kind: str, foil: tuple[str, ...] | None, event: str | None
+) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor, found.counterfactual) == (kind, "ego", foil)
+    assert (found.event, found.tense) == (event, "past")
+
+
+@pytest.mark.parametrize("before", [None, "Why did vehicle 1 stop?", "Why did you stop?"])
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("did he see us", "perception"),
+        ("did it see us?", "perception"),
+        ("has vehicle 2 even noticed us?", "perception"),
+        ("does it know we are here", "perception"),
+        ("can i have ice cream", "off-topic"),
+        ("I want a cookie", "off-topic"),
+    ],
+)
+def test_what_no_record_tells_is_declined(before: str | None, text: str, reason: str) -> None:
+    found = after(before, text)
+    assert (found.type, found.reason, found.refers_to_previous) == ("out_of_scope", reason, False)
+
+
+def test_what_is_read_in_other_words_is_not_read_again() -> None:
+    assert query("what else can you do now").event == "options"
+
+
+def test_who_let_whom_pass_is_no_order() -> None:
+    found = query("So who let whom go first?")
+    assert (found.type, found.actor, found.factual) == ("what", "ego", ("give-way",))

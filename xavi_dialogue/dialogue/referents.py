@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
@@ -95,7 +95,20 @@ def _parked(scene: Vehicles, _: int | None) -> tuple[int, ...]:
     return tuple(n for n, state in scene.items() if n != EGO and state.speed < 0.1)
 
 
+def _from(side: Literal["left", "right"]) -> _Search:
+    """What comes across our way from a side; failing that, what is on that side."""
+    crossing: Place = "crossing-left" if side == "left" else "crossing-right"
+    return lambda scene, _: nearest_at(scene, (crossing,)) or _SEARCHES[side](scene, None)
+
+
+def _nearest(scene: Vehicles, _: int | None) -> tuple[int, ...]:
+    return tuple(name for name, _ in nearest_first(scene))[:1]
+
+
 _SEARCHES: Mapping[str, _Search] = {
+    "nearest": _nearest,
+    "from-left": _from("left"),
+    "from-right": _from("right"),
     "front": _ahead,
     "behind": _behind,
     "left": _at("beside-left", "ahead-left", "behind-left", "crossing-left"),

@@ -50,26 +50,13 @@ def with_aspect(query: Query, words: tuple[str, ...]) -> Query:
     return query
 
 
-def reworded(query: Query, words: tuple[str, ...]) -> str | None:
-    """What to read instead of a question that was taken for an order; None for other texts."""
-    if query.type != "out_of_scope":
-        return None
-    text = " ".join(words)
-    data = load("aspects.toml")
-    for one in data["reworded"]:
-        match = re.fullmatch(_written_out(one["find"], data["shorthands"]), text)
-        if match is not None and query.reason == one["reason"]:
-            return match.expand(one["put"])
-    return None
-
-
 @cache
 def _aspects() -> tuple[_Aspect, ...]:
     data = load("aspects.toml")
     return tuple(
         _Aspect(
             one["name"],
-            tuple(re.compile(_written_out(find, data["shorthands"])) for find in one["find"]),
+            tuple(pattern(find) for find in one["find"]),
             frozenset(one.get("types", ())),
             one["actor"],
         )
@@ -77,10 +64,12 @@ def _aspects() -> tuple[_Aspect, ...]:
     )
 
 
-def _written_out(find: str, shorthands: dict[str, str]) -> str:
-    for name, meaning in shorthands.items():
+@cache
+def pattern(find: str) -> re.Pattern[str]:
+    """A pattern of `grammars/aspects.toml`, its shorthands written out."""
+    for name, meaning in load("aspects.toml")["shorthands"].items():
         find = find.replace(f"<{name}>", meaning)
-    return find
+    return re.compile(find)
 
 
 def _applied(aspect: _Aspect, query: Query, text: str) -> Query | None:
@@ -97,7 +86,7 @@ def _applied(aspect: _Aspect, query: Query, text: str) -> Query | None:
     who = _named(match["who"])
     if who is None or (who == "ego" and aspect.actor == "vehicle"):
         return None
-    if who == "vehicle:it" and query.type == "when":
+    if who == "vehicle:it" and query.type == "when" and query.actor == "ego":
         return None  # "how far is it?" asks for the way that is left
     return msgspec.structs.replace(query, event=aspect.name, actor=_known(who, query))
 

@@ -42,6 +42,8 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
     if query.actor == "vehicle:it" and previous is not None:
         known = previous.actor.startswith("vehicle:")
         query = _refer(query, actor=previous.actor if known else query.actor)
+    if query.event == CRASH and query.actor == "vehicle:it":
+        query = msgspec.structs.replace(query, actor="ego")  # whoever it was with
     if previous is not None:
         return _inherit(reading, query, previous)
     ahead = reading.tensed and query.tense == "future"  # "how long will this take?": to get there

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language import topics
-from xavi_dialogue.language.aspects import reworded, with_aspect
+from xavi_dialogue.language.aspects import with_aspect
 from xavi_dialogue.language.beam import Budget
 from xavi_dialogue.language.candidates import loosely, strict
 from xavi_dialogue.language.costs import costs
@@ -24,6 +24,7 @@ from xavi_dialogue.language.lattice import build
 from xavi_dialogue.language.normalise import MAX_INPUT, normalise
 from xavi_dialogue.language.repairs import repaired
 from xavi_dialogue.language.report import Kind, NotUnderstood, ParseReport, as_query
+from xavi_dialogue.language.rewording import declined, reworded
 from xavi_dialogue.language.words import hear
 
 __all__ = ["NotUnderstood", "ParseReport", "Parser", "as_query", "explained"]
@@ -93,11 +94,30 @@ def explained(
         vehicles: names of the vehicles there are.
         opinion: another judge than ours.
     """
+    report, words = _read(text, previous, vehicles, opinion)
+    result = _asked(report.result, words)
+    if (other := reworded(result, words, previous)) is not None:
+        meant, others = _read(other, previous, vehicles, opinion)
+        result = _asked(meant.result, others)
+        as_typed = _asked(result, words)
+        result = as_typed if isinstance(as_typed, Query) and as_typed.event else result
+    return replace(report, result=declined(words) or result)
+
+
+def _asked(result: Query | NotUnderstood, words: tuple[str, ...]) -> Query | NotUnderstood:
+    """The same with what its words ask for beyond its type."""
+    return with_aspect(result, words) if isinstance(result, Query) else result
+
+
+def _read(
+    text: str, previous: Query | None, vehicles: frozenset[int], opinion: Judge | None
+) -> tuple[ParseReport, tuple[str, ...]]:
+    """What a text means as it stands, and its words."""
     if len(text) > MAX_INPUT:
-        return ParseReport((), (), True, (), NotUnderstood("too-long"))
+        return ParseReport((), (), True, (), NotUnderstood("too-long")), ()
     normalised = normalise(text)
     if not normalised.words:
-        return ParseReport((), (), False, (), NotUnderstood("empty"))
+        return ParseReport((), (), False, (), NotUnderstood("empty")), ()
     heard = hear(normalised, vehicles)
     heard = replace(heard, words=repaired(heard.words))
     lattice = build(heard.words)
@@ -112,15 +132,13 @@ def explained(
     readings = weigh(candidates, judged)
     topic = topics.reason_for(tokens, normalised.words)
     result = decide(readings, judged, topic, lattice)
-    if isinstance(result, Query):
-        if (other := reworded(result, heard.words)) is not None:
-            result = explained(other, previous, vehicles, opinion).result
-        result = with_aspect(result, heard.words) if isinstance(result, Query) else result
     kinds = tuple(
         Kind(name, round(math.exp(judged[name]), 4), judging.telling(seen, name))
         for name in likely[:_SHOWN_KINDS]
     )
-    return ParseReport(tokens, heard.corrections, normalised.shortened, readings, result, kinds)
+    short = normalised.shortened
+    report = ParseReport(tokens, heard.corrections, short, readings, result, kinds)
+    return report, heard.words
 
 
 _remembered = lru_cache(maxsize=512)(explained)  # turns are read again with each new one

@@ -59,10 +59,16 @@ def _request(tree: Tree, whole: tuple[Token, ...]) -> bool:
     return own and (asks and "have" not in whole[0].text and whole[0].terminal != "WOULD")
 
 
+def _laid(tree: Tree, whole: tuple[Token, ...]) -> bool:
+    """Whether it lays something to somebody: that puts nobody into the question before."""
+    return whole[0].text.startswith("because")
+
+
 _CHECKS: dict[str, Callable[[Tree, tuple[Token, ...]], bool]] = {
     "how_avoid": _no_could,
     "why_not": _advice,
     "how": _is_could,
     "command": _not_imperative,
     "what": _request,
+    "replace": _laid,
 }
