@@ -87,3 +87,24 @@ def test_why_after_a_collision_asks_of_it(before: str) -> None:
 )
 def test_where_there_was_no_collision_that_is_said(text: str) -> None:
     assert hear("hindered", text).startswith("We have not collided with anybody.")
+
+
+# Standing for somebody -----------------------------------------------------------------------
+
+
+def test_who_stands_for_another_is_still_giving_way() -> None:
+    bus = "the bus from the right (vehicle 1)"
+    answer = hear("waiting", "Why are you giving way?")
+    assert answer == f"I am giving way to {bus}, which I expect to go straight on."
+    assert "give way to vehicle 1" in hear(
+        "waiting", "Why are you giving way?", "Why are we standing still?"
+    )
+    assert hear("hindered", "Why are you giving way?").startswith("I am not giving way.")
+
+
+@pytest.mark.parametrize(
+    "text", ["When will we go on?", "When are we going to move?", "When do we go on?"]
+)
+def test_to_go_on_is_to_wait_no_longer(text: str) -> None:
+    answer = "I expect to move on in about 4 seconds. I am waiting for the bus from the right"
+    assert hear("waiting", text).startswith(answer)

@@ -22,6 +22,7 @@ from xavi_dialogue.explain.when import pick
 
 RECENT = 2.0  # [s] since when something is still going on
 WORTH = 0.25  # of a component's scale: a difference that is a reason
+BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
 
 
@@ -118,9 +119,10 @@ def _find(
     for action in asked:
         if action == "give-way":
             wait = pick(ride.past, waits, lambda event: (event.sim_time, event.sim_time))
-            found += [(Sighting(action, e.sim_time, e.sim_time), e) for e in (wait,) if e]
+            now = tense != "past" and ride.past is None
+            found += [(_given_way(motion, e, going_on=now), e) for e in (wait,) if e]
         elif (sighting := pick(ride.past, motion.times(action), lambda s: s.span)) is not None:
-            near = [e for e in waits if sighting.start - 3.0 <= e.sim_time <= sighting.end]
+            near = [e for e in waits if sighting.start - BEFORE <= e.sim_time <= sighting.end]
             waited = bool(near) and action != "speed-up"
             found.append((sighting, near[-1] if waited else None))
     if tense != "past" and ride.past is None:
@@ -131,6 +133,16 @@ def _find(
     if not found:
         raise did_not_happen(ride, asked)
     return max(found, key=lambda pair: pair[0].end)
+
+
+def _given_way(motion: Motion, event: Event, *, going_on: bool) -> Sighting:
+    """A giving way; where it is asked whether it goes on, with the slowing and standing for it."""
+    moment = event.sim_time
+    ends = [moment]
+    if going_on:
+        slowed = (*motion.times("slow-down"), *motion.times("stop"))
+        ends += [s.end for s in slowed if s.start - BEFORE <= moment <= s.end]
+    return Sighting("give-way", moment, max(ends))
 
 
 def _decision(ride: Ride, seen: Sighting, wait: Event | None) -> PlanTrace:

@@ -33,7 +33,7 @@ def when(query: Query, ride: Ride) -> Explanation:
     action = query.factual[0]
     motion = ride.motion(EGO)
     standing = bool(motion.speed) and motion.speed[-1] < STANDING
-    if action in HALTED and standing:
+    if action in (*HALTED, "continue") and standing:
         return _waiting(ride)
     deed = happened(ride, action)
     if deed is not None and deed.ended is None:
