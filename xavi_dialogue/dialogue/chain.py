@@ -73,6 +73,15 @@ def _of_refusal(query: Query, last: Turn) -> Query | None:
         return None
     if last.leans is not None:
         return msgspec.structs.replace(query, detail=None)
+    said = last.query
+    if said is not None and said.actor != "ego" and said.tense != "past" and said.factual:
+        return Query(  # "I do not expect vehicle 12 to stop": how we know
+            type="how",
+            actor=said.actor,
+            factual=said.factual,
+            tense=said.tense,
+            refers_to_previous=True,
+        )
     if query.actor != "ego" or query.tense != "present" or query.type != "why":
         return None
     return msgspec.structs.replace(query, factual=None, underspecified=None, detail=None)
