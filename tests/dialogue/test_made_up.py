@@ -108,3 +108,34 @@ def test_who_stands_for_another_is_still_giving_way() -> None:
 def test_to_go_on_is_to_wait_no_longer(text: str) -> None:
     answer = "I expect to move on in about 4 seconds. I am waiting for the bus from the right"
     assert hear("waiting", text).startswith(answer)
+
+
+# Others --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("ride", "text", "answer"),
+    [
+        (
+            *("plenty", "Why will vehicle 2 turn left?"),
+            "I cannot see its plans: I put the chance that the oncoming truck (vehicle 2) will "
+            "turn left at 45 %.",
+        ),
+        (
+            *("risky", "Why is vehicle 1 turning right?"),
+            "I cannot see its plans: I put the chance that the car on our left (vehicle 1) will "
+            "turn right at 40 %.",
+        ),
+        (
+            *("plenty", "Why will vehicle 1 go straight on?"),
+            "I think the bus ahead on the left (vehicle 1) may go straight on, but I cannot tell "
+            "what for.",
+        ),
+        (
+            *("braking", "Why will vehicle 1 stop?"),
+            "I expect the truck ahead (vehicle 1) to stop, probably in order to turn right.",
+        ),
+    ],
+)
+def test_what_is_foreseen_has_the_aim_that_goes_with_it(ride: str, text: str, answer: str) -> None:
+    assert hear(ride, text) == answer

@@ -230,7 +230,7 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
     chance = sum(model.choices(vehicle)[choice] for choice in ways)
     if asked and (query.tense == "past" or chance < EXPECTED):
         raise _not_seen(ride, trace, vehicle, asked, chance)
-    expected = _expectation(ride, trace, vehicle, asked)
+    expected = _expectation(ride, trace, vehicle, asked, among=ways)
     if not asked:
         present = query.tense == "present"
         return hindered.at_present(expected, ride, vehicle) if present else expected
@@ -285,24 +285,28 @@ def _expectation(
     vehicle: int,
     asked: tuple[QueryAction, ...],
     moment: float | None = None,
+    among: frozenset[Choice] | None = None,
 ) -> Explanation:
     """What a decision expects of a vehicle: its likeliest actions, and the likeliest goal.
+
+    Where that is only asked of some of its ways, the likeliest among those.
 
     Raises:
         Unanswered: the record lacks its goals, or its motion up to then.
     """
     known = prediction(trace, vehicle)
     assert known is not None
-    ranked = sorted(range(len(known.goals)), key=lambda g: -known.goals[g].probability)
+    open_ = range(len(known.goals)) if among is None else sorted({goal for goal, _ in among})
+    ranked = sorted(open_, key=lambda g: -known.goals[g].probability)
     motion = ride.motion(vehicle).until(trace.sim_time)
     if not ranked or not motion.speed:
         raise decline("trace-gap", vehicle=vehicle, time=trace.sim_time)
     model = ride.model(trace)
     aim = known.goals[ranked[0]]
-    actions, probability = likeliest(model, vehicle, ranked[0])
+    actions, probability = likeliest(model, vehicle, ranked[0], among)
     rival: tuple[QueryAction, ...] = ()
     if len(ranked) > 1 and known.goals[ranked[1]].probability >= NEARLY * aim.probability:
-        rival, _ = likeliest(model, vehicle, ranked[1])
+        rival, _ = likeliest(model, vehicle, ranked[1], among)
     return Explanation(
         factual=tuple(a for a in actions if a in asked),
         counterfactual=(),
@@ -319,9 +323,12 @@ def _expectation(
     )
 
 
-def likeliest(model: CausalModel, vehicle: int, goal: int) -> tuple[tuple[Action, ...], float]:
+def likeliest(
+    model: CausalModel, vehicle: int, goal: int, among: frozenset[Choice] | None = None
+) -> tuple[tuple[Action, ...], float]:
     """What a vehicle most probably does under one goal, and how probable that is."""
-    ways = {c: p for c, p in model.choices(vehicle).items() if c[0] == goal}
+    chances = model.choices(vehicle).items()
+    ways = {c: p for c, p in chances if c[0] == goal and (among is None or c in among)}
     return expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
 
 
