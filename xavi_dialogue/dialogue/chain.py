@@ -41,9 +41,10 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         return _of_refusal(query, last)
     if found.impact is not None:
         return _of_collision(before, found.impact)
-    if before.type == "what":
+    foretold = before.type == "what" and before.tense == "future" and before.actor != "ego"
+    if before.type == "what" and not (foretold and before.factual):
         return _of_doing(query, found)
-    if before.type not in (*_REASONED, "confidence", "how", "where_goal"):
+    if before.type not in (*_REASONED, "confidence", "how", "where_goal", "what"):
         return query
     if before.type == "what_if" and before.intervention == "remove" and found.factual:
         return Query(
@@ -56,11 +57,11 @@ def deeper(memory: Memory, query: Query) -> Query | None:
         return msgspec.structs.replace(query, detail="more") if before.detail != "more" else None
     if before.type == "where_goal" and before.actor == "ego":
         return query
-    if before.type in ("why", "confidence", "where_goal"):
+    if before.type in ("why", "confidence", "where_goal", "what"):
         return Query(
             type="how",
             actor=before.actor,
-            factual=_expected(last)[-1:] or None,
+            factual=(before.factual if foretold else None) or _expected(last)[-1:] or None,
             tense=before.tense,
             refers_to_previous=True,
         )
