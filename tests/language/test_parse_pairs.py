@@ -189,3 +189,33 @@ def test_what_is_read_in_other_words_is_not_read_again() -> None:
 def test_who_let_whom_pass_is_no_order() -> None:
     found = query("So who let whom go first?")
     assert (found.type, found.actor, found.factual) == ("what", "ego", ("give-way",))
+
+
+@pytest.mark.parametrize(
+    ("text", "actor"),
+    [
+        ("What is the car behind vehicle 1 doing?", "vehicle:behind-1"),
+        ("What is the truck right in front of vehicle 12 doing?", "vehicle:front-12"),
+        ("What is the car behind us doing?", "vehicle:behind"),
+        ("What is vehicle 1 doing behind us?", "vehicle:1"),
+    ],
+)
+def test_a_vehicle_may_be_named_by_another(text: str, actor: str) -> None:
+    found = query(text)
+    assert (found.type, found.actor, found.tense) == ("what", actor, "present")
+
+
+@pytest.mark.parametrize("text", ["Why are you waiting behind vehicle 1?", "Why did you stop?"])
+def test_what_we_wait_behind_does_not_wait(text: str) -> None:
+    assert (query(text).actor, query(text).factual) == ("ego", ("stop",))
+
+
+@pytest.mark.parametrize(
+    ("before", "actor"),
+    [
+        ("What is vehicle 1 doing?", "vehicle:behind-1"),
+        ("What is vehicle 2 doing?", "vehicle:behind-2"),
+    ],
+)
+def test_it_is_whom_another_is_behind(before: str, actor: str) -> None:
+    assert after(before, "What is the car behind it doing?").actor == actor

@@ -17,6 +17,7 @@ from sim.scene import EGO
 from xavi_dialogue.explain.bearings import (
     Place,
     Vehicles,
+    bearing,
     nearest_at,
     nearest_first,
     place,
@@ -49,7 +50,7 @@ def candidates(description: str, scope: Scope) -> tuple[int, ...] | None:
     Returns:
         None for what is no description of a vehicle in view, such as "unknown" or "both".
     """
-    search = _SEARCHES.get(description)
+    search = _SEARCHES.get(description) or _related(description)
     if search is None:
         return None
     for scene in scope.scenes:
@@ -99,6 +100,23 @@ def _from(side: Literal["left", "right"]) -> _Search:
     """What comes across our way from a side; failing that, what is on that side."""
     crossing: Place = "crossing-left" if side == "left" else "crossing-right"
     return lambda scene, _: nearest_at(scene, (crossing,)) or _SEARCHES[side](scene, None)
+
+
+def _related(description: str) -> _Search | None:
+    """What is next before or behind another vehicle: "front-1", "behind-1"; it may be our car."""
+    side, _, other = description.rpartition("-")
+    if side not in ("front", "behind") or not other.isdecimal():
+        return None
+    name, wanted = int(other), "ahead" if side == "front" else "behind"
+
+    def search(scene: Vehicles, _: int | None) -> tuple[int, ...]:
+        if name not in scene:
+            return ()
+        seen = ((n, bearing(scene[name], state)) for n, state in scene.items() if n != name)
+        fits = [(where.distance, n) for n, where in seen if place(where) == wanted]
+        return tuple(n for _, n in sorted(fits))[:1]
+
+    return search
 
 
 def _nearest(scene: Vehicles, _: int | None) -> tuple[int, ...]:

@@ -12,7 +12,7 @@ from xavi_dialogue.language.wordlists import vocabulary
 from xavi_dialogue.language.words import is_number, vehicle_nouns
 
 CLOCK = "#:"  # how the word lists write any time of the ride
-COUNT = "#"  # and any number
+COUNT = "#"  # and any number, which may be part of what a phrase stands for
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +82,9 @@ def _edges(words: tuple[str, ...], ways: Ways, start: int) -> tuple[Edge, ...]:
         text = words[start:end]
         form = next((forms[w] for w in text if w in forms), "")
         kept = tuple(o for o in others if o.terminal not in WEAK)
-        edges.append(Edge(end, Token(*sense, " ".join(text), form, kept), not edges))
+        value = sense.value.replace(COUNT, next(filter(is_number, text), COUNT))
+        token = Token(sense.terminal, value, " ".join(text), form, kept)
+        edges.append(Edge(end, token, not edges))
     return tuple(edges)
 
 

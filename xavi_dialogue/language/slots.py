@@ -16,7 +16,7 @@ STRAIGHT_ON = "straight-on"  # "carry straight on": continue, unless a junction 
 TOWARDS = "towards-"  # "right" alone: a lane change beside lane changes, else a turn
 
 #: Which word says most about a vehicle, most first.
-_DESCRIBING = ("NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
+_DESCRIBING = ("RELATED", "NUMBER", "COLOUR", "PLACE", "ONLEFT", "ONRIGHT", "KIND", "OTHER", "THAT")
 _PRONOUNS = {
     "EGO": "ego",
     "ME": "ego",
