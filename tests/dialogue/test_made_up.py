@@ -139,3 +139,20 @@ def test_to_go_on_is_to_wait_no_longer(text: str) -> None:
 )
 def test_what_is_foreseen_has_the_aim_that_goes_with_it(ride: str, text: str, answer: str) -> None:
     assert hear(ride, text) == answer
+
+
+# How sure -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "How sure are you that we will make it?",
+        "How sure are you that we will get there?",
+        "How likely is it that we get there?",
+    ],
+)
+def test_to_get_there_is_what_the_plan_is_for(text: str) -> None:
+    assert hear("plenty", text).startswith("I am almost certain: my plan worked out in all 4")
+    assert hear("plenty", "Why did you go straight on?", text).startswith("I am almost certain: my")
+    assert hear("hopeless", text).startswith("I am not sure at all: my plan worked out in not one")

@@ -168,7 +168,7 @@ def _explainer(query: Query, ride: Ride) -> Explainer:
         return collision.happened
     if (aspect := _aspect(query)) is not None:
         return aspect
-    if _ours(query) and query.event == timing.ARRIVAL:
+    if _ours(query) and query.event == timing.ARRIVAL and query.type != "confidence":
         return timing.when
     table = EGO if _ours(query) else OTHERS
     found = table.get(query.type)

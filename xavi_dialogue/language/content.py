@@ -36,7 +36,7 @@ def select(query: Query, found: Explanation, budget: Budget, now: float) -> AnyC
     aside = aspect(query, found, budget, now)
     if aside is not None:
         return aside
-    if query.type == "when" or query.event == ARRIVAL:
+    if query.type == "when" or (query.event == ARRIVAL and query.type != "confidence"):
         return _time(query, found, actor, now)
     deeper = insight(query, found, budget, now)
     if deeper is not None:

@@ -7,7 +7,7 @@ the earlier turn does not supply what is missing.
 import msgspec
 
 from xavi_dialogue.explain.query import Query, QueryAction, Tense
-from xavi_dialogue.language.particulars import INFLUENCE
+from xavi_dialogue.language.particulars import ARRIVAL, INFLUENCE
 from xavi_dialogue.language.readings import Reading
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
@@ -233,7 +233,7 @@ def _turns_away(reading: Reading, previous: Query) -> bool:
     "How long will this take?" after what is over; "what mattered most?" after a mere wish.
     """
     query = reading.query
-    if query.event == CRASH:
+    if query.event in (CRASH, ARRIVAL):
         return True  # "how likely is a crash?"
     if query.type == "when":
         return reading.tensed and query.tense == "future" and previous.tense == "past"

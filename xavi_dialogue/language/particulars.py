@@ -127,6 +127,11 @@ def _named(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     return _actor_of(tree)
 
 
+def _confidence(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
+    """Of whom; "how sure are you that we get there?" asks of the arrival."""
+    return _actor_of(tree) | ({"event": ARRIVAL} if "ARRIVE" in terminals(tree) else {})
+
+
 def _method(tree: Tree, _: tuple[Token, ...]) -> dict[str, Any]:
     """That it is asked how we decide, and not how we knew."""
     return {"event": DECIDED} if "DECIDE" in terminals(tree) else {}
@@ -196,7 +201,7 @@ PARTICULARS: dict[str, Callable[[Tree, tuple[Token, ...]], dict[str, Any]]] = {
     "what": _what,
     "how_avoid": _avoidance,
     "where_goal": _named,
-    "confidence": _named,
+    "confidence": _confidence,
     "how": _method,
     "when": _when,
     "compare": _comparison,
