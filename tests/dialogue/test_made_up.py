@@ -156,3 +156,23 @@ def test_to_get_there_is_what_the_plan_is_for(text: str) -> None:
     assert hear("plenty", text).startswith("I am almost certain: my plan worked out in all 4")
     assert hear("plenty", "Why did you go straight on?", text).startswith("I am almost certain: my")
     assert hear("hopeless", text).startswith("I am not sure at all: my plan worked out in not one")
+
+
+# Other ways ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text", ["How could we have been sooner?", "What could you have done to be faster?"]
+)
+def test_what_would_have_been_sooner_is_so_or_there_is_nothing(text: str) -> None:
+    sooner = "By stopping: that would have got us there about 5 seconds sooner."
+    assert hear("hindered", text) == sooner
+    nothing = "I know of no way: nothing else that I tried would have got us there sooner."
+    assert hear("waiting", text) == nothing
+
+
+@pytest.mark.parametrize(
+    "text", ["How could you have avoided stopping?", "How could you have avoided that?"]
+)
+def test_who_stops_does_not_avoid_it_so(text: str) -> None:
+    assert hear("waiting", text) == "No option that I looked at would have spared us that."

@@ -268,7 +268,7 @@ _aspects = st.one_of(
         {
             "choices": st.builds(
                 Choices,
-                about=st.sampled_from(["options", "second", "worst"]),
+                about=st.sampled_from(["options", "second", "worst", "sooner"]),
                 chosen=st.sampled_from(ACTIONS),
                 others=st.lists(
                     st.builds(

@@ -26,7 +26,8 @@ from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, Unanswered, planned
 from xavi_dialogue.explain.slowing import explain_driving
 
-About = Literal["options", "second", "worst"]
+About = Literal["options", "second", "worst", "sooner"]
+SOONER = 0.5  # [s] from which an option is sooner
 Asked = Literal["necessary", "other-way", "better-way"]
 
 
@@ -41,6 +42,8 @@ def options(query: Query, ride: Ride) -> Explanation:
     trace, model = found.trace, ride.model(found.trace)
     here = factual(model, trace)
     ranked = _others(ride, found)
+    if about == "sooner":
+        ranked = _sooner(ranked, here)
     others = tuple(_option(found, here, foil, there) for foil, there in ranked)
     plain = _alone(ride, found, here)
     chosen = planned(trace)[len(found.node)]
@@ -115,10 +118,27 @@ def _others(ride: Ride, found: Premise) -> list[tuple[Actions, Intervention]]:
     return alternatives(ride.model(found.trace), plan[len(found.node)], found.node)
 
 
+def _sooner(
+    ranked: list[tuple[Actions, Intervention]], here: Intervention
+) -> list[tuple[Actions, Intervention]]:
+    """The options that get there sooner than what was chosen, the soonest first."""
+    known = [(_later(there, here), foil, there) for foil, there in ranked]
+    sooner = [
+        (delta, foil, there)
+        for delta, foil, there in known
+        if delta is not None and delta <= -SOONER and there.likeliest == "done"
+    ]
+    return [(foil, there) for _, foil, there in sorted(sooner, key=lambda one: one[0])]
+
+
+def _later(there: Intervention, here: Intervention) -> float | None:
+    """By how much [s] an option gets there later; None where that cannot be told."""
+    return next((e.delta for e in effects(there, here) if e.component == "time"), None)
+
+
 def _option(found: Premise, here: Intervention, foil: Actions, there: Intervention) -> Option:
-    later = next((e.delta for e in effects(there, here) if e.component == "time"), None)
     ends = outcome(there)
-    delta = later if ends.name == "done" else None
+    delta = _later(there, here) if ends.name == "done" else None
     return Option(foil[len(found.node)], ends.name, ends.probability, delta, ends.collided_with)
 
 

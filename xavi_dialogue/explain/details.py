@@ -134,9 +134,12 @@ class Option(msgspec.Struct, frozen=True):
 
 
 class Choices(msgspec.Struct, frozen=True):
-    """What else might have been done, best first; or which of it was the best or the worst."""
+    """What else might have been done, best first; or which of it was the best or the worst.
 
-    about: Literal["options", "second", "worst"]
+    Of what would have been sooner, nothing else is among the others, and the soonest first.
+    """
+
+    about: Literal["options", "second", "worst", "sooner"]
     chosen: Action
     others: tuple[Option, ...]
 

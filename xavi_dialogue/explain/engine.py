@@ -74,7 +74,7 @@ SEEN: Mapping[str, Explainer] = dict.fromkeys(
 )
 #: ... and about the ego.
 ASPECTS: Mapping[str, Explainer] = {
-    **dict.fromkeys(("options", "second", "worst"), choices.options),
+    **dict.fromkeys(("options", "second", "worst", "sooner"), choices.options),
     **dict.fromkeys(("necessary", "other-way", "better-way"), choices.needed),
     "lane": lanes.lane,
 }

@@ -34,6 +34,7 @@ NEVER, ALWAYS = 0.01, 0.99  # what was simulated is neither impossible nor certa
 SELDOM = 0.25  # probability up to which an option is said to avoid something
 TWICE = 1.5  # from which a fit is so many times better
 FEW = 3  # steps that are named
+HALTS = ("stop", "slow-down", "hard-brake")  # mishaps that to stop does not help against
 DRIVING = ("slow-down", "speed-up", "give-way", "stop")
 SLOWING = 0.5  # [m/s] a change of speed worth giving
 RECENT = 2.0  # [s] up to which a belief is spoken of as held now
@@ -152,6 +153,7 @@ def _evasion(
         at=Quantity(found.sim_time, "clock"),
         moment=Quantity(moment, "clock"),
         foil=Doing(EGO, foil, "past", in_lane) if foil else None,
+        named=avoidance.mishap not in HALTS or foil != ("stop",),
         risk=_chance(avoidance.risk),
         other=_chance(avoidance.other),
         helps=avoidance.other <= SELDOM,

@@ -302,6 +302,7 @@ class Evasion:
     at: Quantity  # when there was the choice
     moment: Quantity  # when it happened
     foil: Doing | None
+    named: bool  # the foil is worth naming where it did not help
     risk: Quantity
     other: Quantity
     helps: bool  # the alternative would seldom have had it
