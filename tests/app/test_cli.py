@@ -1,5 +1,6 @@
 """The command line: what it prints, and how it ends."""
 
+import io
 import json
 import shutil
 import subprocess
@@ -11,7 +12,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from sim import scenario
-from xavi_dialogue.__main__ import app
+from xavi_dialogue.__main__ import _note, app
 from xavi_dialogue.app import ask, chat, drive
 from xavi_dialogue.app.bench import drive as bench_drive
 from xavi_dialogue.app.bench.runs import Run
@@ -239,3 +240,18 @@ def test_a_ride_is_saved_to_be_shown(tmp_path: Path) -> None:
     assert "exit-right" in shown.stdout
     refused = xavi("drive", "--scenario", "s2", "--save", str(tmp_path / "nowhere" / "x.gz"))
     assert refused.exit_code == 2
+
+
+def test_notes_at_a_terminal_break_at_spaces_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    note = "this conversation is 20261121-164210-3f9c: --session 20261121-164210-3f9c goes on"
+    for width in ("50", "60"):
+        monkeypatch.setenv("COLUMNS", width)
+        monkeypatch.setattr("sys.stderr", terminal := Terminal())
+        _note(note)
+        lines = terminal.getvalue().splitlines()
+        assert max(map(len, lines)) <= int(width)
+        assert [word for line in lines for word in line.split()] == ["xavi:", *note.split()]

@@ -332,6 +332,24 @@ def test_what_was_shown_is_there_after_a_kill_and_leant_on(
 
 
 @pytest.mark.slow
+def test_a_conversation_goes_on_at_the_moment_of_its_last_question(
+    tmp_path: Path, chats: list[Chat]
+) -> None:
+    store = tmp_path / "dialogue.sqlite3"
+    for lines, noted in (
+        (["Hello!", "@ 2.0s", "Hello!"], "conversation is ada"),
+        (["Hello!"], "asking at 2.0 s"),
+    ):
+        chats.append(Chat(store, *RIDE, "--session", "ada"))
+        for line in lines:
+            chats[-1].say(line)
+        status, _, err = chats[-1].end()
+        assert (status, noted in err) == (0, True)
+    with Store(store) as file:
+        assert [turn.reply.sim_time for turn in file.turns("ada", 9)][1:] == [2.0, 2.0]
+
+
+@pytest.mark.slow
 def test_when_the_service_is_killed_the_conversation_goes_on(
     tmp_path: Path, chats: list[Chat], wanted: list[str]
 ) -> None:
