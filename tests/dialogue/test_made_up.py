@@ -176,3 +176,18 @@ def test_what_would_have_been_sooner_is_so_or_there_is_nothing(text: str) -> Non
 )
 def test_who_stops_does_not_avoid_it_so(text: str) -> None:
     assert hear("waiting", text) == "No option that I looked at would have spared us that."
+
+
+def test_where_nothing_leads_to_our_destination_that_is_said() -> None:
+    tried = "I simulated 2 drives in one situation: going straight on and stopping."
+    assert hear("hopeless", "How did you decide?") == (
+        f"{tried} I chose to go straight on, though none of that would have taken us to our "
+        "destination."
+    )
+    assert "none of that would take us" in hear("hopeless", "How do you decide?")
+
+
+@pytest.mark.parametrize("text", ["Why did you change lanes?", "Why did you move to the left?"])
+def test_against_a_change_of_lane_stands_staying_in_it(text: str) -> None:
+    answer = "To stay in my lane would have made no difference worth speaking of"
+    assert hear("over", text).startswith(answer)

@@ -102,7 +102,8 @@ def explain_contrast(
     causes = contrastive_causes(model, there, here, found)
     if not causes and _alike(here, there, found):
         time = next((e.delta for e in found if e.component == "time"), None)
-        raise decline("effect-too-small", asked=foil, delta=time)
+        chosen = here.plan[: len(foil)]
+        raise decline("effect-too-small", asked=foil, chosen=chosen, delta=time)
     causes = proven(ride, model, causes, here, there)
     return Explanation(
         factual=here.plan,

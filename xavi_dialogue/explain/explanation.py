@@ -208,7 +208,7 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
     - unknown-vehicle: vehicle, known.
     - too-little-evidence: asked, distinct, needed, coverage, rollouts.
-    - effect-too-small: asked, delta [s].
+    - effect-too-small: asked, chosen (what was done or is planned instead), delta [s].
     - outside-record, trace-gap: vehicle, time [s]; since and until [s] when there is a record;
       ahead, where the plan does not go so far.
     - out-of-scope: what.

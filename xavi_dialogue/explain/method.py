@@ -65,7 +65,8 @@ def _comparison(ride: Ride, found: Premise) -> Explanation:
     chosen = plan[len(node) : len(node) + 1]
     here = factual(model, trace)
     others = alternatives(model, chosen[0], node) if chosen else []
-    foil, there = others[0] if others else ((), None)
+    lost = all(one.likeliest == "dead" for one in (here, *(there for _, there in others)))
+    foil, there = others[0] if others and not lost else ((), None)
     situations = len({rollout.samples for rollout in trace.rollouts})
     return Explanation(
         factual=here.plan,

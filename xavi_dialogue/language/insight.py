@@ -242,12 +242,14 @@ def _method(query: Query, found: Explanation, budget: Budget, now: float) -> Met
     tense: Tense = "past" if past else query.tense
     asked = changed(query, type="why", factual=None, tense=tense)
     known = found.counterfactual and found.outcome is not None
+    ends = None if found.outcome is None else found.outcome.name
     return Method(
         past=past,
         fact=Doing(EGO, options[:1], tense, in_lane),
         options=Doing(EGO, options, tense, in_lane),
         single=len(options) == 1,
         brief=not budget.particulars,
+        lost=not known and ends == "dead" and len(options) > 1,
         drives=Quantity(found.evidence.rollouts, "count"),
         situations=Quantity(found.evidence.distinct_samples, "count"),
         contrast=contrast(asked, found, narrow) if known else None,

@@ -267,6 +267,7 @@ class Method:
     options: Doing  # all of them, to be listed
     single: bool  # there was but one
     brief: bool  # without the list
+    lost: bool  # none of them leads to our destination
     drives: Quantity
     situations: Quantity
     contrast: Contrast | None

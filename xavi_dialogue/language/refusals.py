@@ -8,7 +8,7 @@ from typing import Literal
 from xavi_dialogue.explain.explanation import NoExplanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext, Utterance
-from xavi_dialogue.language.doings import doing, vehicle_of
+from xavi_dialogue.language.doings import LANE_CHANGES, doing, vehicle_of
 from xavi_dialogue.language.generator import expand
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle, inflect
 from xavi_dialogue.language.orthography import capitalise, join
@@ -184,7 +184,7 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
         past=query.tense == "past",
         ahead=query.tense == "future",
         who=Vehicle(actor) if actor else None,
-        asked=doing(actor or EGO, asked, query.tense),
+        asked=doing(actor or EGO, asked, query.tense, in_lane=_moved(facts)),
         instead=doing(actor or EGO, instead, "past"),
         did=did,
         undone=facts.get("undone") is True,
@@ -214,6 +214,11 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
 
 _Facts = Mapping[str, object]
 Unit = Literal["clock", "count", "probability"]
+
+
+def _moved(facts: _Facts) -> bool:
+    """Whether what is asked about stands against a change of lane."""
+    return any(action in LANE_CHANGES for action in _actions(facts, "chosen"))
 
 
 def _text(facts: _Facts, key: str) -> str | None:
