@@ -57,7 +57,9 @@ def test_a_collision_is_told_with_whom_and_when(text: str) -> None:
     assert hear("crash", text) == COLLIDED
 
 
-@pytest.mark.parametrize("text", ["What happened?", "Who did we hit?", "Are we there yet?"])
+@pytest.mark.parametrize(
+    "text", ["What happened?", "Who did we hit?", "Are we there yet?", "What happened at 0:09?"]
+)
 def test_a_collision_is_what_happened(text: str) -> None:
     told = "I went straight on, and at 0:09 we collided with the car ahead on the left (vehicle 1)."
     assert hear("crash", text) == told

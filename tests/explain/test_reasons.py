@@ -239,9 +239,9 @@ CASES = (
     Case(
         "effect-too-small",
         "Why did you not stay in your lane?",
-        "To go straight on would have made no difference worth speaking of: "
+        "To stay in my lane would have made no difference worth speaking of: "
         "I compared the two, and both take as long.",
-        {"asked": ("continue",), "delta": 0.0},
+        {"asked": ("continue",), "chosen": ("change-left",), "delta": 0.0},
         ride=flat,
     ),
     Case(

@@ -1,5 +1,7 @@
 """Collisions: whether there was one, when and why, and how likely one is."""
 
+import math
+
 from msgspec.structs import replace
 
 from planner.events import Event
@@ -79,8 +81,12 @@ def names_collision(query: Query) -> bool:
 
 def tells_collision(query: Query, ride: Ride) -> bool:
     """Whether it is asked what happened, or for the arrival, after a collision."""
-    if query.actor != "ego" or ride.past is not None or crashed(ride) is None:
+    crash = crashed(ride)
+    if query.actor != "ego" or crash is None:
         return False
+    time = crash.sim_time
+    if ride.past is not None and not ride.past.meets(math.floor(time), time):
+        return False  # it is said to the second
     if query.event == ARRIVAL:
         return not ride.arrived
     open_ = not query.factual and not query.counterfactual and query.event is None
