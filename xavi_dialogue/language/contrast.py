@@ -23,6 +23,9 @@ SLOWING = 2.0 / KMH  # [m/s] a loss of speed worth calling so
 FEW = 2  # actions of a vehicle that are named where the answer must be short
 NARROW = 1.0  # [s] a range of time differences not worth giving
 
+#: What a turn may be the reason for.
+BRAKING = frozenset({"slow-down", "stop", "give-way"})
+
 
 def contrast(query: Query, found: Explanation, budget: Budget) -> Contrast:
     """What speaks for what we did, how the foil would have turned out, and because of whom."""
@@ -169,7 +172,7 @@ def constraint(
         denied=asked if found.done else None,
         past=query.tense == "past",
         gave_way=deed[-1] == "give-way",
-        turning=any(action in ("exit-left", "exit-right") for action in found.factual[:1]),
+        turning=set(deed) <= BRAKING and found.factual[:1] in (("exit-left",), ("exit-right",)),
         because=points[0] if points else None,
         also=points[1:],
         suspect=suspect_point(found),
