@@ -412,7 +412,8 @@ def test_what_a_track_shows_and_the_goal_behind_it() -> None:
         (1.0, "almost certain", "over 95 %"),
         (0.999, "almost certain", "over 95 %"),
         (0.8, "quite sure", "80 %"),
-        (0.5, "only fairly sure", "50 %"),
+        (0.5, "not sure", "50 %"),
+        (0.6, "only fairly sure", "60 %"),
         (0.1, "not sure at all", "10 %"),
     ],
 )
