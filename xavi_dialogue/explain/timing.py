@@ -15,7 +15,7 @@ from xavi_dialogue.explain.present import of_plan, what, where
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import Ride, decline
 
-ARRIVAL = "arrival"  # the event of "have we arrived?"
+ARRIVAL = "arrival"  # `Query.event` of whether or when somebody gets to his destination
 LIKELY = 0.5  # share of the rollouts from which something is expected
 HALTED: tuple[QueryAction, ...] = ("stop", "give-way")
 

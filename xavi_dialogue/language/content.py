@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query, Tense
+from xavi_dialogue.explain.timing import ARRIVAL
 from xavi_dialogue.language.contrast import constraint, contrast, effect_points, suspect_point
 from xavi_dialogue.language.doings import LANE_CHANGES, doing, plain, staying, vehicle_of
 from xavi_dialogue.language.hindrance import in_the_way
@@ -16,7 +17,6 @@ from xavi_dialogue.language.impact import ImpactPoint, impact_point
 from xavi_dialogue.language.insight import EVEN, insight, whole
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.options import Aspect, aspect
-from xavi_dialogue.language.particulars import ARRIVAL
 from xavi_dialogue.language.points import ActivityPoint, Budget, Content, Motive, Supposition, Time
 from xavi_dialogue.language.quantities import Quantity, Span
 from xavi_dialogue.language.ranking import Comparison, comparison

@@ -6,14 +6,15 @@ the earlier turn does not supply what is missing.
 
 import msgspec
 
+from xavi_dialogue.explain.avoidance import CRASH
+from xavi_dialogue.explain.blame import INFLUENCE
 from xavi_dialogue.explain.query import Query, QueryAction, Tense
-from xavi_dialogue.language.particulars import ARRIVAL, INFLUENCE
+from xavi_dialogue.explain.timing import ARRIVAL
 from xavi_dialogue.language.readings import Reading
 
 _TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 #: Types whose counterfactual is what they ask about.
 _ABOUT_FOIL = frozenset({"why_not", "what_if", "compare"})
-CRASH = "crash"
 AGAIN = "again"  # the event of a bare "why?", which asks for the reason behind the answer
 #: Rules that mean nothing without an earlier question.
 LEANING = frozenset({"more", "less", "again", "replace", "correction"})

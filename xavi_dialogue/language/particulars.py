@@ -6,6 +6,8 @@ Each function takes the parse tree and all tokens it spans, and gives fields of 
 from collections.abc import Callable
 from typing import Any
 
+from xavi_dialogue.explain.blame import INFLUENCE
+from xavi_dialogue.explain.timing import ARRIVAL
 from xavi_dialogue.language.grammar import Tree
 from xavi_dialogue.language.slots import (
     actor,
@@ -18,10 +20,6 @@ from xavi_dialogue.language.slots import (
 )
 from xavi_dialogue.language.tokens import AUXILIARIES, Token
 
-#: `Query.event` where it is asked what a vehicle had to do with it, rather than whether.
-INFLUENCE = "influence"
-#: `Query.event` where it is asked whether or when somebody gets to his destination.
-ARRIVAL = "arrival"
 #: `Query.event` where it is asked how we decide.
 DECIDED = "decided"
 #: `Query.event` of comparisons that name a measure, by the words for it.
