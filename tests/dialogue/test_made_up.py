@@ -183,10 +183,10 @@ def test_who_stops_does_not_avoid_it_so(text: str) -> None:
 def test_where_nothing_leads_to_our_destination_that_is_said() -> None:
     tried = "I simulated 2 drives in one situation: going straight on and stopping."
     assert hear("hopeless", "How did you decide?") == (
-        f"{tried} I chose to go straight on, though none of that would have taken us to our "
+        f"{tried} I chose to go straight on, though nothing I tried would have taken us to our "
         "destination."
     )
-    assert "none of that would take us" in hear("hopeless", "How do you decide?")
+    assert "nothing I tried would take us" in hear("hopeless", "How do you decide?")
 
 
 @pytest.mark.parametrize("text", ["Why did you change lanes?", "Why did you move to the left?"])
