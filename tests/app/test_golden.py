@@ -108,7 +108,11 @@ def test_what_was_planned_from_one_decision_lies_beside_it(tmp_path: Path) -> No
     assert "I would" in (folder / "one.txt").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("content", [None, b"no gzip", gzip.compress(b"{}")])
+@pytest.mark.parametrize(
+    "content",
+    [None, b"no gzip", gzip.compress(b"{}", mtime=0)],
+    ids=["missing", "no gzip", "no decision"],
+)
 def test_a_file_without_a_decision_is_told(content: bytes | None, tmp_path: Path) -> None:
     if content is not None:
         (tmp_path / "one.json.gz").write_bytes(content)
