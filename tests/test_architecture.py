@@ -23,7 +23,9 @@ ROOMS = (
 )
 PURE = ("planner", "xavi_dialogue.causal", "xavi_dialogue.explain", "xavi_dialogue.dialogue")
 GATES = {  # each outside world enters through one file
+    "cryptography": "xavi_dialogue/transports/certificates.py",
     "libsumo": "sim/sumo.py",
+    "mcap": "xavi_dialogue/transports/mcap_file.py",
     "sqlite3": "xavi_dialogue/transports/database.py",
     "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
 }

@@ -21,8 +21,8 @@ from tests.app.desk import children, there, until
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.app import going_on
 from xavi_dialogue.app.children import Child, ChildFailed, Steady
+from xavi_dialogue.app.commands.sessions import typed_file
 from xavi_dialogue.app.memory import Keeping
-from xavi_dialogue.app.sessions_commands import typed_file
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.store import DAY, NewEvent, NewTurn, RideName, Store

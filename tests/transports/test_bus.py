@@ -20,6 +20,7 @@ from xavi_dialogue.transports.bus import (
     TooLate,
     call,
 )
+from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.zenoh_bus import host, join
 
@@ -41,7 +42,11 @@ def buses(request: pytest.FixtureRequest) -> Iterator[tuple[Bus, Bus]]:
             yield one, other
         return
     endpoint = free_endpoint()
-    with host(endpoint), join(endpoint) as one, join(endpoint) as other:
+    with (
+        host(Link.of_hub(endpoint)),
+        join(Link.to_hub(endpoint)) as one,
+        join(Link.to_hub(endpoint)) as other,
+    ):
         yield one, other
 
 
@@ -140,7 +145,7 @@ def test_the_living_are_known_and_the_gone_are_missed(buses: tuple[Bus, Bus]) ->
 def test_over_zenoh_a_request_has_its_own_deadline() -> None:
     endpoint = free_endpoint()
     held: list[Call] = []
-    with host(endpoint) as hub, join(endpoint) as client:
+    with host(Link.of_hub(endpoint)) as hub, join(Link.to_hub(endpoint)) as client:
         hub.serve(KEY("@rpc/ask"), held.append)
 
         def kept_waiting() -> bool:
@@ -160,7 +165,7 @@ def test_over_zenoh_a_request_has_its_own_deadline() -> None:
 def test_a_reply_that_zenoh_refuses_is_an_error_of_ours() -> None:
     endpoint = free_endpoint()
     held: list[Call] = []
-    with host(endpoint) as hub, join(endpoint) as client:
+    with host(Link.of_hub(endpoint)) as hub, join(Link.to_hub(endpoint)) as client:
         hub.serve(KEY("@rpc/ask"), held.append)
 
         def asked() -> bool:
@@ -178,7 +183,7 @@ def test_a_reply_that_zenoh_refuses_is_an_error_of_ours() -> None:
 def test_zenoh_errors_are_ours() -> None:
     endpoint = free_endpoint()
     with pytest.raises(HubUnreachable, match="xavi serve"):
-        join(endpoint, patience=0.0)
-    with host(endpoint), pytest.raises(EndpointTaken, match="in use"):
-        host(endpoint)
+        join(Link.to_hub(endpoint), patience=0.0)
+    with host(Link.of_hub(endpoint)), pytest.raises(EndpointTaken, match="in use"):
+        host(Link.of_hub(endpoint))
     assert issubclass(HubUnreachable, BusError)

@@ -51,7 +51,7 @@ class Child:
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
-            env={**os.environ, "PYTHONPATH": path},
+            env={**_ours(), "PYTHONPATH": path},
             text=True,
             errors="replace",
             start_new_session=True,  # the terminal's signals are for the parent
@@ -189,6 +189,11 @@ class Steady:
     ) -> None:
         self.spare = 0
         self._child.stop()
+
+
+def _ours() -> dict[str, str]:
+    """Our environment without what would lead a child to another bus."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("XAVI_")}
 
 
 def _manner(code: int) -> str:

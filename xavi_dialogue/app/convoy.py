@@ -13,6 +13,7 @@ from xavi_dialogue.app.children import Child, ChildFailed, Steady
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.transports.bus import HubUnreachable
+from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
 
@@ -158,7 +159,7 @@ def _join(service: Steady, endpoint: str) -> ZenohBus:
     give_up = time.monotonic() + START_PATIENCE
     while True:
         try:
-            return join(endpoint, patience=RETRY)
+            return join(Link.to_hub(endpoint), patience=RETRY)
         except HubUnreachable:
             service.check()
             if time.monotonic() > give_up:

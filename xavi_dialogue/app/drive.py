@@ -20,7 +20,8 @@ from xavi_dialogue.app.going_on import place_of
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Ending, Moment, clock, network_of, start
-from xavi_dialogue.transports.bus import Keys
+from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, Keys
+from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, save
 from xavi_dialogue.transports.zenoh_bus import join
 
@@ -89,7 +90,8 @@ class Manner:
 
     speed: float = 0.0  # simulated seconds per second; 0 is as fast as possible
     duration: float | None = None  # [s]; None: the scenario's
-    connect: str | None = None  # endpoint of a hub; None: nobody is told
+    link: Link | None = None  # to a hub; None: nobody is told
+    vehicle: str = DEFAULT_VEHICLE  # name of the car on the bus
     controlled: bool = False  # by orders on standard input; waits for the first one
     save: Path | None = None  # where to save the decisions
 
@@ -114,7 +116,7 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
     tally = Tally(Summary(scenario.name, seed))
     log = Log(RecordedRide(scenario.name, seed, 0.0))
     with (
-        _company(scenario, seed, manner.connect) as (reporter, records),
+        _company(scenario, seed, manner) as (reporter, records),
         start(scenario, seed, network, duration=manner.duration) as ride,
     ):
         car = Car(
@@ -135,13 +137,14 @@ def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
 
 @contextmanager
 def _company(
-    scenario: Scenario, seed: int, endpoint: str | None
+    scenario: Scenario, seed: int, manner: Manner
 ) -> Iterator[tuple[Reporter | None, tuple[Record, ...]]]:
     """Who is told of the ride, and who takes it down to answer about it: nobody without a hub."""
-    if endpoint is None:
+    if manner.link is None:
         yield None, ()
         return
-    with join(endpoint, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
+    keys = Keys(manner.vehicle)
+    with join(manner.link, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
         planning = Replanner(pool)
-        serve(bus, Keys(), planning)
-        yield Reporter(bus, Keys(), place_of(scenario), seed), (planning.record,)
+        serve(bus, keys, planning)
+        yield Reporter(bus, keys, place_of(scenario), seed), (planning.record,)

@@ -15,7 +15,8 @@ from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.parsing import ParseUsageError
 from xavi_dialogue.app.sessions import SessionUsageError
-from xavi_dialogue.transports.bus import BusError
+from xavi_dialogue.app.settings import SettingsError
+from xavi_dialogue.transports.bus import BadLink, BusError
 from xavi_dialogue.transports.database import StoreError
 from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.text import one_line
@@ -25,7 +26,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
         (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
-            *(TreeError, QuestionFileError, SessionUsageError),
+            *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
         ),
         ExitStatus.USAGE,
     ),

@@ -2,32 +2,37 @@
 
 import queue
 import sys
+from collections.abc import Callable
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.local import make_mind
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.service import Service
 from xavi_dialogue.transports.bus import Keys
+from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import host
 
 
-def serve(endpoint: str, memory: Memory, *, controlled: bool) -> None:
+def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled: bool) -> None:
     """Serve until told to stop.
 
     Args:
-        endpoint: of the hub.
+        link: of the hub.
         memory: keeps what is said.
+        note: takes notes on what goes on.
         controlled: by orders on standard input.
 
     Raises:
-        EndpointTaken: the endpoint is in use.
+        EndpointTaken: an endpoint is in use.
+        BadLink: the link's configuration cannot be used.
     """
     orders: control.Orders = queue.SimpleQueue()
     control.quit_on_signals(orders)
     if controlled:
         control.listen(sys.stdin, orders)
     mind = make_mind()
-    with host(endpoint) as bus:
+    with host(link) as bus:
+        note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service = Service(bus, Keys(), mind, memory)
         service.open()
         service.run(lambda: not orders.empty() and isinstance(orders.get(), control.Quit))

@@ -6,6 +6,7 @@ the bus and must return at once.
     BusError
     ├── HubUnreachable   there is no hub at the endpoint
     ├── EndpointTaken    the hub's endpoint is in use
+    ├── BadLink          the configuration of the link cannot be used
     ├── BusFailed        the carrier failed otherwise
     └── NoAnswer
         ├── NobodyThere  nobody serves the key
@@ -14,6 +15,7 @@ the bus and must return at once.
 """
 
 import queue
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import TracebackType
@@ -22,6 +24,7 @@ from typing import Protocol, Self, TypeAlias
 ROOT = "xavi/v1"
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
 DEFAULT_VEHICLE = "car"
+VEHICLE_NAME = r"[A-Za-z0-9_.-]{1,64}"
 
 
 class BusError(Exception):
@@ -34,6 +37,10 @@ class HubUnreachable(BusError):
 
 class EndpointTaken(BusError):
     """The hub's endpoint is in use."""
+
+
+class BadLink(BusError):
+    """The configuration of the link cannot be used."""
 
 
 class BusFailed(BusError):
@@ -62,13 +69,33 @@ class Refused(NoAnswer):
 
 @dataclass(frozen=True, slots=True)
 class Keys:
-    """The keys of one car."""
+    """The keys of one car, or of every car."""
 
     vehicle: str = DEFAULT_VEHICLE
 
     def of(self, tail: str) -> str:
         """The key that ends with `tail`, such as `scene` or `@rpc/ask`."""
         return f"{ROOT}/{self.vehicle}/{tail}"
+
+
+EVERY_CAR = Keys("*")  # a key of it stands for that of any car
+
+
+def vehicle_in(key: str) -> str | None:
+    """The car that a key belongs to; None where there is no name of a car in it."""
+    parts = key.split("/", 3)
+    if "/".join(parts[:2]) != ROOT or len(parts) < 4 or not re.fullmatch(VEHICLE_NAME, parts[2]):
+        return None
+    return parts[2]
+
+
+def matches(pattern: str, key: str) -> bool:
+    """Whether a key is one of those that a pattern stands for; `*` is any one part of it."""
+    parts, given = pattern.split("/"), key.split("/")
+    return len(parts) == len(given) and all(
+        want == have or (want == "*" and not have.startswith("@"))
+        for want, have in zip(parts, given, strict=True)
+    )
 
 
 class Publisher(Protocol):
@@ -79,6 +106,10 @@ class Publisher(Protocol):
 
 class Call(Protocol):
     """A request that came in; exactly one of its methods is called, once."""
+
+    @property
+    def key(self) -> str:
+        """That was asked; never a pattern."""
 
     @property
     def payload(self) -> bytes: ...
@@ -101,6 +132,13 @@ class Call(Protocol):
         """Leave it without a reply."""
 
 
+class Presence(Protocol):
+    """A sign of life under a key."""
+
+    def withdraw(self) -> None:
+        """Take it back; a second time does nothing."""
+
+
 Handler: TypeAlias = Callable[[str, bytes], None]  # key, payload
 CallHandler: TypeAlias = Callable[[Call], None]
 Watcher: TypeAlias = Callable[[str, bool], None]  # key, whether it is alive
@@ -108,7 +146,10 @@ Outcome: TypeAlias = bytes | NoAnswer
 
 
 class Bus(Protocol):
-    """One process's connection to the others; `close` ends all that was declared on it."""
+    """One process's connection to the others; `close` ends all that was declared on it.
+
+    What is heard, served and watched may be a pattern, in which `*` stands for any one part.
+    """
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """Send under a key.
@@ -136,8 +177,8 @@ class Bus(Protocol):
             done: runs on a thread of the bus.
         """
 
-    def appear(self, key: str) -> None:
-        """Show under a key that this process is alive, until it is not."""
+    def appear(self, key: str) -> Presence:
+        """Show under a key that this process is alive, until it is not, or withdraws."""
 
     def watch(self, key: str, watcher: Watcher) -> None:
         """Learn who is alive under a key, now and from now on."""

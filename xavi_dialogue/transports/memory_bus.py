@@ -15,10 +15,12 @@ from xavi_dialogue.transports.bus import (
     Handler,
     NobodyThere,
     Outcome,
+    Presence,
     Publisher,
     Refused,
     TooLate,
     Watcher,
+    matches,
 )
 
 
@@ -40,6 +42,12 @@ class MemoryHub:
         """A new connection."""
         return MemoryBus(self)
 
+    def tell(self, key: str, alive: bool) -> None:
+        """Tell those who watch a key."""
+        for pattern, watchers in tuple(self.watchers.items()):
+            for _, watcher in tuple(watchers) if matches(pattern, key) else ():
+                watcher(key, alive)
+
 
 @dataclass(frozen=True)
 class _MemoryPublisher:
@@ -50,12 +58,26 @@ class _MemoryPublisher:
     def put(self, payload: bytes) -> None:
         if self.keep:
             self.hub.kept.setdefault(self.key, deque(maxlen=self.keep)).append(payload)
-        for _, handler in tuple(self.hub.subscribers[self.key]):
-            handler(self.key, payload)
+        for pattern, handlers in tuple(self.hub.subscribers.items()):
+            for _, handler in tuple(handlers) if matches(pattern, self.key) else ():
+                handler(self.key, payload)
+
+
+@dataclass(frozen=True)
+class _MemoryPresence:
+    hub: MemoryHub
+    key: str
+    owner: object
+
+    def withdraw(self) -> None:
+        if self.hub.alive.get(self.key) is self.owner:
+            del self.hub.alive[self.key]
+            self.hub.tell(self.key, False)
 
 
 @dataclass
 class _MemoryCall:
+    key: str
     payload: bytes
     done: Callable[[Outcome], None]
 
@@ -82,8 +104,9 @@ class MemoryBus:
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
         """See Bus."""
         self._hub.subscribers[key].append((self, handler))
-        for payload in tuple(self._hub.kept.get(key, ())) if kept else ():
-            handler(key, payload)
+        for one, payloads in tuple(self._hub.kept.items()) if kept else ():
+            for payload in tuple(payloads) if matches(key, one) else ():
+                handler(one, payload)
 
     def serve(self, key: str, handler: CallHandler) -> None:
         """See Bus."""
@@ -93,22 +116,25 @@ class MemoryBus:
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
     ) -> None:
         """See Bus; the time is not watched."""
-        server = self._hub.servers.get(key)
+        servers = (one for pattern, one in self._hub.servers.items() if matches(pattern, key))
+        server = next(servers, None)
         if server is None:
             done(NobodyThere(f"nobody serves {key}"))
         else:
-            server[1](_MemoryCall(payload, done))
+            server[1](_MemoryCall(key, payload, done))
 
-    def appear(self, key: str) -> None:
+    def appear(self, key: str) -> Presence:
         """See Bus."""
         self._hub.alive[key] = self
-        self._tell(key, True)
+        self._hub.tell(key, True)
+        return _MemoryPresence(self._hub, key, self)
 
     def watch(self, key: str, watcher: Watcher) -> None:
         """See Bus."""
         self._hub.watchers[key].append((self, watcher))
-        if key in self._hub.alive:
-            watcher(key, True)
+        for one in tuple(self._hub.alive):
+            if matches(key, one):
+                watcher(one, True)
 
     def close(self) -> None:
         """Withdraw all that was declared here."""
@@ -121,11 +147,7 @@ class MemoryBus:
             del hub.servers[key]
         for key in [key for key, owner in hub.alive.items() if owner is self]:
             del hub.alive[key]
-            self._tell(key, False)
-
-    def _tell(self, key: str, alive: bool) -> None:
-        for _, watcher in tuple(self._hub.watchers[key]):
-            watcher(key, alive)
+            hub.tell(key, False)
 
     def __enter__(self) -> Self:
         return self

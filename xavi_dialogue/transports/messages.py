@@ -24,6 +24,7 @@ from xavi_dialogue.transports.text import clean, one_line
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$")]
 # What every language reads exactly, and every file holds (RFC 8259, 6).
 Whole = Annotated[int, msgspec.Meta(ge=1 - 2**53, le=2**53 - 1)]
+Token = Annotated[str, msgspec.Meta(min_length=16, max_length=128, pattern=r"^[A-Za-z0-9_-]+$")]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53 - 1)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
@@ -117,6 +118,8 @@ class AskRequest(Message, frozen=True, kw_only=True):
     style: Style = "passenger"
     deadline_ms: DeadlineMs = 10_000.0
     at: Seconds | None = None  # simulation time; null: now
+    token: Token | None = None  # see HistoryRequest
+    share: bool = False  # others may read this turn, on key `dialogue/<session>/turn`
 
     def __post_init__(self) -> None:
         msgspec.structs.force_setattr(self, "text", one_line(self.text))
@@ -139,12 +142,17 @@ class AskReply(Reply, frozen=True, kw_only=True):
 
 
 class HistoryRequest(Message, frozen=True, kw_only=True):
-    """Asks for what was said in a session."""
+    """Asks for what was said in a session.
+
+    A session belongs to whoever begins it. The token of its first question has to come with
+    everything that is asked of it from then on; begun without one, it is open to all.
+    """
 
     LIMIT = 4 * KIB
 
     schema: Literal["xavi.history/1"] = "xavi.history/1"
     session: Name
+    token: Token | None = None
 
 
 class PastTurn(msgspec.Struct, frozen=True):
@@ -167,6 +175,19 @@ class HistoryReply(Message, frozen=True, kw_only=True):
     turns: tuple[PastTurn, ...]
 
 
+class TurnReport(Message, frozen=True, kw_only=True):
+    """A turn that the passenger lets others read."""
+
+    LIMIT = 256 * KIB + 4 * KIB
+
+    schema: Literal["xavi.turn/1"] = "xavi.turn/1"
+    session: Name
+    seq: Count  # of the service's shared turns about this car
+    sim_time: Seconds  # at which it was asked
+    wall_time: float
+    turn: PastTurn
+
+
 class ForgetRequest(Message, frozen=True, kw_only=True):
     """The passenger wants a session forgotten: what was said, on disk and in memory."""
 
@@ -175,6 +196,7 @@ class ForgetRequest(Message, frozen=True, kw_only=True):
     schema: Literal["xavi.forget/1"] = "xavi.forget/1"
     request: Name
     session: Name
+    token: Token | None = None
 
 
 class ForgetReply(Message, frozen=True, kw_only=True):
@@ -197,6 +219,7 @@ class CancelRequest(Message, frozen=True, kw_only=True):
     schema: Literal["xavi.cancel/1"] = "xavi.cancel/1"
     request: Name
     session: Name
+    token: Token | None = None
 
 
 class CancelReply(Message, frozen=True, kw_only=True):
@@ -226,6 +249,21 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     deadline_ms: DeadlineMs = 10_000.0
 
 
+class AliveReport(Message, frozen=True, kw_only=True):
+    """How a component fares: what a request to its key `alive/<component>` is answered with."""
+
+    LIMIT = 16 * KIB
+
+    schema: Literal["xavi.alive/1"] = "xavi.alive/1"
+    component: Name  # car, service, dashboard, recorder
+    version: str  # of the program
+    seq: Count  # of these reports
+    sim_time: Seconds  # the latest that it knows of
+    wall_time: float
+    uptime_s: float
+    counters: dict[str, float]  # since it began; in the order of their names
+
+
 class Failure(Message, frozen=True, kw_only=True):
     """In place of a reply: why there is none."""
 
@@ -251,8 +289,8 @@ MESSAGES: dict[str, type[AnyMessage]] = {
     schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind
     for kind in (
         *(SceneReport, TraceReport, EventReport, AskRequest, AskReply, HistoryRequest),
-        *(HistoryReply, ForgetRequest, ForgetReply, CancelRequest, CancelReply, WhatIfRequest),
-        Failure,
+        *(HistoryReply, TurnReport, ForgetRequest, ForgetReply, CancelRequest, CancelReply),
+        *(WhatIfRequest, AliveReport, Failure),
     )
 }
 

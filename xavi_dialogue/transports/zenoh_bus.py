@@ -9,7 +9,7 @@ import itertools
 import json
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import TracebackType
 from typing import Self
@@ -19,6 +19,7 @@ from zenoh import CongestionControl, SampleKind, ext
 from zenoh.handlers import Callback
 
 from xavi_dialogue.transports.bus import (
+    BadLink,
     BusFailed,
     CallHandler,
     EndpointTaken,
@@ -26,22 +27,33 @@ from xavi_dialogue.transports.bus import (
     HubUnreachable,
     NobodyThere,
     Outcome,
+    Presence,
     Publisher,
     Refused,
     TooLate,
     Watcher,
 )
+from xavi_dialogue.transports.link import Link
 
 JSON = "application/json"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
 HEARTBEAT = 0.2  # [s] within which a lost last message is noticed
+MAX_MESSAGE = 4 * 1024 * 1024  # bytes; no message of ours is as large
+SAFE: dict[str, object] = {  # without a configuration file
+    "scouting/multicast/enabled": False,
+    "scouting/gossip/enabled": False,
+    "transport/shared_memory/enabled": False,
+    "transport/link/rx/max_message_size": MAX_MESSAGE,
+    "timestamping/enabled": True,
+}
 GRACE = 0.5  # [s] that Zenoh may take beyond a deadline to clean up; ours has passed by then
 
 
 class ZenohBus:
     """A connection of this process; see `host` and `join`."""
 
-    def __init__(self, session: zenoh.Session) -> None:
+    def __init__(self, session: zenoh.Session, places: tuple[str, ...] = ()) -> None:
+        self.places = places  # endpoints that are listened at
         self._session = session
         self._declared: list[object] = []  # kept, so that they live as long as the session
 
@@ -129,9 +141,11 @@ class ZenohBus:
         except zenoh.ZError as error:
             end(NobodyThere(f"cannot reach {key}: {error}"))
 
-    def appear(self, key: str) -> None:
+    def appear(self, key: str) -> Presence:
         """See Bus."""
-        self._declared.append(self._session.liveliness().declare_token(key))
+        presence = _ZenohPresence(self._session.liveliness().declare_token(key))
+        self._declared.append(presence)
+        return presence
 
     def watch(self, key: str, watcher: Watcher) -> None:
         """See Bus."""
@@ -164,11 +178,23 @@ class ZenohBus:
         self.close()
 
 
+class _ZenohPresence:
+    """A sign of life."""
+
+    def __init__(self, token: zenoh.LivelinessToken) -> None:
+        self._token = token
+
+    def withdraw(self) -> None:
+        with suppress(zenoh.ZError):  # the session is closed, and so it is withdrawn
+            self._token.undeclare()  # type: ignore[no-untyped-call]
+
+
 class _ZenohCall:
     """A request that came in over Zenoh."""
 
     def __init__(self, query: zenoh.Query) -> None:
         self._query = query
+        self.key = str(query.key_expr)
         self.payload = b"" if query.payload is None else query.payload.to_bytes()
 
     def reply(self, payload: bytes) -> None:
@@ -192,51 +218,89 @@ def _translated(what: str) -> Iterator[None]:
         raise BusFailed(f"the {what} was not sent: {error}") from error
 
 
-def host(endpoint: str) -> ZenohBus:
-    """Open the hub, listening at an endpoint such as `tcp/127.0.0.1:7447`.
+def host(link: Link) -> ZenohBus:
+    """Open the hub, listening at the endpoints of a link such as `tcp/127.0.0.1:7447`.
 
     Raises:
-        EndpointTaken: the endpoint is in use, or cannot be listened at.
+        EndpointTaken: one is in use, or cannot be listened at.
+        BadLink: the link's configuration cannot be used.
     """
+    config = _config(link)
     try:
-        return ZenohBus(zenoh.open(_config("peer", listen=[endpoint])))
+        return ZenohBus(zenoh.open(config), tuple(_endpoints(config, "listen")))
     except zenoh.ZError as error:
-        reason = str(error).partition(" at /")[0]  # Zenoh appends places in its own source
-        raise EndpointTaken(f"cannot listen at {endpoint}: {reason}") from error
+        places = " and ".join(_endpoints(config, "listen")) or "no endpoint at all"
+        raise EndpointTaken(f"cannot listen at {places}: {_reason(error)}") from error
 
 
-def join(endpoint: str, patience: float = 5.0) -> ZenohBus:
-    """Connect to the hub at an endpoint, waiting for it to come up.
+def join(link: Link, patience: float = 5.0) -> ZenohBus:
+    """Connect to the hub of a link, waiting for it to come up.
 
     Raises:
         HubUnreachable: there is no hub within `patience` [s].
+        BadLink: the link's configuration cannot be used.
     """
     give_up = time.monotonic() + patience
+    config = _config(link)
     while True:
         try:
-            return ZenohBus(zenoh.open(_config("client", connect=[endpoint])))
+            return ZenohBus(zenoh.open(config))
         except zenoh.ZError as error:
             if time.monotonic() >= give_up:
-                raise HubUnreachable(
-                    f"there is no hub at {endpoint}; start one with: xavi serve --listen {endpoint}"
-                ) from error
+                raise HubUnreachable(_unreachable(config, error)) from error
         time.sleep(RETRY)
 
 
-def _config(mode: str, *, listen: Sequence[str] = (), connect: Sequence[str] = ()) -> zenoh.Config:
-    config = zenoh.Config()
-    settings: dict[str, object] = {
-        "mode": mode,
-        "listen/endpoints": list(listen),
-        "connect/endpoints": list(connect),
-        "scouting/multicast/enabled": False,
-        "scouting/gossip/enabled": False,
-        "transport/shared_memory/enabled": False,
-        "timestamping/enabled": True,
-    }
-    for key, value in settings.items():
-        config.insert_json5(key, json.dumps(value))
+def _unreachable(config: zenoh.Config, error: zenoh.ZError) -> str:
+    places = _endpoints(config, "connect")
+    if not places:
+        return "there is no endpoint to connect to; name one with --connect"
+    start = f"start one with: xavi serve --listen {places[0]}"
+    if places[0].startswith(("tls/", "quic/")):
+        start = f"or it does not accept this certificate ({_reason(error)})"
+    return f"there is no hub at {' or '.join(places)}; {start}"
+
+
+def _config(link: Link) -> zenoh.Config:
+    """The configuration of a session.
+
+    Raises:
+        BadLink: the file cannot be used, or an endpoint or mode.
+    """
+    config, settings = zenoh.Config(), SAFE
+    if link.config is not None:
+        try:
+            config, settings = zenoh.Config.from_file(str(link.config)), {}
+        except zenoh.ZError as error:
+            raise BadLink(
+                f"{link.config} is no Zenoh configuration: {_reason(error)};"
+                " `xavi keys` writes such files"
+            ) from error
+    said = {"mode": link.mode, "listen/endpoints": link.listen, "connect/endpoints": link.connect}
+    if link.config is None:
+        said["mode"] = link.mode or "client"
+    else:
+        said = {key: value for key, value in said.items() if value}
+    try:
+        for key, value in {**settings, **said}.items():
+            config.insert_json5(key, json.dumps(value))
+    except zenoh.ZError as error:
+        raise BadLink(f"the bus cannot be configured so: {_reason(error)}") from error
     return config
+
+
+def _endpoints(config: zenoh.Config, direction: str) -> list[str]:
+    """Where a session listens, or connects to."""
+    found = json.loads(config.get_json(f"{direction}/endpoints"))
+    if isinstance(found, dict):  # by mode
+        found = found.get(json.loads(config.get_json("mode")), [])
+    return [str(one) for one in found]
+
+
+def _reason(error: zenoh.ZError) -> str:
+    text = str(error).partition(" at /")[0]  # Zenoh appends places in its own source
+    _, quoted, inner = text.partition('msg: "')
+    return inner.partition('"')[0] if quoted else text
 
 
 def _outcome(reply: zenoh.Reply) -> Outcome:

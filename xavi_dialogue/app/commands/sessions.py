@@ -2,41 +2,23 @@
 
 import sys
 from collections.abc import Callable
-from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
+from xavi_dialogue.app.commands.shell import AsJson, Shell, StoreFile
+
 if TYPE_CHECKING:
     from xavi_dialogue.app.memory import Keeping
 
-Errors: TypeAlias = Callable[[], AbstractContextManager[None]]  # tells what goes wrong
-Write: TypeAlias = Callable[[str], None]
 Command: TypeAlias = Callable[..., None]
 
-StoreFile = Annotated[
-    Path | None,
-    typer.Option("--store", dir_okay=False, help="File of what is kept. Default: the user's."),
-]
-KEEP_DAYS = 30
-KeepDays = Annotated[
-    int,
-    typer.Option(min=0, max=36500, help="Days after which what was said is erased; 0: not kept."),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
-
-def add(app: typer.Typer, errors: Errors, write: Write) -> None:
-    """Add the commands.
-
-    Args:
-        app: gets them.
-        errors: around all that may go wrong.
-        write: prints.
-    """
-    app.command("sessions")(_sessions(errors, write))
-    app.command("forget")(_forget(errors, write))
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("sessions")(_sessions(shell))
+    app.command("forget")(_forget(shell))
 
 
 def keeping_in(store: Path | None, days: int) -> "Keeping | None":
@@ -53,7 +35,7 @@ def store_file(given: Path | None) -> Path:
     return default_path() if given is None else given
 
 
-def _sessions(errors: Errors, write: Write) -> Command:
+def _sessions(shell: Shell) -> Command:
     def sessions(
         session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
         export: Annotated[
@@ -69,21 +51,21 @@ def _sessions(errors: Errors, write: Write) -> Command:
 
         from xavi_dialogue.app import sessions as kept
 
-        with errors():
+        with shell.errors():
             if export:
                 for line in kept.export(store_file(store), session):
-                    write(line)
+                    shell.write(line)
                 return
             found = kept.kept(store_file(store), session)
             if as_json:
-                write(msgspec.json.encode(found).decode())
+                shell.write(msgspec.json.encode(found).decode())
             else:
-                write(kept.table(found, lambda at: datetime.fromtimestamp(at).astimezone()))
+                shell.write(kept.table(found, lambda at: datetime.fromtimestamp(at).astimezone()))
 
     return sessions
 
 
-def _forget(errors: Errors, write: Write) -> Command:
+def _forget(shell: Shell) -> Command:
     def forget(
         session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
         everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
@@ -98,10 +80,10 @@ def _forget(errors: Errors, write: Write) -> Command:
 
         from xavi_dialogue.app import sessions as kept
 
-        with errors():
+        with shell.errors():
             wanted = kept.Wanted(session, everything, older_than)
             agreed = _agreed if not yes else lambda _: True
-            write(kept.forget(store_file(store), wanted, time.time(), agreed, _Typed()))
+            shell.write(kept.forget(store_file(store), wanted, time.time(), agreed, _Typed()))
 
     return forget
 

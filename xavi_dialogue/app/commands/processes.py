@@ -1,0 +1,105 @@
+"""The commands `xavi drive` and `xavi serve`: the processes behind a conversation."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from xavi_dialogue.app.commands.sessions import keeping_in
+from xavi_dialogue.app.commands.shell import (
+    KEEP_DAYS,
+    AsJson,
+    Connect,
+    Control,
+    KeepDays,
+    ScenarioName,
+    Seed,
+    Shell,
+    SpeedFactor,
+    StoreFile,
+    Vehicle,
+    ZenohFile,
+    to_json,
+)
+from xavi_dialogue.app.exit_status import ExitStatus
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("drive")(_drive(shell))
+    app.command("serve")(_serve(shell))
+
+
+def _drive(shell: Shell) -> Callable[..., None]:
+    def drive(
+        scenario: ScenarioName = "s1",
+        seed: Seed = None,
+        duration: Annotated[
+            float | None, typer.Option(min=0.1, help="At most so long [s].")
+        ] = None,
+        speed: SpeedFactor = 0.0,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        save: Annotated[
+            Path | None,
+            typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
+        ] = None,
+        as_json: AsJson = False,
+        control: Control = False,
+    ) -> None:
+        """Drive a scenario; with --connect or --zenoh, reported on the bus."""
+        from xavi_dialogue.app.drive import Manner, drive
+        from xavi_dialogue.app.narration import story
+        from xavi_dialogue.transports.link import Link
+
+        with shell.errors():
+            loaded = shell.load(scenario, told=control)
+            link = Link.to_hub(connect, zenoh) if connect or zenoh else None
+            manner = Manner(speed or 0.0, duration, link, vehicle, control, save)
+            summary = drive(loaded, loaded.seed if seed is None else seed, manner)
+        if not control:
+            shell.write(to_json(summary) if as_json else story(summary.events))
+            if summary.ended is None:
+                raise typer.Exit(ExitStatus.INTERRUPTED)
+
+    return drive
+
+
+def _serve(shell: Shell) -> Callable[..., None]:
+    def serve(
+        listen: Annotated[
+            str | None,
+            typer.Option(
+                envvar="XAVI_LISTEN",
+                metavar="ENDPOINT",
+                help="Where others find the hub. Default: tcp/127.0.0.1:7447.",
+            ),
+        ] = None,
+        connect: Annotated[
+            list[str] | None,
+            typer.Option(metavar="ENDPOINT", help="Routers of a fleet to join; repeatable."),
+        ] = None,
+        mode: Annotated[
+            Literal["peer", "router"] | None,
+            typer.Option(help="As what. Default: peer; router to pass on what other hubs say."),
+        ] = None,
+        zenoh: ZenohFile = None,
+        store: StoreFile = None,
+        keep_days: KeepDays = KEEP_DAYS,
+        control: Control = False,
+    ) -> None:
+        """Run the dialogue service, and the hub that the others join."""
+        from xavi_dialogue.app.hub import serve
+        from xavi_dialogue.app.memory import Memory
+        from xavi_dialogue.transports.link import Link
+
+        with shell.errors():
+            link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
+            memory = Memory(
+                keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
+            )
+            serve(link, memory, shell.note, controlled=control)
+
+    return serve

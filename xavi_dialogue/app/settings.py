@@ -1,0 +1,74 @@
+"""The settings of a user: what options are taken from a file.
+
+An option counts in this order: as it stands on the command line; as an environment variable says;
+as the file says; as it is by default. The file is TOML. An option at its top is for every command
+that has it, and one in a table for the command of that name:
+
+    vehicle = "shuttle-3"
+
+    [serve]
+    listen = "tcp/0.0.0.0:7447"
+"""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+Options: TypeAlias = Mapping[str, Mapping[str, str]]  # by command: options and their parameters
+
+
+class SettingsError(ValueError):
+    """A file of settings that cannot be used."""
+
+
+def default_path() -> Path:
+    """The file of this user."""
+    # Deferred: few commands need it.
+    from platformdirs import user_config_path
+
+    return user_config_path("xavi-dialogue") / "config.toml"
+
+
+def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
+    """What a file sets, by command and parameter.
+
+    Args:
+        path: of the file.
+        options: that there are: of every command, the name of each with that of its parameter.
+
+    Raises:
+        SettingsError: it cannot be read, or sets what there is not.
+    """
+    try:
+        said = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise SettingsError(f"the settings in {path} cannot be read: {error}") from error
+    everywhere = {name: value for name, value in said.items() if not isinstance(value, dict)}
+    tables = {name: value for name, value in said.items() if isinstance(value, dict)}
+    for name in tables:
+        if name not in options:
+            raise SettingsError(f"{path}: [{name}] is no command; there are {_listed(options)}")
+    known = {option for of_command in options.values() for option in of_command}
+    _check(path, "", everywhere, known)
+    found: dict[str, dict[str, Any]] = {}
+    for command, of_command in options.items():
+        _check(path, f" of [{command}]", tables.get(command, {}), set(of_command))
+        chosen = {name: value for name, value in everywhere.items() if name in of_command}
+        chosen.update(tables.get(command, {}))
+        found[command] = {of_command[name]: value for name, value in chosen.items()}
+    return found
+
+
+def _check(path: Path, where: str, said: Mapping[str, Any], known: set[str]) -> None:
+    for name, value in said.items():
+        if name not in known:
+            raise SettingsError(f"{path}: {name}{where} is no option; there are {_listed(known)}")
+        if not isinstance(value, (str, int, float, list)):
+            raise SettingsError(
+                f"{path}: {name}{where} has to be a text, a number, true, false or a list"
+            )
+
+
+def _listed(names: set[str] | Options) -> str:
+    return ", ".join(sorted(names))
