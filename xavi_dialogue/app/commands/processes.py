@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from xavi_dialogue.app.commands.logged import logged
 from xavi_dialogue.app.commands.sessions import keeping_in
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
@@ -32,6 +33,7 @@ def add(app: typer.Typer, shell: Shell) -> None:
 
 
 def _drive(shell: Shell) -> Callable[..., None]:
+    @logged("car")
     def drive(
         scenario: ScenarioName = "s1",
         seed: Seed = None,
@@ -68,6 +70,7 @@ def _drive(shell: Shell) -> Callable[..., None]:
 
 
 def _serve(shell: Shell) -> Callable[..., None]:
+    @logged("service")
     def serve(
         listen: Annotated[
             str | None,
