@@ -14,7 +14,8 @@ from planner import trace as plan_trace
 from planner.events import Event
 from tests.fakes import again, s1_moments, scripted_mind
 from xavi_dialogue.app.client import Client, ServiceLost
-from xavi_dialogue.app.desk import MAX_PAST, Answer
+from xavi_dialogue.app.desk import MAX_PAST
+from xavi_dialogue.app.errands import Answer
 from xavi_dialogue.app.ledger import InOrder
 from xavi_dialogue.app.memory import PURGED_EVERY, Keeping, Memory
 from xavi_dialogue.app.report import Reporter
@@ -22,6 +23,7 @@ from xavi_dialogue.app.service import Service
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.bus import (
+    EVERY_CAR,
     Bus,
     BusFailed,
     Call,
@@ -51,6 +53,7 @@ from xavi_dialogue.transports.store import DAY, NewTurn, RideName, Store
 
 KEYS = Keys()
 ASK = KEYS.of("@rpc/ask")
+ASKED = EVERY_CAR.of("@rpc/ask")
 
 
 EMPTY = HistoryReply(session="ada", seq=0, sim_time=0.0, wall_time=0.0, turns=())
@@ -61,7 +64,7 @@ class Bench:
 
     def __init__(self, memory: Memory | None = None) -> None:
         self.hub = MemoryHub()
-        self.service = Service(self.hub.connect(), KEYS, scripted_mind(), memory)
+        self.service = Service(self.hub.connect(), scripted_mind(), memory)
         self.service.open()
         self.car = self.hub.connect()
         self.passenger: Bus = self.hub.connect()
@@ -113,7 +116,7 @@ class Bench:
 def planned(bench: Bench, asked: Call) -> None:
     """Reply to the service as the car does once it has planned again."""
     wanted = unpack(asked.payload, WhatIfRequest)
-    traces = bench.service.desk.dialogue.traces
+    traces = bench.service.desk().dialogue.traces
     [trace] = [trace for trace in traces if trace.trace_id == wanted.trace_id]
     asked.reply(plan_trace.encode(again(trace, wanted)))
 
@@ -128,7 +131,7 @@ def test_a_question_is_answered_from_the_reported_record(bench: Bench) -> None:
     reply = bench.ask("answer")
     assert (reply.kind, reply.sim_time) == ("answer", 7.0)
     assert reply.timing_ms is not None
-    assert reply.trace_id == bench.service.desk.dialogue.traces[-1].trace_id
+    assert reply.trace_id == bench.service.desk().dialogue.traces[-1].trace_id
 
 
 def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
@@ -177,7 +180,7 @@ def test_when_the_car_is_gone_the_conversation_goes_on(bench: Bench) -> None:
 def test_a_question_is_given_up_before_its_deadline(bench: Bench) -> None:
     bench.drive(until=3.0)
     came = bench.send("answer", at=6.0, deadline_ms=2000.0)
-    desk = bench.service.desk
+    desk = bench.service.desk()
     [question] = desk.questions.values()
     deadline = question.came + 2.0
     assert desk.settle(deadline - 0.2) == []
@@ -191,7 +194,7 @@ def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
     bench.drive()
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
     bench.send("lack", deadline_ms=2000.0)
-    desk = bench.service.desk
+    desk = bench.service.desk()
     [given_up] = desk.settle(desk.questions["q1"].came + 1.99)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
@@ -231,7 +234,7 @@ class Gone:
     """A call whose caller is gone."""
 
     def __init__(self, payload: bytes) -> None:
-        self.payload = payload
+        self.key, self.payload = ASK, payload
 
     def reply(self, payload: bytes) -> None:
         raise BusFailed(f"{len(payload)} bytes for nobody")
@@ -245,11 +248,11 @@ class Gone:
 def test_who_asks_and_goes_harms_nobody(bench: Bench) -> None:
     bench.drive()
     asked = AskRequest(request="q0", session="ada", text="answer")
-    serve = bench.hub.servers[ASK][1]
+    serve = bench.hub.servers[ASKED][1]
     serve(Gone(pack(asked)))
     serve(Gone(b"junk"))
     assert bench.ask("answer").kind == "answer"
-    assert bench.service.desk.questions == {}
+    assert bench.service.desk().questions == {}
 
 
 @pytest.mark.parametrize(
@@ -297,7 +300,7 @@ def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(ben
     came = bench.send("lack")  # under the same name
     planned(bench, held[0])
     bench.service.work()
-    assert (came, bench.service.desk.dialogue.planned) == ([], {})
+    assert (came, bench.service.desk().dialogue.planned) == ([], {})
     planned(bench, held[1])
     bench.service.work()
     assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]
@@ -305,7 +308,7 @@ def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(ben
 
 def test_a_car_that_plans_something_else_has_failed(bench: Bench) -> None:
     bench.drive()
-    trace = bench.service.desk.dialogue.traces[0]
+    trace = bench.service.desk().dialogue.traces[0]
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda asked: asked.reply(plan_trace.encode(trace)))
     assert bench.ask("lack").reason == "planner-failed"
 
@@ -314,7 +317,7 @@ def test_another_ride_begins_another_record(bench: Bench) -> None:
     bench.drive()
     bench.drive(until=3.0, appear=False)
     assert bench.ask("answer").sim_time == 3.0
-    assert len(bench.service.desk.dialogue.traces) == 1
+    assert len(bench.service.desk().dialogue.traces) == 1
 
 
 def test_the_history_of_a_session_can_be_read(bench: Bench) -> None:
@@ -331,13 +334,13 @@ def reply_of(text: str) -> Reply:
 def test_a_history_has_the_latest_turns_that_fit(bench: Bench) -> None:
     large = reply_of("\U0001f600" * 10_000)
     turns = tuple(Turn(text=str(k), query=None, reply=large) for k in range(60))
-    bench.service.desk.resume("ada", turns)
+    bench.service.desk().resume("ada", turns)
     told = [int(text) for text in bench.history()]
     assert told == [*range(60 - len(told), 60)]
     size = len(pack(EMPTY)) + len(told) * len(msgspec.json.encode(PastTurn("59", large)))
     assert HistoryReply.LIMIT - 60_000 < size < HistoryReply.LIMIT
     huge = Turn(text="huge", query=None, reply=reply_of("x" * 2**20))
-    bench.service.desk.resume("ada", (turns[0], huge, turns[1], turns[2]))
+    bench.service.desk().resume("ada", (turns[0], huge, turns[1], turns[2]))
     assert bench.history() == ["1", "2"]
 
 
@@ -354,7 +357,7 @@ def test_nonsense_is_refused_with_its_reason(bench: Bench, rpc: str) -> None:
 def test_nonsense_in_the_record_is_counted_and_left_out(bench: Bench) -> None:
     bench.car.publisher(KEYS.of("trace")).put(b"junk")
     bench.drive()
-    assert bench.service.rejected == 1
+    assert bench.service.alive.counted("rejected") == 1
     assert bench.ask("answer").kind == "answer"
 
 
@@ -380,7 +383,7 @@ def test_one_name_one_question(bench: Bench) -> None:
 
 
 def test_the_service_tells_its_schemas(bench: Bench) -> None:
-    told = [name for name in MESSAGES if KEYS.of(f"@schema/{name}") in bench.hub.servers]
+    told = [name for name in MESSAGES if EVERY_CAR.of(f"@schema/{name}") in bench.hub.servers]
     assert {"ask", "reply", "history", "forget", "cancel", "whatif", "failure"} <= set(told)
     schema = json.loads(call(bench.passenger, KEYS.of("@schema/ask"), b"", 1.0))
     assert schema["properties"]["schema"] == {"const": "xavi.ask/1"}
@@ -433,7 +436,7 @@ def test_a_conversation_is_resumed_by_another_service(kept: Keeping) -> None:
     assert later.history() == ["answer"]  # before any car is heard of
     later.drive()
     later.ask("refuse")
-    turns = later.service.desk.dialogue.sessions["ada"].turns
+    turns = later.service.desk().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == ["answer", "refuse"]
     assert texts(kept) == ["answer", "refuse"]
 
@@ -444,7 +447,7 @@ def test_a_conversation_goes_on_when_another_ride_begins() -> None:
     bench.ask("answer")
     bench.drive(until=3.0, appear=False)
     bench.ask("refuse", request="q2")
-    turns = bench.service.desk.dialogue.sessions["ada"].turns
+    turns = bench.service.desk().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == ["answer", "refuse"]
 
 
@@ -456,7 +459,7 @@ def test_no_more_is_resumed_than_can_be_used(kept: Keeping) -> None:
     bench = Bench(Memory(kept))
     bench.drive()
     bench.ask("answer")
-    turns = bench.service.desk.dialogue.sessions["ada"].turns
+    turns = bench.service.desk().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == [*map(str, range(5, MAX_PAST + 5)), "answer"]
 
 
@@ -469,7 +472,7 @@ def test_what_happens_is_kept_once_with_how_to_drive_it_again(kept: Keeping) -> 
         lines = [json.loads(line) for line in store.export()]
     assert (listed.scenario, listed.seed, listed.sim_time) == ("s1", 4, 7.0)
     happened = [line["event"]["sim_time"] for line in lines if "event" in line]
-    assert happened == [event.sim_time for event in bench.service.desk.dialogue.events]
+    assert happened == [event.sim_time for event in bench.service.desk().dialogue.events]
     assert happened
 
 
@@ -482,7 +485,7 @@ def test_a_conversation_is_forgotten_on_request(kept: Keeping) -> None:
     assert (texts(kept), texts(kept, "bob")) == ([], ["answer"])
     assert bench.history() == []
     bench.ask("refuse", request="q3")
-    assert [turn.text for turn in bench.service.desk.dialogue.sessions["ada"].turns] == ["refuse"]
+    assert [turn.text for turn in bench.service.desk().dialogue.sessions["ada"].turns] == ["refuse"]
     assert bench.forget("eve").turns == 0
 
 

@@ -8,7 +8,6 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.local import make_mind
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.service import Service
-from xavi_dialogue.transports.bus import Keys
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import host
 
@@ -33,7 +32,7 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
     mind = make_mind()
     with host(link) as bus:
         note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
-        service = Service(bus, Keys(), mind, memory)
+        service = Service(bus, mind, memory)
         service.open()
         service.run(lambda: not orders.empty() and isinstance(orders.get(), control.Quit))
     memory.close()

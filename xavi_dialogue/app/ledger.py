@@ -12,6 +12,9 @@ from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceRep
 
 Item = TypeVar("Item")
 
+PATIENCE = 1.0  # [s] for what is missing; the bus makes up for what it loses within half of it
+MAX_HELD = 2000  # items that may wait for an earlier one
+
 
 @dataclass
 class InOrder(Generic[Item]):
@@ -19,10 +22,11 @@ class InOrder(Generic[Item]):
 
     next: int = 0  # number of the first item that has not been handed on
     held: dict[int, Item] = field(default_factory=dict)
+    lost: int = 0  # that were given up
 
     def add(self, number: int, item: Item) -> list[Item]:
         """Take an item in; what can be handed on now."""
-        if number >= self.next:
+        if number >= self.next and len(self.held) < MAX_HELD:
             self.held.setdefault(number, item)
         return self._ready()
 
@@ -35,6 +39,16 @@ class InOrder(Generic[Item]):
         if self.next < oldest:
             self.next = min([oldest, *self.held])
         return self._ready()
+
+    def give_up(self, end: int) -> list[Item]:
+        """Give up all that is missing before a number; what can be handed on now."""
+        ready: list[Item] = []
+        while self.next < end:
+            after = min([end, *self.held])
+            self.lost += after - self.next
+            self.next = after
+            ready += self._ready()
+        return ready
 
     def _ready(self) -> list[Item]:
         ready = []
@@ -52,23 +66,31 @@ class Ledger:
     traces: InOrder[PlanTrace] = field(default_factory=InOrder)
     events: InOrder[Event] = field(default_factory=InOrder)
     scene: SceneReport | None = None  # the latest
+    reached: float = 0.0  # [s] the latest moment of which a scene told
     over: bool = False
+    missing: tuple[float, int, int] | None = None  # since when [s] something is, and what is next
 
     def trace(self, report: TraceReport) -> list[Input]:
         """What there is to tell the manager after a trace report."""
-        ready = self.traces.add(report.seq, report.trace)
+        ready = [] if self.over else self.traces.add(report.seq, report.trace)
         return [*map(TraceRecorded, ready), *self._end()]
 
     def event(self, report: EventReport) -> list[Input]:
         """What there is to tell the manager after an event report."""
-        ready = self.events.add(report.seq, report.event)
+        ready = [] if self.over else self.events.add(report.seq, report.event)
         return [*map(EventRecorded, ready), *self._end()]
 
     def see(self, report: SceneReport) -> list[Input]:
-        """What there is to tell the manager after a scene report."""
+        """What there is to tell the manager after a scene report.
+
+        Its time may be earlier than that of the one before: a recording may be played again.
+        """
         if self.scene is not None and report.seq <= self.scene.seq:
             return self._end()
         self.scene = report
+        self.reached = max(self.reached, report.sim_time)
+        if self.over:
+            return []
         # Who joins late is sent no more than what is kept for that.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
@@ -77,9 +99,37 @@ class Ledger:
     def complete(self, at: float) -> bool:
         """Whether all that was recorded up to a moment [s] has arrived."""
         scene = self.scene
+        if self.over:
+            return True
         if scene is None or not self._arrived(scene):
             return False
-        return self.over or scene.sim_time >= at - EPSILON
+        return self.reached >= at - EPSILON
+
+    def wait(self, now: float) -> list[Input]:
+        """Give up what has been missing for too long; what there is to tell the manager then.
+
+        Args:
+            now: [s] on the shell's clock.
+        """
+        scene = self.scene
+        if scene is None or self.over or self._arrived(scene):
+            self.missing = None
+            return []
+        at = (self.traces.next, self.events.next)
+        if self.missing is None or self.missing[1:] != at:
+            self.missing = (now, *at)
+            return []
+        if now < self.missing[0] + PATIENCE:
+            return []
+        self.missing = None
+        traces = self.traces.give_up(scene.traces)
+        events = self.events.give_up(scene.events)
+        return [*map(TraceRecorded, traces), *map(EventRecorded, events), *self._end()]
+
+    @property
+    def lost(self) -> int:
+        """Reports that were given up."""
+        return self.traces.lost + self.events.lost
 
     def _arrived(self, scene: SceneReport) -> bool:
         return self.traces.next >= scene.traces and self.events.next >= scene.events

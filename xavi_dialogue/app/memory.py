@@ -14,6 +14,7 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.database import Damaged, StoreError, Unfit, Unpurged
 from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
 
+NOBODY = "nobody"  # in place of the digest of an owner that cannot be read: no token has it
 PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
 EXPIRED_EVERY = 3600.0  # [s]
@@ -72,12 +73,38 @@ class Memory:
             self._fail(error)
         return ()
 
-    def keep(self, session: str, ride: RideName | None, wall_time: float, turn: Turn) -> None:
+    def owner(self, session: str) -> str | None:
+        """The digest of whom a session belongs to; None where it is open to all."""
+        if self.keeping is None or session in self._unforgotten:
+            return None
+        missed = (n.owner for n in self._missed if isinstance(n, NewTurn) and n.session == session)
+        try:
+            store = self._opened(self.keeping)
+        except StoreError as error:
+            self._fail(error)
+            return None
+        try:
+            return next(missed, None) or store.owner(session)
+        except Damaged as error:
+            self.warn(f"whose conversation it was is not known any more: {error}")
+            return NOBODY
+        except StoreError as error:
+            self._fail(error)
+        return None
+
+    def keep(
+        self,
+        session: str,
+        ride: RideName | None,
+        wall_time: float,
+        turn: Turn,
+        owner: str | None = None,
+    ) -> None:
         """Keep a turn, and all that was missed; in the file when this returns, if at all."""
         if self.keeping is None:
             return
         if fits(turn):
-            self._missed.append(NewTurn(session, ride, wall_time, turn))
+            self._missed.append(NewTurn(session, ride, wall_time, turn, owner))
         else:
             self.warn(f"a turn of session {session} is too large to be kept")
         self._write(self.keeping)

@@ -1,10 +1,12 @@
-"""The dialogue service: hears the ride on the bus, and answers questions within their deadlines.
+"""The dialogue service: hears the rides on the bus, and answers questions within their deadlines.
 
-Everything that comes in is put into one inbox and handled by one thread, so that the manager
-sees one row of inputs. The car is asked to plan again, and never waited for.
+One service serves any number of cars. Everything that comes in is put into one inbox and handled
+by one thread, so that each manager sees one row of inputs. Cars are asked to plan again, and
+never waited for.
 """
 
 import contextlib
+import logging
 import queue
 import time
 from collections.abc import Callable
@@ -15,38 +17,38 @@ import msgspec
 
 from planner import trace as plan_trace
 from planner.trace import PlanTrace, TraceError
-from xavi_dialogue.app.desk import Answer, Desk, Errand, PlanAgain, Question
+from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.desk import Desk
+from xavi_dialogue.app.errands import Answer, Errand, PlanAgain
 from xavi_dialogue.app.memory import Memory
+from xavi_dialogue.app.reception import Reception, Refusal
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import (
+    DEFAULT_VEHICLE,
+    EVERY_CAR,
     Bus,
     BusError,
     Call,
     Keys,
     NobodyThere,
     Outcome,
+    Presence,
     Refused,
     TooLate,
+    vehicle_in,
 )
 from xavi_dialogue.transports.messages import (
-    KIB,
     MESSAGES,
     AnyMessage,
     AskReply,
-    AskRequest,
-    CancelReply,
-    CancelRequest,
     EventReport,
     Failure,
-    ForgetReply,
-    ForgetRequest,
-    HistoryReply,
-    HistoryRequest,
     MessageError,
     PastTurn,
     SceneReport,
     TraceReport,
+    TurnReport,
     WhatIfRequest,
     pack,
     schema_name,
@@ -55,218 +57,249 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.schema import schema_of
 from xavi_dialogue.transports.store import RideName
 
-MAX_TURNS = 100  # in a history, and fewer where they would be too large
+_LOG = logging.getLogger(__name__)
 IDLE = 0.5  # [s] between looks at whether to stop
+HURRY = 0.05  # [s] between looks at whether what is missing still comes
+MAX_INBOX = 20_000  # messages; beyond them reports are left out, and requests refused
 CAR_MESSAGES = (SceneReport, TraceReport, EventReport)  # the car tells their schemas
+COUNTERS = ("questions", "answered", "declined", "busy", "rejected", "foreign", "what_ifs")
 
 _Job: TypeAlias = Callable[[], None]
+_Heard: TypeAlias = type[TraceReport | EventReport | SceneReport]
 
 
 class Service:
-    """Answers questions about one car."""
+    """Answers questions about every car on the bus."""
 
-    def __init__(self, bus: Bus, keys: Keys, mind: Mind, memory: Memory | None = None) -> None:
+    def __init__(self, bus: Bus, mind: Mind, memory: Memory | None = None) -> None:
         """Begin to serve, once opened.
 
         Args:
-            bus: of the car and the passengers.
-            keys: of the car.
+            bus: of the cars and the passengers.
             mind: answers.
             memory: keeps what is said; none: it is forgotten when this process ends.
         """
-        self.desk = Desk(mind)
+        self.alive = Alive("service", COUNTERS)
         self._memory = Memory() if memory is None else memory
-        self.rejected = 0  # reports that could not be read
-        self._bus, self._keys = bus, keys
+        self.reception = Reception(mind, self._memory, self.alive)
+        self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
-        self._replies = 0
+        self._seen: dict[str, Presence] = {}  # our signs of life, by car
+        self._replies = self._shared = 0
+
+    def desk(self, vehicle: str = DEFAULT_VEHICLE) -> Desk:
+        """The desk of a car."""
+        return self.reception.desk(vehicle)
 
     def open(self) -> None:
         """Declare what is heard and what is answered."""
-        bus, key = self._bus, self._keys.of
-        bus.watch(key("alive/car"), lambda _, alive: self._post(self._on_car, alive))
+        bus, key, desk = self._bus, EVERY_CAR.of, self.reception
+        bus.watch(key("alive/car"), lambda key, alive: self._post(self._on_car, key, alive))
         bus.subscribe(key("trace"), self._hearer(TraceReport), kept=True)
         bus.subscribe(key("event"), self._hearer(EventReport), kept=True)
         bus.subscribe(key("scene"), self._hearer(SceneReport))
-        bus.serve(key("@rpc/ask"), partial(self._post, self._on_ask))
-        bus.serve(key("@rpc/history"), partial(self._post, self._on_history))
-        bus.serve(key("@rpc/forget"), partial(self._post, self._on_forget))
-        bus.serve(key("@rpc/cancel"), partial(self._post, self._on_cancel))
+        requests = {"ask": desk.ask, "cancel": desk.cancel, "forget": desk.forget}
+        for name, handle in {**requests, "history": self._history}.items():
+            bus.serve(key(f"@rpc/{name}"), partial(self._take, handle))
         for name, message in MESSAGES.items():
             if message not in CAR_MESSAGES:
                 bus.serve(key(f"@schema/{name}"), partial(_tell_schema, message))
-        bus.appear(key("alive/service"))
+        self.alive.gauge("cars", lambda: sum(d.car_alive for d in [*desk.desks.values()]))
+        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in [*desk.desks.values()]))
+        self.alive.gauge("waiting", lambda: self.reception.waiting())
+        bus.serve(key("alive/service"), self.alive.answer)
+        self._show(DEFAULT_VEHICLE)
 
     def run(self, stopped: Callable[[], bool]) -> None:
         """Serve until told to stop."""
+        _LOG.info("serving")
         while not stopped():
             self.work(IDLE)
+        _LOG.info("no longer serving")
 
     def work(self, patience: float = 0.0) -> None:
-        """Handle what came in, waiting up to `patience` [s] for it, and keep deadlines."""
-        deadline = self.desk.next_deadline()
-        if deadline is not None:
-            patience = min(patience, max(deadline - time.monotonic(), 0.0))
-        try:
-            _do(self._inbox.get(patience > 0.0, patience))
-            while True:
+        """Handle what came in, waiting up to `patience` [s] for it, and keep deadlines.
+
+        Questions are answered one at a time; what comes in meanwhile is taken down in between.
+        """
+        with contextlib.suppress(queue.Empty):
+            wait = self._patience(patience)
+            _do(self._inbox.get(wait > 0.0, wait))
+        while True:
+            self._empty_inbox()
+            for desk in [*self.reception.desks.values()]:
+                self._run(desk, desk.settle(time.monotonic()))
+            if self._inbox.empty() and not any(d.ready for d in self.reception.desks.values()):
+                break
+        self._memory.tidy(time.time(), idle=not self.reception.waiting())
+
+    def _empty_inbox(self) -> None:
+        with contextlib.suppress(queue.Empty):
+            for _ in range(MAX_INBOX):  # else a flood would keep anybody from being answered
                 _do(self._inbox.get_nowait())
-        except queue.Empty:
-            self._memory.tidy(time.time(), idle=not self.desk.questions)
-            self._run(self.desk.settle(time.monotonic()))
+
+    def _patience(self, patience: float) -> float:
+        """How long [s] nothing has to be done unless something comes in."""
+        for desk in self.reception.desks.values():
+            deadline = desk.next_deadline()
+            if deadline is not None:
+                patience = min(patience, max(deadline - time.monotonic(), 0.0))
+            if desk.ledger is not None and desk.ledger.missing is not None:
+                patience = min(patience, HURRY)
+        return patience
 
     def _post(self, job: Callable[..., None], *arguments: object) -> None:
         self._inbox.put(partial(job, *arguments))
 
-    def _hearer(self, kind: type[TraceReport | EventReport | SceneReport]) -> Callable[..., None]:
-        def hear(_: str, payload: bytes) -> None:
-            self._post(self._on_report, kind, payload)
+    def _take(self, handle: Callable[[Call], None], call: Call) -> None:
+        """Have a request handled; on a thread of the bus."""
+        if self._inbox.qsize() > MAX_INBOX:
+            _do(lambda: call.refuse(pack(Failure(reason="busy", detail="too much comes in"))))
+        else:
+            self._post(self._handle, handle, call)
+
+    def _handle(self, handle: Callable[[Call], None], call: Call) -> None:
+        try:
+            handle(call)
+        except Refusal as refusal:
+            self.alive.count("busy", refusal.failure.reason == "busy")
+            call.refuse(pack(refusal.failure))
+
+    def _history(self, call: Call) -> None:
+        self.reception.history(call, self._next())
+
+    def _hearer(self, kind: _Heard) -> Callable[[str, bytes], None]:
+        def hear(key: str, payload: bytes) -> None:
+            if self._inbox.qsize() <= MAX_INBOX:
+                self._post(self._on_report, kind, key, payload)
 
         return hear
 
-    def _on_report(
-        self, kind: type[TraceReport | EventReport | SceneReport], payload: bytes
-    ) -> None:
+    def _on_report(self, kind: _Heard, key: str, payload: bytes) -> None:
         try:
             report = unpack(payload, kind)
-        except MessageError:
-            self.rejected += 1
+            vehicle = vehicle_in(key)
+            desk = None if vehicle is None else self.desk(vehicle)
+        except (MessageError, Refusal) as error:
+            self.alive.count("rejected")
+            _LOG.info("a report was rejected", extra={"detail": str(error)})
             return
-        self.desk.hear(report)
+        if desk is None:
+            self.alive.count("rejected")
+            return
+        desk.hear(report)
+        self.alive.at(report.sim_time)
         if isinstance(report, EventReport):
-            ride = self._ride() or RideName(report.ride)
+            ride = _ride(desk) or RideName(report.ride)
             self._memory.hear(ride, report.seq, time.time(), report.event)
 
-    def _ride(self) -> RideName | None:
-        """The ride that is heard of."""
-        ledger = self.desk.ledger
-        if ledger is None:
-            return None
-        scene = ledger.scene
-        if scene is None:
-            return RideName(ledger.ride)
-        return RideName(ledger.ride, scene.scenario, scene.seed)
-
-    def _know(self, session: str) -> None:
-        """Make sure that the desk knows what was said in a session before."""
-        if session not in self.desk.past:
-            self.desk.resume(session, self._memory.recall(session))
-
-    def _on_car(self, alive: bool) -> None:
-        self.desk.car_alive = alive
-
-    def _on_ask(self, call: Call) -> None:
-        try:
-            asked = unpack(call.payload, AskRequest)
-        except MessageError as error:
-            call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
+    def _on_car(self, key: str, alive: bool) -> None:
+        vehicle = vehicle_in(key)
+        if vehicle is None:
             return
-        if asked.request in self.desk.questions:
-            call.refuse(pack(Failure(reason="busy", detail="a request of this name is open")))
-            return
-        came = time.monotonic()
-        self._know(asked.session)
-        self.desk.take(Question(call, asked, came))
+        with contextlib.suppress(Refusal):
+            desk = self.desk(vehicle)
+            desk.car_alive = alive
+            desk.look()
+            _LOG.info("a car appears" if alive else "a car is gone", extra={"vehicle": vehicle})
+            if alive:
+                self._show(vehicle)
 
-    def _on_cancel(self, call: Call) -> None:
-        try:
-            wanted = unpack(call.payload, CancelRequest)
-        except MessageError as error:
-            call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
-            return
-        dropped = self.desk.cancel(wanted)
-        if dropped is not None:
-            dropped.call.drop()
-        call.reply(pack(CancelReply(request=wanted.request, cancelled=dropped is not None)))
+    def _show(self, vehicle: str) -> None:
+        """Show those who look for this car's service that it is there."""
+        if vehicle not in self._seen:
+            self._seen[vehicle] = self._bus.appear(Keys(vehicle).of("alive/service"))
 
-    def _on_forget(self, call: Call) -> None:
-        try:
-            wanted = unpack(call.payload, ForgetRequest)
-        except MessageError as error:
-            call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
-            return
-        known, dropped = self.desk.forget(wanted.session)
-        for question in dropped:
-            question.call.drop()
-        erased = self._memory.forget(wanted.session)
-        reply = ForgetReply(
-            request=wanted.request,
-            session=wanted.session,
-            turns=known if erased is None else max(erased, known),
-            forgotten=erased is not None,
-        )
-        call.reply(pack(reply))
-
-    def _on_history(self, call: Call) -> None:
-        try:
-            wanted = unpack(call.payload, HistoryRequest)
-        except MessageError as error:
-            call.refuse(pack(Failure(reason="not-understood", detail=str(error))))
-            return
-        self._know(wanted.session)
-        turns = self.desk.past[wanted.session][-MAX_TURNS:]
-        past = tuple(PastTurn(turn.text, turn.reply) for turn in turns)
-        ledger = self.desk.ledger
-        scene = None if ledger is None else ledger.scene
-        reply = HistoryReply(
-            session=wanted.session,
-            seq=self._next(),
-            sim_time=0.0 if scene is None else scene.sim_time,
-            wall_time=time.time(),
-            turns=_latest(past, HistoryReply.LIMIT - KIB),
-        )
-        call.reply(pack(reply))
-
-    def _run(self, errands: list[Errand]) -> None:
+    def _run(self, desk: Desk, errands: list[Errand]) -> None:
         for errand in errands:
             match errand:
                 case Answer():
-                    self._send(errand)
+                    self._send(desk, errand)
                 case PlanAgain():
-                    self._plan_again(errand)
+                    self._plan_again(desk, errand)
 
-    def _send(self, answer: Answer) -> None:
-        asked = answer.question.asked
+    def _send(self, desk: Desk, answer: Answer) -> None:
+        question, asked = answer.question, answer.question.asked
         if answer.turn is not None:
-            self._memory.keep(asked.session, self._ride(), time.time(), answer.turn)
-        taken = round((time.monotonic() - answer.question.came) * 1000.0, 3)
+            owner = self.reception.owners.of(asked.session)
+            self._memory.keep(asked.session, _ride(desk), time.time(), answer.turn, owner)
+        taken = round((time.monotonic() - question.came) * 1000.0, 3)
         fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
         reply = AskReply(**fields, request=asked.request, seq=self._next(), wall_time=time.time())
-        _do(partial(answer.question.call.reply, pack(reply)))
+        _do(partial(question.call.reply, pack(reply)))
+        self._count(answer, taken)
+        if asked.share:
+            self._share(answer)
 
-    def _plan_again(self, errand: PlanAgain) -> None:
-        need, request = errand.need, errand.question.asked.request
-        remaining = max(errand.question.deadline - time.monotonic(), 0.001)
+    def _count(self, answer: Answer, taken: float) -> None:
+        reply, asked = answer.reply, answer.question.asked
+        self.alive.count("questions")
+        self.alive.count("answered" if reply.kind == "answer" else "declined")
+        self.alive.count("busy", reply.reason == "busy")
+        known = {
+            "vehicle": vehicle_in(answer.question.call.key),
+            "session": asked.session,
+            "request": asked.request,
+            "trace_id": reply.trace_id,
+            "kind": reply.kind,
+            "reason": reply.reason,
+            "duration_ms": taken,
+        }
+        _LOG.info("a question was answered", extra=known)
+
+    def _share(self, answer: Answer) -> None:
+        """Let others read a turn, as the passenger allows."""
+        asked, reply = answer.question.asked, answer.reply
+        vehicle = vehicle_in(answer.question.call.key)
+        assert vehicle is not None
+        report = TurnReport(
+            session=asked.session,
+            seq=self._shared,
+            sim_time=reply.sim_time,
+            wall_time=time.time(),
+            turn=PastTurn(asked.text, reply),
+        )
+        self._shared += 1
+        key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
+        _do(lambda: self._bus.send(key, pack(report)))
+
+    def _plan_again(self, desk: Desk, errand: PlanAgain) -> None:
+        need, question = errand.need, errand.question
+        remaining = max(question.deadline - time.monotonic(), 0.001)
         fields = msgspec.structs.asdict(need)
         wanted = WhatIfRequest(
             **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
-            request=request,
+            request=question.asked.request,
             deadline_ms=remaining * 1000.0,
         )
-        done = partial(self._post, self._on_planned, errand)
-        self._bus.request(self._keys.of("@rpc/whatif"), pack(wanted), remaining, done)
+        self.alive.count("what_ifs")
+        done = partial(self._post, self._on_planned, desk, errand)
+        vehicle = vehicle_in(question.call.key)
+        assert vehicle is not None
+        self._bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
 
-    def _on_planned(self, errand: PlanAgain, outcome: Outcome) -> None:
-        self._run(self.desk.deliver(errand, _planned(outcome)))
+    def _on_planned(self, desk: Desk, errand: PlanAgain, outcome: Outcome) -> None:
+        self._run(desk, desk.deliver(errand, _planned(outcome)))
 
     def _next(self) -> int:
         self._replies += 1
         return self._replies - 1
 
 
+def _ride(desk: Desk) -> RideName | None:
+    """The ride that is heard of."""
+    ledger = desk.ledger
+    if ledger is None:
+        return None
+    scene = ledger.scene
+    if scene is None:
+        return RideName(ledger.ride)
+    return RideName(ledger.ride, scene.scenario, scene.seed)
+
+
 def _do(job: _Job) -> None:
     with contextlib.suppress(BusError):  # who asked is gone
         job()
-
-
-def _latest(turns: tuple[PastTurn, ...], limit: int) -> tuple[PastTurn, ...]:
-    """As many of the latest turns as have so many bytes."""
-    taken = 0
-    for kept, turn in enumerate(reversed(turns)):
-        taken += len(msgspec.json.encode(turn)) + 1
-        if taken > limit:
-            return turns[len(turns) - kept :]
-    return turns
 
 
 def _planned(outcome: Outcome) -> PlanTrace | Reason:
@@ -290,4 +323,4 @@ def _planned(outcome: Outcome) -> PlanTrace | Reason:
 
 
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:
-    call.reply(msgspec.json.encode(schema_of(message, schema_name(message))))
+    _do(lambda: call.reply(msgspec.json.encode(schema_of(message, schema_name(message)))))

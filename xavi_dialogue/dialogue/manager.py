@@ -46,6 +46,10 @@ from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
 
 MAX_ROUNDS = 5  # of planning again for one question
+MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
+MAX_EVENTS = 2000
+MAX_PLANNED = 100  # decisions planned again
+MAX_TURNS = 400  # of a session
 
 Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
 
@@ -91,9 +95,11 @@ def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded
     match event:
         case TraceRecorded(trace):
             name = dialogue.ride_id or trace.trace_id
-            return replace(dialogue, ride=phase, ride_id=name, traces=(*dialogue.traces, trace))
+            traces = (*dialogue.traces, trace)[-MAX_TRACES:]
+            return replace(dialogue, ride=phase, ride_id=name, traces=traces)
         case EventRecorded(happened):
-            return replace(dialogue, ride=phase, events=(*dialogue.events, happened))
+            events = (*dialogue.events, happened)[-MAX_EVENTS:]
+            return replace(dialogue, ride=phase, events=events)
         case RideEnded(at):
             return replace(dialogue, ride=phase, ended_at=at)
 
@@ -168,7 +174,8 @@ def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
     assert pending.need is not None
     if not _is_wanted(dialogue, pending.need, event.trace):
         raise IllegalEvent(f"rollouts for {event.request!r} that are not those it waits for")
-    dialogue = replace(dialogue, planned={**dialogue.planned, pending.need: event.trace})
+    planned = [*dialogue.planned.items(), (pending.need, event.trace)][-MAX_PLANNED:]
+    dialogue = replace(dialogue, planned=dict(planned))
     pending = replace(pending, extra=(*pending.extra, event.trace))
     return _think(mind, dialogue, session, pending)
 
@@ -207,7 +214,7 @@ def _speak(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> St
 def _tell(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
     """Say it, and keep the turn."""
     turn = said.turn(asked, dialogue.ride_id)
-    session = replace(session, turns=(*session.turns, turn))
+    session = replace(session, turns=(*session.turns, turn)[-MAX_TURNS:])
     answered = Answered(asked.request, asked.session, said.reply, turn)
     return _with(dialogue, asked.session, session), (answered,)
 
@@ -241,4 +248,7 @@ def _resumed(dialogue: Dialogue, name: str, turns: tuple[Turn, ...]) -> Session:
 
 
 def _with(dialogue: Dialogue, name: str, session: Session) -> Dialogue:
-    return replace(dialogue, sessions={**dialogue.sessions, name: session})
+    sessions = {**dialogue.sessions, name: session}
+    if session == Session():  # as if nothing had been said
+        del sessions[name]
+    return replace(dialogue, sessions=sessions)

@@ -159,6 +159,9 @@ class Bus(Protocol):
             keep: 0 lets messages drop; else none is lost, and so many are kept for late joiners.
         """
 
+    def send(self, key: str, payload: bytes) -> None:
+        """Send one message under a key, of many keys that have few each; it may drop."""
+
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
         """Receive what is sent under a key; with `kept` also what is kept there."""
 

@@ -14,8 +14,9 @@ import contextlib
 import os
 import sqlite3
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
@@ -57,13 +58,22 @@ class Unfit(StoreError):
 class Database:
     """A connection to one file; of use in the thread that made it."""
 
-    def __init__(self, path: Path, tables: str, version: int, *, patience: float) -> None:
+    def __init__(
+        self,
+        path: Path,
+        tables: str,
+        version: int,
+        migrations: Mapping[int, str] = MappingProxyType({}),
+        *,
+        patience: float,
+    ) -> None:
         """Open the file; make it, for its owner alone, where there is none.
 
         Args:
             path: the file.
             tables: SQL that makes them in an empty file.
             version: of the tables.
+            migrations: SQL that brings tables of a version to the next.
             patience: [s] to wait for others that write.
 
         Raises:
@@ -78,7 +88,7 @@ class Database:
         # One damaged byte spoils what it stands in and not all that is read with it.
         self._connection.text_factory = lambda text: text.decode(errors="surrogateescape")
         try:
-            self._open(tables, version)
+            self._open({0: tables} | dict(migrations), version)
         except BaseException:
             self._connection.close()  # and no more: it may not be ours
             raise
@@ -200,7 +210,7 @@ class Database:
         except OSError as error:
             raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
 
-    def _open(self, tables: str, version: int) -> None:
+    def _open(self, steps: Mapping[int, str], version: int) -> None:
         for attempt in range(1, OPENING + 1):
             try:
                 self._version(version)  # before anything is changed in what may not be ours
@@ -214,9 +224,11 @@ class Database:
         with contextlib.suppress(OSError):  # the file of another user, who lets us write
             self.path.chmod(0o600)
         with self.writing() as file:
-            if self._version(version) == 0:
-                for statement in filter(str.strip, tables.split(";")):
-                    file.execute(statement)
+            held = self._version(version)
+            if held < version:
+                for step in range(held, version) if held else (0,):
+                    for statement in filter(str.strip, steps[step].split(";")):
+                        file.execute(statement)
                 file.execute(f"PRAGMA application_id = {APPLICATION}")
                 file.execute(f"PRAGMA user_version = {version}")
         if self.rows("PRAGMA quick_check(1)") != [("ok",)]:

@@ -101,6 +101,10 @@ class MemoryBus:
         """See Bus."""
         return _MemoryPublisher(self._hub, key, keep)
 
+    def send(self, key: str, payload: bytes) -> None:
+        """See Bus."""
+        _MemoryPublisher(self._hub, key, 0).put(payload)
+
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
         """See Bus."""
         self._hub.subscribers[key].append((self, handler))

@@ -4,6 +4,7 @@ A row that is not as it was written raises Damaged, with the session that it bel
 forget that; forgetting needs nothing of it to be read.
 """
 
+import re
 import shlex
 from collections.abc import Mapping
 from pathlib import Path
@@ -103,6 +104,17 @@ def checked(path: Path, session: str, fields: Mapping[str, object], kind: type[T
     except (msgspec.MsgspecError, UnicodeError) as error:
         raise _damaged(path, session, str(error)) from error
     return made
+
+
+def decoded_owner(path: Path, session: str, text: object) -> str:
+    """The digest of a session's owner.
+
+    Raises:
+        Damaged: it is none.
+    """
+    if not isinstance(text, str) or not re.fullmatch(r"[0-9a-f]{64}", text):
+        raise _damaged(path, session, "no digest of an owner")
+    return text
 
 
 def _damaged(path: Path, session: str, problem: str) -> Damaged:

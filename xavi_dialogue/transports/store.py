@@ -14,9 +14,9 @@ import msgspec
 from planner.events import Event
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.database import Database, Unfit, Writing
-from xavi_dialogue.transports.rows import Line, Summary, checked, decoded, known
+from xavi_dialogue.transports.rows import Line, Summary, checked, decoded, decoded_owner, known
 
-VERSION = 1
+VERSION = 2
 SCHEMA = "xavi.memory/1"  # of exported lines
 MAX_TURN = 256 * 1024  # bytes
 PATIENCE = 5.0  # [s] to wait for others that write
@@ -36,8 +36,11 @@ CREATE TABLE events (
     sim_time REAL NOT NULL, event TEXT NOT NULL,
     PRIMARY KEY (ride, seq)
 );
-CREATE INDEX turns_by_ride ON turns (ride)
+CREATE INDEX turns_by_ride ON turns (ride);
+CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)
 """
+# What brings tables of a version to the next.
+_MIGRATIONS = {1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +60,7 @@ class NewTurn:
     ride: RideName | None  # None: no car had been heard of
     wall_time: float  # [s]
     turn: Turn
+    owner: str | None = None  # digest of whom the session belongs to; None: it is open to all
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +92,7 @@ class Store:
             patience: [s] to wait for other processes that write.
         """
         self.path = path
-        self._file = Database(path, _TABLES, VERSION, patience=patience)
+        self._file = Database(path, _TABLES, VERSION, _MIGRATIONS, patience=patience)
 
     def keep(self, news: Iterable[New]) -> None:
         """Keep all of these, or none; an event that is there already stays as it is.
@@ -112,6 +116,11 @@ class Store:
         sql = "SELECT turn FROM turns WHERE session = ? ORDER BY number DESC LIMIT ?"
         rows = self._file.rows(sql, (session, limit))
         return tuple(decoded(self.path, session, turn, Turn) for (turn,) in reversed(rows))
+
+    def owner(self, session: str) -> str | None:
+        """The digest of whom a session belongs to; None where it is open to all."""
+        rows = self._file.rows("SELECT digest FROM owners WHERE session = ?", (session,))
+        return decoded_owner(self.path, session, rows[0][0]) if rows else None
 
     def holds(self, session: str) -> bool:
         """Whether there is anything of a session; whatever became of the names of others."""
@@ -172,6 +181,7 @@ class Store:
             gone = sum(file.execute(silent, (row,)).rowcount for row in sorted(rides))
             if erased or gone:
                 self._file.owe(file)
+                file.execute("DELETE FROM owners WHERE session NOT IN (SELECT session FROM turns)")
         self._file.purge()
         return erased
 
@@ -239,6 +249,9 @@ class Store:
         if size > MAX_TURN:
             raise Unfit(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
         ride = None if new.ride is None else new.ride.id
+        if new.owner is not None:
+            claim = "INSERT OR IGNORE INTO owners VALUES (?, ?)"
+            file.execute(claim, (new.session, new.owner))
         row = (new.session, ride, new.turn.reply.sim_time, new.wall_time, text, new.session)
         file.execute(
             "INSERT INTO turns SELECT ?, coalesce(max(number), 0) + 1, ?, ?, ?, ?"

@@ -79,6 +79,13 @@ class ZenohBus:
         self._declared.append(publisher)
         return publisher
 
+    def send(self, key: str, payload: bytes) -> None:
+        """See Bus."""
+        with _translated("message"):
+            self._session.put(
+                key, payload, encoding=JSON, congestion_control=CongestionControl.DROP
+            )
+
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
         """See Bus."""
 

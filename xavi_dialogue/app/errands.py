@@ -1,0 +1,49 @@
+"""Questions on a desk, and what a desk wants done: values, handed out and carried out elsewhere."""
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.transports.bus import Call
+from xavi_dialogue.transports.messages import AskRequest
+
+MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
+
+
+@dataclass(eq=False)
+class Question:
+    """A question that has not been answered."""
+
+    call: Call
+    asked: AskRequest
+    came: float  # [s] on the shell's clock
+    begun: bool = False  # the manager has it
+    ready: bool = False  # it waits for its turn alone
+
+    @property
+    def deadline(self) -> float:
+        """When it is given up [s] on the shell's clock."""
+        allowed = self.asked.deadline_ms / 1000.0
+        return self.came + max(allowed - MARGIN, 0.5 * allowed)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A reply to be sent, after its turn has been kept."""
+
+    question: Question
+    reply: Reply
+    turn: Turn | None
+
+
+@dataclass(frozen=True)
+class PlanAgain:
+    """A request to be sent to the car."""
+
+    question: Question  # the first that needs it
+    need: NeedRollout
+
+
+Errand: TypeAlias = Answer | PlanAgain

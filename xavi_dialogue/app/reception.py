@@ -1,0 +1,193 @@
+"""Requests of passengers: checked, admitted, and laid on the desk of the car they are about."""
+
+import logging
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import msgspec
+
+from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.desk import Desk
+from xavi_dialogue.app.errands import Question
+from xavi_dialogue.app.memory import Memory
+from xavi_dialogue.app.owners import Owners
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.transports.bus import Call, vehicle_in
+from xavi_dialogue.transports.messages import (
+    KIB,
+    AskRequest,
+    CancelReply,
+    CancelRequest,
+    Failure,
+    ForgetReply,
+    ForgetRequest,
+    HistoryReply,
+    HistoryRequest,
+    MessageError,
+    PastTurn,
+    pack,
+    unpack,
+)
+
+_LOG = logging.getLogger(__name__)
+MAX_CARS = 64  # that are known of; of those that are gone, the one heard of first is dropped first
+MAX_OPEN = 4  # questions of a session
+MAX_WAITING = 4000  # questions in all
+MAX_TURNS = 100  # in a history, and fewer where they would be too large
+FOREIGN = "this conversation belongs to somebody else; begin another with --session NAME"
+
+Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequest)
+
+
+class Refusal(Exception):
+    """A request is not taken up."""
+
+    def __init__(self, reason: Reason, detail: str) -> None:
+        super().__init__(detail)
+        self.failure = Failure(reason=reason, detail=detail)
+
+
+@dataclass
+class Reception:
+    """Takes requests, one at a time."""
+
+    mind: Mind
+    memory: Memory
+    alive: Alive
+    desks: dict[str, Desk] = field(default_factory=dict)  # by car
+
+    def __post_init__(self) -> None:
+        self.owners = Owners(self.memory.owner)
+
+    def desk(self, vehicle: str) -> Desk:
+        """The desk of a car.
+
+        Raises:
+            Refusal: there are too many cars.
+        """
+        if vehicle not in self.desks:
+            if len(self.desks) >= MAX_CARS:
+                self._make_room()
+            self.desks[vehicle] = Desk(self.mind)
+        return self.desks[vehicle]
+
+    def waiting(self) -> int:
+        """How many questions are open."""
+        return sum(len(desk.questions) for desk in self.desks.values())
+
+    def ask(self, call: Call) -> None:
+        """Lay a question on the desk.
+
+        Raises:
+            Refusal: it is not taken up.
+        """
+        desk, asked = self._admitted(call, AskRequest)
+        if asked.request in desk.questions:
+            raise Refusal("busy", "a request of this name is open")
+        if desk.open(asked.session) >= MAX_OPEN or self.waiting() >= MAX_WAITING:
+            raise Refusal("busy", "too many questions are waiting; ask again in a moment")
+        came = time.monotonic()
+        self._know(desk, asked.session)
+        self.owners.claim(asked.session, asked.token)
+        desk.take(Question(call, asked, came))
+
+    def cancel(self, call: Call) -> None:
+        """Drop a question.
+
+        Raises:
+            Refusal: the request is not taken up.
+        """
+        desk, wanted = self._admitted(call, CancelRequest)
+        dropped = desk.cancel(wanted)
+        if dropped is not None:
+            dropped.call.drop()
+        call.reply(pack(CancelReply(request=wanted.request, cancelled=dropped is not None)))
+
+    def forget(self, call: Call) -> None:
+        """Erase a session.
+
+        Raises:
+            Refusal: the request is not taken up.
+        """
+        _, wanted = self._admitted(call, ForgetRequest)
+        known = 0
+        for desk in self.desks.values():  # it may have been about several cars
+            turns, dropped = desk.forget(wanted.session)
+            known += turns
+            for question in dropped:
+                question.call.drop()
+        erased = self.memory.forget(wanted.session)
+        self.owners.release(wanted.session)
+        reply = ForgetReply(
+            request=wanted.request,
+            session=wanted.session,
+            turns=known if erased is None else max(erased, known),
+            forgotten=erased is not None,
+        )
+        call.reply(pack(reply))
+
+    def history(self, call: Call, seq: int) -> None:
+        """Tell what was said in a session.
+
+        Raises:
+            Refusal: the request is not taken up.
+        """
+        desk, wanted = self._admitted(call, HistoryRequest)
+        self._know(desk, wanted.session)
+        turns = desk.past[wanted.session][-MAX_TURNS:]
+        scene = None if desk.ledger is None else desk.ledger.scene
+        reply = HistoryReply(
+            session=wanted.session,
+            seq=seq,
+            sim_time=0.0 if scene is None else scene.sim_time,
+            wall_time=time.time(),
+            turns=latest((PastTurn(t.text, t.reply) for t in turns), HistoryReply.LIMIT - KIB),
+        )
+        call.reply(pack(reply))
+
+    def _admitted(self, call: Call, kind: type[Wanted]) -> tuple[Desk, Wanted]:
+        """The desk and the request, of somebody who may make it.
+
+        Raises:
+            Refusal: it cannot be read, or the session belongs to somebody else.
+        """
+        vehicle = vehicle_in(call.key)
+        if vehicle is None:
+            raise Refusal("not-understood", "name one car in the key")
+        try:
+            wanted = unpack(call.payload, kind)
+        except MessageError as error:
+            self.alive.count("rejected")
+            raise Refusal("not-understood", str(error)) from error
+        if not self.owners.admits(wanted.session, wanted.token):
+            self.alive.count("foreign")
+            _LOG.warning("a wrong token", extra={"vehicle": vehicle, "session": wanted.session})
+            raise Refusal("out-of-scope", FOREIGN)
+        return self.desk(vehicle), wanted
+
+    def _know(self, desk: Desk, session: str) -> None:
+        """Make sure that the desk knows what was said in a session before."""
+        if session not in desk.past:
+            desk.resume(session, self.memory.recall(session))
+
+    def _make_room(self) -> None:
+        for vehicle, desk in self.desks.items():
+            if not desk.car_alive and not desk.questions:
+                del self.desks[vehicle]
+                return
+        raise Refusal("busy", f"this service talks about {MAX_CARS} cars already")
+
+
+def latest(turns: Iterable[PastTurn], limit: int) -> tuple[PastTurn, ...]:
+    """As many of the latest turns as have so many bytes."""
+    kept: list[PastTurn] = []
+    taken = 0
+    for turn in reversed([*turns]):
+        taken += len(msgspec.json.encode(turn)) + 1
+        if taken > limit:
+            break
+        kept.append(turn)
+    return tuple(reversed(kept))
