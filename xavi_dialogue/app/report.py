@@ -2,10 +2,14 @@
 
 import secrets
 import time
+from collections import deque
+from collections.abc import Callable
+from typing import Protocol
 
 from planner.trace import PlanTrace
+from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.ride import Moment, clock
-from xavi_dialogue.transports.bus import Bus, Keys
+from xavi_dialogue.transports.bus import Keys, Publisher
 from xavi_dialogue.transports.messages import (
     CarState,
     EventReport,
@@ -16,13 +20,48 @@ from xavi_dialogue.transports.messages import (
 
 KEPT_TRACES = 300  # for late joiners
 KEPT_EVENTS = 1000
+LATELY = 5.0  # [s] over which the speed of the simulation is measured
+
+
+class Sends(Protocol):
+    """Where reports go: a bus, or an outbox before it."""
+
+    def publisher(self, key: str, keep: int = 0) -> Publisher: ...
+
+
+class Speedometer:
+    """Measures how fast the simulation has gone lately."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._marks: deque[tuple[float, float]] = deque()  # [s] of the clock, of the simulation
+
+    def note(self, sim_time: float) -> None:
+        """Know a simulation time [s] that is reached now."""
+        now = self._clock()
+        self._marks.append((now, sim_time))
+        while self._marks[0][0] < now - LATELY:
+            self._marks.popleft()
+
+    def read(self) -> float:
+        """Simulated seconds per second; any thread may ask."""
+        now, marks = self._clock(), tuple(self._marks)
+        recent = [mark for mark in marks if mark[0] >= now - LATELY]
+        if not recent or recent[0][0] == now:
+            return 0.0
+        return round((recent[-1][1] - recent[0][1]) / (now - recent[0][0]), 3)
 
 
 class Reporter:
     """Publishes what the car sees, decides and does."""
 
     def __init__(
-        self, bus: Bus, keys: Keys, scenario: str | None = None, seed: int | None = None
+        self,
+        bus: Sends,
+        keys: Keys,
+        scenario: str | None = None,
+        seed: int | None = None,
+        alive: Alive | None = None,
     ) -> None:
         """Begin to report a ride.
 
@@ -31,8 +70,12 @@ class Reporter:
             keys: of the car.
             scenario: name or folder, and
             seed: so that others can have the ride driven again.
+            alive: counts what is reported.
         """
         self._scenario, self._seed = scenario, seed
+        self._alive = Alive("car") if alive is None else alive
+        self._speedometer = Speedometer()
+        self._alive.gauge("speed", self._speedometer.read)
         self._ride = secrets.token_hex(4)
         self._scene = bus.publisher(keys.of("scene"))
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
@@ -42,6 +85,8 @@ class Reporter:
 
     def record(self, moment: Moment) -> None:
         """Publish what was decided and what happened."""
+        self._alive.at(clock(moment))
+        self._speedometer.note(moment.scene.time)
         if moment.trace is not None:
             self._publish_trace(moment.trace)
         for event in moment.events:
@@ -54,6 +99,7 @@ class Reporter:
             )
             self._event.put(pack(report))
             self._events += 1
+            self._alive.count("events")
 
     def idle_time(self) -> float:
         """How long ago [s] the scene was published."""
@@ -84,6 +130,7 @@ class Reporter:
         )
         self._scene.put(pack(report))
         self._scenes += 1
+        self._alive.count("scenes")
         self._published = time.monotonic()
 
     def _publish_trace(self, trace: PlanTrace) -> None:
@@ -96,3 +143,4 @@ class Reporter:
         )
         self._trace.put(pack(report))
         self._traces += 1
+        self._alive.count("decisions")
