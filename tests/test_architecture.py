@@ -28,6 +28,7 @@ GATES = {  # each outside world enters through one file
     "mcap": "xavi_dialogue/transports/mcap_file.py",
     "sqlite3": "xavi_dialogue/transports/database.py",
     "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
+    "zstandard": "xavi_dialogue/transports/mcap_file.py",
 }
 SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/transports/terminal.py"}
 IMPURE = {
