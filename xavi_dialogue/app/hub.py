@@ -8,6 +8,10 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.local import make_mind
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.service import Service
+from xavi_dialogue.dialogue.events import Asked, TurnedAway
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import host
 
@@ -30,9 +34,17 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
     if controlled:
         control.listen(sys.stdin, orders)
     mind = make_mind()
+    _warm(mind)
     with host(link) as bus:
         note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service = Service(bus, mind, memory)
         service.open()
         service.run(lambda: not orders.empty() and isinstance(orders.get(), control.Quit))
     memory.close()
+
+
+def _warm(mind: Mind) -> None:
+    """Have parser and sentences read their grammars, so that the first passenger need not wait."""
+    asked = Asked("warm", "warm", "Hello!", 0.0)
+    advance(mind, Dialogue(), asked)
+    advance(mind, Dialogue(), TurnedAway(asked, "busy"))

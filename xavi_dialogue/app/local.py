@@ -26,8 +26,8 @@ from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.explain.engine import explain
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
+from xavi_dialogue.explain.recollection import Recollection
 from xavi_dialogue.language.context import Style
 from xavi_dialogue.language.parse import Parser
 
@@ -50,7 +50,7 @@ def make_mind() -> Mind:
     parser = Parser()
     return Mind(
         parse=lambda text, vehicles, previous: parser.follow(text, previous, vehicles),
-        explain=explain,
+        explain=Recollection().explain,
     )
 
 

@@ -86,13 +86,17 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
     Pure: the same query and record give the same result. A NeedRollout is answered by asking
     again with the plan made anew among `record.extra`.
     """
+    return explain_ride(query, Ride(record))
+
+
+def explain_ride(query: Query, ride: Ride) -> Explanation | NoExplanation | NeedRollout:
+    """Answer a query from a record that was read before; see `explain`."""
     try:
-        ride = Ride(record)
         return _dated(query, ride, _checked(query, ride, _explainer(query, ride)(query, ride)))
     except Unanswered as unanswered:
         return unanswered.result
     except CausalError:  # a record that contradicts itself explains nothing
-        return NoExplanation(reason="trace-gap", facts={"time": record.now})
+        return NoExplanation(reason="trace-gap", facts={"time": ride.now})
 
 
 def settled(query: Query, record: Record) -> Query:

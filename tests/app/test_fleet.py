@@ -1,0 +1,432 @@
+"""One service, many cars and passengers: turns, bounds, owners, gaps, shared turns and plans."""
+
+import itertools
+from collections.abc import Callable
+
+import pytest
+
+from planner import trace as plan_trace
+from tests.app.test_service import Bench
+from tests.fakes import again, s1_moments
+from xavi_dialogue.app import desk as desks
+from xavi_dialogue.app import reception
+from xavi_dialogue.app.fair import FairQueue
+from xavi_dialogue.app.ledger import PATIENCE, InOrder, Ledger
+from xavi_dialogue.app.memory import Keeping, Memory
+from xavi_dialogue.app.report import Reporter
+from xavi_dialogue.dialogue.events import TraceRecorded
+from xavi_dialogue.transports.bus import Bus, Call, Keys, Refused, call, matches, vehicle_in
+from xavi_dialogue.transports.memory_bus import MemoryHub
+from xavi_dialogue.transports.messages import (
+    AliveReport,
+    AskReply,
+    AskRequest,
+    CancelRequest,
+    EventReport,
+    Failure,
+    ForgetRequest,
+    HistoryReply,
+    HistoryRequest,
+    SceneReport,
+    TraceReport,
+    TurnReport,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
+
+ANN, BOB = "a" * 43, "b" * 43  # tokens
+_NAMES = itertools.count()
+
+
+def ask(bench: Bench, text: str, vehicle: str = "car", **more: object) -> list[object]:
+    """Lay a question on the desk; the list gets what comes back."""
+    came: list[object] = []
+    fields = {"request": f"r{next(_NAMES)}", "session": "ann", "text": text, **more}
+    key = Keys(vehicle).of("@rpc/ask")
+    asked = AskRequest(**fields)  # type: ignore[arg-type]
+    bench.passenger.request(key, pack(asked), 1.0, came.append)
+    return came
+
+
+def drive(bench: Bench, vehicle: str, until: float) -> Bus:
+    """Have a car report its ride up to a moment."""
+    car, keys = bench.hub.connect(), Keys(vehicle)
+    car.appear(keys.of("alive/car"))
+    reporter = Reporter(car, keys, "s1", 4)
+    for moment in s1_moments():
+        reporter.record(moment)
+        reporter.show(moment, "driving", 1.0)
+        if moment.scene.time >= until:
+            break
+    bench.service.work()
+    return car
+
+
+def replied(came: list[object]) -> AskReply:
+    [payload] = came
+    assert isinstance(payload, bytes)
+    return unpack(payload, AskReply)
+
+
+def refused(came: list[object]) -> Failure:
+    [refusal] = came
+    assert isinstance(refusal, Refused)
+    return unpack(refusal.payload, Failure)
+
+
+def plans(bench: Bench, car: Bus, vehicle: str = "car") -> tuple[list[Call], Callable[[], None]]:
+    """What the car is asked to plan; and how it answers all of it."""
+    held: list[Call] = []
+    car.serve(Keys(vehicle).of("@rpc/whatif"), held.append)
+
+    def answer() -> None:
+        for one in tuple(held):
+            held.remove(one)
+            wanted = unpack(one.payload, WhatIfRequest)
+            traces = bench.service.desk(vehicle).dialogue.traces
+            [trace] = [trace for trace in traces if trace.trace_id == wanted.trace_id]
+            one.reply(plan_trace.encode(again(trace, wanted)))
+        bench.service.work()
+
+    return held, answer
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_one_of_each_in_turn() -> None:
+    queue: FairQueue[int] = FairQueue()
+    for item, who in enumerate("aaabbc"):
+        queue.put(who, item)
+    assert [queue.pop() for _ in range(len(queue))] == [0, 3, 5, 1, 4, 2]
+    with pytest.raises(LookupError):
+        queue.pop()
+
+
+@pytest.mark.parametrize(
+    ("key", "vehicle"),
+    [
+        ("xavi/v1/car/@rpc/ask", "car"),
+        ("xavi/v1/bus-7/scene", "bus-7"),
+        ("xavi/v1/*/scene", None),
+        ("xavi/v1/a b/scene", None),
+        ("xavi/v1//scene", None),
+        ("xavi/v2/car/scene", None),
+        ("xavi/v1/car", None),
+        (f"xavi/v1/{'x' * 65}/scene", None),
+    ],
+)
+def test_a_key_names_one_car_or_none(key: str, vehicle: str | None) -> None:
+    assert vehicle_in(key) == vehicle
+
+
+def test_a_star_stands_for_one_part_of_a_key() -> None:
+    assert matches("xavi/v1/*/scene", "xavi/v1/car/scene")
+    assert not matches("xavi/v1/*/scene", "xavi/v1/car/trace")
+    assert not matches("xavi/v1/*/scene", "xavi/v1/a/b/scene")
+    assert not matches("xavi/v1/*", "xavi/v1/@adv")
+
+
+def test_each_car_is_spoken_of_by_its_own_record(bench: Bench) -> None:
+    drive(bench, "one", 3.0)
+    drive(bench, "two", 6.0)
+    came = {name: ask(bench, "answer", name) for name in ("one", "two", "three")}
+    bench.service.work()
+    assert [replied(came[name]).sim_time for name in ("one", "two")] == [3.0, 6.0]
+    assert replied(came["three"]).reason == "planner-unavailable"
+    assert {*bench.service.reception.desks} == {"one", "two", "three"}
+
+
+def test_what_one_car_suffers_leaves_the_other_alone(bench: Bench) -> None:
+    one, _ = drive(bench, "one", 3.0), drive(bench, "two", 6.0)
+    one.close()
+    lost, kept = ask(bench, "answer", "one", at=6.0), ask(bench, "answer", "two", at=6.0)
+    bench.service.work()
+    assert replied(lost).reason == "planner-unavailable"
+    assert replied(kept).kind == "answer"
+
+
+def test_a_service_shows_itself_at_every_car(bench: Bench) -> None:
+    seen: list[str] = []
+    bench.passenger.watch("xavi/v1/*/alive/service", lambda key, alive: seen.append(key))
+    assert seen == ["xavi/v1/car/alive/service"]
+    drive(bench, "two", 1.0)
+    assert seen[1:] == ["xavi/v1/two/alive/service"]
+
+
+def test_no_more_cars_than_there_is_room_for(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reception, "MAX_CARS", 2)
+    drive(bench, "one", 1.0).close()  # it is gone, and makes room
+    drive(bench, "two", 1.0)
+    drive(bench, "three", 1.0)
+    assert {*bench.service.reception.desks} == {"two", "three"}
+    came = ask(bench, "answer", "four")
+    bench.service.work()
+    assert refused(came).reason == "busy"
+
+
+def test_who_asks_most_waits_longest(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    order: list[str] = []
+    for who in ("ann", "ann", "ann", "bob", "cat"):
+        came = AskRequest(request=f"f{next(_NAMES)}", session=who, text="answer")
+        key = Keys().of("@rpc/ask")
+        bench.passenger.request(key, pack(came), 1.0, lambda _, who=who: order.append(who))  # type: ignore[misc]
+    bench.service.work()
+    assert order == ["ann", "bob", "cat", "ann", "ann"]
+
+
+def test_beyond_a_few_open_questions_a_session_is_told_to_wait(bench: Bench) -> None:
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    first = [ask(bench, "lack") for _ in range(reception.MAX_OPEN)]
+    bench.service.work()
+    beyond, other = ask(bench, "answer"), ask(bench, "answer", session="bob")
+    bench.service.work()
+    assert refused(beyond).reason == "busy"
+    assert replied(other).kind == "answer"
+    assert [len(came) for came in first] == [0] * reception.MAX_OPEN
+    answer()
+    assert held == []
+    assert [replied(came).kind for came in first] == ["answer"] * reception.MAX_OPEN
+    told = bench.service.alive.report().counters
+    assert (told["busy"], told["questions"]) == (1.0, 1.0 + reception.MAX_OPEN)
+
+
+def test_questions_of_a_session_are_answered_in_their_order(bench: Bench) -> None:
+    _, answer = plans(bench, drive(bench, "car", 3.0))
+    slow, quick = ask(bench, "lack"), ask(bench, "answer")
+    bench.service.work()
+    assert (slow, quick) == ([], [])
+    answer()
+    assert [replied(slow).kind, replied(quick).kind] == ["answer", "answer"]
+    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    assert [turn.text for turn in turns] == ["lack", "answer"]
+
+
+def test_when_one_is_taken_back_the_next_has_its_turn(bench: Bench) -> None:
+    plans(bench, drive(bench, "car", 3.0))
+    ask(bench, "lack", request="slow")
+    quick = ask(bench, "answer")
+    bench.service.work()
+    wanted = pack(CancelRequest(request="slow", session="ann"))
+    bench.passenger.request(Keys().of("@rpc/cancel"), wanted, 1.0, lambda _: None)
+    bench.service.work()
+    assert replied(quick).kind == "answer"
+
+
+def test_what_many_need_is_planned_once(bench: Bench) -> None:
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    came = [ask(bench, "lack", session=f"s{k}") for k in range(20)]
+    bench.service.work()
+    assert len(held) == 1
+    answer()
+    assert [replied(one).kind for one in came] == ["answer"] * 20
+    assert bench.service.alive.counted("what_ifs") == 1
+
+
+def test_who_came_later_has_time_left(bench: Bench) -> None:
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    ask(bench, "lack", session="hasty", deadline_ms=1000.0)
+    patient = ask(bench, "lack", session="patient", deadline_ms=60_000.0)
+    bench.service.work()
+    held.pop().refuse(pack(Failure(reason="timed-out")))
+    bench.service.work()
+    assert len(held) == 1  # asked for anew, on behalf of the patient
+    answer()
+    assert replied(patient).kind == "answer"
+
+
+def test_a_question_whose_turn_does_not_come_in_time_fell_to_a_busy_service(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    came = ask(bench, "answer", deadline_ms=1000.0)
+    bench.service._empty_inbox()
+    desk = bench.service.desk()
+    [question] = desk.questions.values()
+    [given_up, *_] = desk.settle(question.came + 1.0)
+    assert given_up.reply.reason == "busy"  # type: ignore[union-attr]
+    assert (came, desk.questions) == ([], {})
+
+
+def history(bench: Bench, session: str, token: str | None) -> bytes:
+    came: list[object] = []
+    wanted = pack(HistoryRequest(session=session, token=token))
+    bench.passenger.request(Keys().of("@rpc/history"), wanted, 1.0, came.append)
+    bench.service.work()
+    [payload] = came
+    if isinstance(payload, Refused):
+        raise payload
+    assert isinstance(payload, bytes)
+    return payload
+
+
+def test_a_session_belongs_to_whoever_begins_it(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    ask(bench, "answer", token=ANN)
+    bench.service.work()
+    assert len(unpack(history(bench, "ann", ANN), HistoryReply).turns) == 1
+    for token in (BOB, None):
+        with pytest.raises(Refused) as denied:
+            history(bench, "ann", token)
+        assert unpack(denied.value.payload, Failure).reason == "out-of-scope"
+        came = ask(bench, "answer", token=token)
+        bench.service.work()
+        assert "somebody else" in refused(came).detail
+        gone: list[object] = []
+        wanted = pack(ForgetRequest(request="f", session="ann", token=token))
+        bench.passenger.request(Keys().of("@rpc/forget"), wanted, 1.0, gone.append)
+        bench.service.work()
+        assert "somebody else" in refused(gone).detail
+    assert len(unpack(history(bench, "ann", ANN), HistoryReply).turns) == 1
+    assert bench.service.alive.counted("foreign") == 6
+
+
+def test_a_session_that_was_begun_without_a_token_is_open(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    ask(bench, "answer")
+    bench.service.work()
+    assert len(unpack(history(bench, "ann", BOB), HistoryReply).turns) == 1
+    claimed = ask(bench, "answer", token=ANN)  # from now on it belongs to somebody
+    bench.service.work()
+    assert replied(claimed).kind == "answer"
+    with pytest.raises(Refused):
+        history(bench, "ann", None)
+
+
+def test_the_owner_is_known_to_another_service_and_forgotten_with_the_session(
+    keeping: Keeping,
+) -> None:
+    first = Bench(Memory(keeping))
+    drive(first, "car", 3.0)
+    ask(first, "answer", token=ANN)
+    first.service.work()
+    later = Bench(Memory(keeping))
+    with pytest.raises(Refused):
+        history(later, "ann", BOB)
+    assert len(unpack(history(later, "ann", ANN), HistoryReply).turns) == 1
+    wanted = pack(ForgetRequest(request="f", session="ann", token=ANN))
+    later.passenger.request(Keys().of("@rpc/forget"), wanted, 1.0, lambda _: None)
+    later.service.work()
+    assert unpack(history(later, "ann", BOB), HistoryReply).turns == ()
+
+
+@pytest.fixture
+def keeping(tmp_path_factory: pytest.TempPathFactory) -> Keeping:
+    return Keeping(tmp_path_factory.mktemp("kept") / "dialogue.sqlite3", 30)
+
+
+def test_others_read_a_turn_only_where_the_passenger_allows(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    heard: list[tuple[str, bytes]] = []
+    key = "xavi/v1/*/dialogue/*/turn"
+    bench.passenger.subscribe(key, lambda key, payload: heard.append((key, payload)))
+    ask(bench, "answer")
+    ask(bench, "refuse", share=True, session="bob")
+    bench.service.work()
+    [(where, payload)] = heard
+    assert where == "xavi/v1/car/dialogue/bob/turn"
+    report = unpack(payload, TurnReport)
+    assert (report.turn.text, report.seq, report.sim_time) == ("refuse", 0, 3.0)
+    assert report.turn.reply.reason == "too-little-evidence"
+
+
+def test_who_was_silent_for_longest_is_forgotten_first(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(desks, "MAX_SESSIONS", 2)
+    _, answer = plans(bench, drive(bench, "car", 3.0))
+    waits = ask(bench, "lack", session="waits")
+    for name in ("a", "b", "c", "d"):
+        ask(bench, "answer", session=name)
+        bench.service.work()
+    assert {"waits", "d"} <= {*bench.service.desk().past}
+    assert len(bench.service.desk().past) == 2
+    assert {*bench.service.desk().dialogue.sessions} == {"waits", "d"}
+    answer()
+    assert replied(waits).kind == "answer"
+
+
+def test_how_the_service_fares_can_be_asked(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    bench.car.publisher(Keys().of("trace")).put(b"junk")
+    bench.car.publisher("xavi/v1/a b/scene").put(b"junk")
+    ask(bench, "answer")
+    bench.service.work()
+    told = unpack(call(bench.passenger, Keys().of("alive/service"), b"", 1.0), AliveReport)
+    assert (told.component, told.sim_time) == ("service", 3.0)
+    counters = told.counters
+    names = ("questions", "answered", "rejected", "cars", "sessions", "waiting")
+    assert [counters[name] for name in names] == [1.0, 1.0, 2.0, 1.0, 1.0, 0.0]
+
+
+def reports() -> list[SceneReport | TraceReport | EventReport]:
+    """A ride as a car reports it."""
+    hub, keys = MemoryHub(), Keys()
+    heard: list[SceneReport | TraceReport | EventReport] = []
+    for name, kind in (("scene", SceneReport), ("trace", TraceReport), ("event", EventReport)):
+        hub.connect().subscribe(
+            keys.of(name),
+            lambda _, payload, kind=kind: heard.append(unpack(payload, kind)),  # type: ignore[misc]
+        )
+    reporter = Reporter(hub.connect(), keys)
+    for moment in s1_moments():
+        reporter.record(moment)
+        reporter.show(moment, "ended" if moment.ending else "driving", 1.0)
+    return heard
+
+
+def test_what_is_lost_for_good_is_given_up_and_the_record_goes_on() -> None:
+    ledger, recorded = Ledger(reports()[0].ride), 0
+    lost = [r for r in reports() if isinstance(r, TraceReport)][2]
+    for report in reports():
+        match report:
+            case SceneReport():
+                recorded += sum(isinstance(one, TraceRecorded) for one in ledger.see(report))
+            case TraceReport() if report.seq != lost.seq:
+                recorded += sum(isinstance(one, TraceRecorded) for one in ledger.trace(report))
+            case EventReport():
+                ledger.event(report)
+    traces = sum(isinstance(report, TraceReport) for report in reports())
+    assert not ledger.complete(1.0)
+    assert recorded == lost.seq
+    assert ledger.wait(100.0) == []  # it may still come
+    assert ledger.wait(100.0 + 0.5 * PATIENCE) == []
+    recorded += sum(isinstance(r, TraceRecorded) for r in ledger.wait(100.0 + PATIENCE))
+    assert (recorded, ledger.lost) == (traces - 1, 1)
+    assert ledger.complete(1.0)
+    assert ledger.over
+    assert ledger.trace(lost) == []  # too late, and no harm done
+
+
+def test_the_last_that_is_lost_is_not_waited_for_without_end() -> None:
+    items: InOrder[str] = InOrder()
+    items.add(0, "a")
+    assert items.give_up(3) == []
+    assert (items.next, items.lost) == (3, 2)
+    assert items.add(1, "b") == []
+    assert items.add(3, "d") == ["d"]
+
+
+def test_nothing_that_comes_after_the_end_counts(bench: Bench) -> None:
+    bench.drive()
+    traces = bench.service.desk().dialogue.traces
+    ride = bench.service.desk().ledger.ride  # type: ignore[union-attr]
+    more = TraceReport(ride=ride, seq=len(traces), sim_time=99.0, wall_time=0.0, trace=traces[-1])
+    bench.car.publisher(Keys().of("trace")).put(pack(more))
+    bench.service.work()
+    assert bench.ask("answer").kind == "answer"
+    assert bench.service.desk().dialogue.traces == traces
+
+
+def test_a_scene_may_go_back_in_time_and_be_asked_about(bench: Bench) -> None:
+    bench.drive(until=6.0)
+    scene = bench.service.desk().ledger.scene  # type: ignore[union-attr]
+    assert scene is not None
+    fields = {name: getattr(scene, name) for name in scene.__struct_fields__}
+    back = SceneReport(**{**fields, "seq": scene.seq + 1, "sim_time": 2.0})
+    bench.car.publisher(Keys().of("scene")).put(pack(back))
+    bench.service.work()
+    assert bench.ask("answer").sim_time == 2.0
+    assert bench.ask("answer", request="q2", at=6.0).sim_time == 6.0
