@@ -20,7 +20,8 @@ from tests.app.desk import PATIENCE, Desk, children, remains, there, until
 from tests.fakes import s1_moments
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 from xavi_dialogue.app import worker
-from xavi_dialogue.app.car import Car, Pace
+from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.car import COUNTERS, Car, Pace
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.control import Orders, Until
 from xavi_dialogue.app.convoy import convoy, first_scene
@@ -114,6 +115,25 @@ def test_a_request_becomes_a_job_with_all_that_is_needed(trace: PlanTrace) -> No
     assert bench.outcomes == []
     job.done(b"planned")
     assert bench.outcomes == [b"planned"]
+
+
+def test_requests_are_counted_by_what_came_of_them(trace: PlanTrace) -> None:
+    bench, alive = Bench(), Alive("car", COUNTERS)
+    replanner = Replanner(bench.planners, alive=alive)
+    replanner.record(Moment(Scene(trace.sim_time, trace.scene), (), trace))
+    bench.hub.connect().serve(KEY, replanner)
+    for trace_id in (trace.trace_id, trace.trace_id, "unknown"):
+        bench.ask(pack(WhatIfRequest(request="q", trace_id=trace_id)))
+    assert alive.counted("what_ifs") == 1  # two are open
+    bench.planners.jobs[0].done(b"planned")
+    bench.planners.jobs[1].done(Failure(reason="timed-out"))
+    told = alive.report().counters
+    assert {name: count for name, count in told.items() if name.startswith("what_ifs")} == {
+        "what_ifs": 3.0,
+        "what_ifs_outside_record": 1.0,
+        "what_ifs_planned": 1.0,
+        "what_ifs_timed_out": 1.0,
+    }
 
 
 def test_a_failure_is_told_as_such(trace: PlanTrace) -> None:
@@ -244,7 +264,7 @@ def test_a_worker_that_is_late_is_killed(trace: PlanTrace) -> None:
         late = desk.pid()
         desk.ask(text(order(trace, ENDLESS)), within=0.5, name="endless")
         assert desk.reason("endless") == "timed-out"
-        assert not remains(late)
+        assert until(lambda: not remains(late))
 
 
 @pytest.mark.slow

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.app.desk import Desk, remains, there, until
-from xavi_dialogue.app.pool import NICENESS, Pool
+from xavi_dialogue.app import pool
+from xavi_dialogue.app.pool import LEAST, NICENESS, Pool
 from xavi_dialogue.transports.messages import Failure
 
 #: Says that it is ready, then does what the orders say.
@@ -28,6 +29,15 @@ for line in sys.stdin:
             print("la la la", flush=True)
         case ["sleep"]:
             time.sleep(600)
+        case ["wait", path]:
+            while not os.path.exists(path):
+                time.sleep(0.01)
+            print('{"planned":true,"message":"waited"}', flush=True)
+        case ["die-once", path]:
+            if not os.path.exists(path):
+                open(path, "w").close()
+                os._exit(1)
+            print('{"planned":true,"message":"lives"}', flush=True)
         case ["die"]:
             os._exit(1)
 """
@@ -85,6 +95,84 @@ def test_a_deadline_in_the_past_is_never_begun(desk: Desk) -> None:
     assert desk.reason("die") == "timed-out"
     desk.ask("echo on")
     assert desk.answer("echo on") == b'"on"'
+
+
+@pytest.mark.parametrize("within", [-1.0, 0.001, 0.5 * LEAST])
+def test_a_deadline_that_cannot_be_met_costs_no_worker(desk: Desk, within: float) -> None:
+    desk.ask("echo before")
+    desk.answer("echo before")
+    warm = desk.pid()
+    desk.ask("sleep", within=within)
+    assert desk.reason("sleep") == "timed-out"
+    desk.ask("echo after")
+    assert desk.answer("echo after") == b'"after"'
+    assert desk.pid() == warm
+
+
+def test_who_is_late_may_finish_while_nobody_waits(
+    desk: Desk, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool, "GRACE", 600.0)
+    desk.ask("echo before")
+    desk.answer("echo before")
+    warm, door = desk.pid(), tmp_path / "door"
+    desk.ask(f"wait {door}", within=0.2, name="late")
+    assert desk.reason("late") == "timed-out"
+    door.touch()
+    assert until(lambda: desk.pool.idle == 1)
+    desk.ask("echo after")
+    assert desk.answer("echo after") == b'"after"'
+    assert desk.pid() == warm
+    assert desk.answers["late"].empty()
+
+
+def test_who_is_late_beyond_the_grace_is_killed(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool, "GRACE", 0.1)
+    desk.ask("echo before")
+    desk.answer("echo before")
+    late = desk.pid()
+    desk.ask("sleep", within=0.2)
+    assert desk.reason("sleep") == "timed-out"
+    assert until(lambda: not remains(late))
+    assert until(lambda: desk.pool.idle == 1)
+
+
+def test_who_waits_for_one_that_is_late_gets_its_successor(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pool, "GRACE", 600.0)
+    desk.ask("echo before")
+    desk.answer("echo before")
+    late = desk.pid()
+    desk.ask("sleep", within=0.2)
+    assert desk.reason("sleep") == "timed-out"
+    desk.ask("echo after")
+    assert desk.answer("echo after") == b'"after"'
+    assert not remains(late)
+
+
+def test_several_workers_work_at_once_and_are_as_many_as_there_should_be(tmp_path: Path) -> None:
+    door = tmp_path / "door"
+    with Pool([sys.executable, "-c", PROGRAM], count=2) as two:
+        desk = Desk(two)
+        desk.ask(f"wait {door}", within=0.3, name="late")
+        desk.ask("echo one")
+        assert desk.answer("echo one") == b'"one"'
+        assert desk.reason("late") == "timed-out"
+        for number in range(6):
+            desk.ask(f"echo {number}")
+        for number in range(6):
+            assert desk.answer(f"echo {number}") == f'"{number}"'.encode()
+        door.touch()
+        assert until(lambda: two.idle == 2)
+        assert len(two.pids) == 2
+
+
+def test_a_job_whose_worker_is_killed_is_tried_once_more(desk: Desk, tmp_path: Path) -> None:
+    desk.ask(f"die-once {tmp_path / 'died'}", name="again")
+    assert desk.answer("again") == b'"lives"'
 
 
 def test_beyond_the_cap_the_pool_is_busy(desk: Desk) -> None:

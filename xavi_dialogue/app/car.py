@@ -11,7 +11,9 @@ import msgspec
 from planner import trace as plan_trace
 from planner.events import Event
 from planner.trace import PlanTrace
+from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.control import Order, Orders, Pause, Quit, Resume, Speed, Until
+from xavi_dialogue.app.outbox import REPORTS, SCENES
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Moment, halts
 from xavi_dialogue.transports.bus import Bus, Call, CallHandler, Keys
@@ -24,7 +26,8 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.schema import schema_of
 
 SHOWN_EVERY = 0.1  # [s] of wall time: the scene, at 10 Hz
-REPORTS = {"scene": SceneReport, "trace": TraceReport, "event": EventReport}
+TOLD = {"scene": SceneReport, "trace": TraceReport, "event": EventReport}
+COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see Alive
 
 
 @dataclass
@@ -124,14 +127,21 @@ class Car:
         reporter.show(moment, state, pace.speed, pace.obeyed)
 
 
-def serve(bus: Bus, keys: Keys, planning: CallHandler) -> None:
-    """Show that the car is there, and answer what is asked of it."""
+def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: Alive | None = None) -> None:
+    """Answer what is asked of the car, and show that it is there.
+
+    Args:
+        bus: of the car.
+        keys: of the car.
+        planning: takes requests for planning again.
+        alive: tells how the car fares.
+    """
     bus.serve(keys.of("@rpc/whatif"), planning)
-    for name, kind in {**REPORTS, "plan_trace": PlanTrace}.items():
+    for name, kind in {**TOLD, "plan_trace": PlanTrace}.items():
         schema = schema_of(kind, plan_trace.SCHEMA if kind is PlanTrace else None)
         document = msgspec.json.encode(schema)
         bus.serve(keys.of(f"@schema/{name}"), partial(_reply_with, document))
-    bus.appear(keys.of("alive/car"))
+    (Alive("car", COUNTERS) if alive is None else alive).serve(bus, keys)
 
 
 def _reply_with(document: bytes, call: Call) -> None:

@@ -40,11 +40,18 @@ class Until:
 
 
 @dataclass(frozen=True, slots=True)
+class Seek:
+    """Go to a moment [s], also back; only a recording can."""
+
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
 class Quit:
     """End the process."""
 
 
-Order: TypeAlias = Pause | Resume | Speed | Until | Quit
+Order: TypeAlias = Pause | Resume | Speed | Until | Seek | Quit
 Orders: TypeAlias = "queue.SimpleQueue[Order]"
 
 
@@ -59,6 +66,8 @@ def write(order: Order) -> str:
             return f"speed {factor!r}"
         case Until(time):
             return "until default" if time is None else f"until {time!r}"
+        case Seek(time):
+            return f"seek {time!r}"
         case _:
             return type(order).__name__.lower()
 
@@ -82,6 +91,8 @@ def read(line: str) -> Order:
             return Until(None)
         case ["until", time]:
             return Until(_number(time))
+        case ["seek", time]:
+            return Seek(_number(time))
     raise OrderError(f"{line.strip()!r} is no order")
 
 
@@ -104,10 +115,51 @@ def listen(stream: IO[str], orders: Orders) -> None:
     threading.Thread(target=follow, name="orders", daemon=True).start()
 
 
+class Signals:
+    """SIGTERM and SIGINT, once they are listened to; see `quit_on_signals`."""
+
+    def __init__(self) -> None:
+        self._number = 0
+        self._came: queue.SimpleQueue[int] = queue.SimpleQueue()
+
+    @property
+    def told(self) -> bool:
+        """Whether one came."""
+        return self._number != 0
+
+    @property
+    def status(self) -> int:
+        """The exit status of a process that ends for the one that came."""
+        return 128 + self._number
+
+    def listen(self, orders: Orders, patience: float | None = None) -> None:
+        """Turn them into an order to quit.
+
+        Args:
+            orders: to this process.
+            patience: [s] after which the process ends by force; None: never.
+        """
+
+        def come(number: int, _: object) -> None:
+            # Nothing here takes a lock: it may interrupt any line, itself too.
+            self._number = self._number or number
+            orders.put(Quit())
+            self._came.put(number)
+
+        for number in (signal.SIGTERM, signal.SIGINT):
+            signal.signal(number, come)
+        if patience is not None:
+            threading.Thread(target=self._enforce, args=(patience,), daemon=True).start()
+
+    def _enforce(self, patience: float) -> None:
+        self._came.get()
+        threading.Event().wait(patience)
+        os._exit(self.status)
+
+
 def quit_on_signals(orders: Orders) -> None:
     """Turn SIGTERM and SIGINT into an order to quit."""
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: orders.put(Quit()))
+    Signals().listen(orders)
 
 
 def _number(text: str) -> float:

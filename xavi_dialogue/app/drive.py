@@ -4,8 +4,8 @@ import queue
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeAlias
 
@@ -14,21 +14,23 @@ import msgspec
 from planner.events import Event
 from sim.scenario import Scenario
 from sim.scene import EGO
+from sim.sumo import EgoGone, SumoFailed
 from xavi_dialogue.app import control
-from xavi_dialogue.app.car import Car, Pace, serve
+from xavi_dialogue.app.car import Car, Pace
+from xavi_dialogue.app.company import Company, Dismissed, Staff, company
 from xavi_dialogue.app.going_on import place_of
-from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Ending, Moment, clock, network_of, start
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, Keys
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, save
-from xavi_dialogue.transports.zenoh_bus import join
 
 Record: TypeAlias = Callable[[Moment], None]
 
 HARD_BRAKE = -4.0  # [m/s2]
-HUB_PATIENCE = 10.0  # [s] for the hub to come up
+UNHURRIED = 5.0  # [s] for the last reports to go out after the ride,
+HURRIED = 1.0  # and when told to quit
+FORCED = 2.8  # [s] after a signal, at which the process ends whatever it is doing
 
 
 class Summary(msgspec.Struct):
@@ -94,57 +96,86 @@ class Manner:
     vehicle: str = DEFAULT_VEHICLE  # name of the car on the bus
     controlled: bool = False  # by orders on standard input; waits for the first one
     save: Path | None = None  # where to save the decisions
+    staff: Staff = field(default_factory=Staff)  # who plans again for others
 
 
-def drive(scenario: Scenario, seed: int, manner: Manner) -> Summary:
+def drive(
+    scenario: Scenario, seed: int, manner: Manner, signals: control.Signals | None = None
+) -> Summary:
     """Drive a scenario to its end, or until told to quit.
+
+    Args:
+        scenario: to drive.
+        seed: of the ride.
+        manner: how.
+        signals: are listened to; they know afterwards what came.
 
     Raises:
         SimulationError: SUMO is not installed or fails.
         DriverError: the car cannot be driven on.
         HubUnreachable: there is no hub at the endpoint.
+        BadLink: the configuration of the link cannot be used.
+        NameTaken: another car of this name is on the bus.
         RideFileError: the decisions cannot be saved.
     """
     if manner.save is not None and not manner.save.parent.is_dir():
         raise RideFileError(f"cannot write {manner.save}: there is no such folder")
     began = time.monotonic()
     orders: control.Orders = queue.SimpleQueue()
-    control.quit_on_signals(orders)
+    signals = control.Signals() if signals is None else signals
+    signals.listen(orders, FORCED)
     if manner.controlled:
         control.listen(sys.stdin, orders)
-    network = network_of(scenario)
     tally = Tally(Summary(scenario.name, seed))
     log = Log(RecordedRide(scenario.name, seed, 0.0))
-    with (
-        _company(scenario, seed, manner) as (reporter, records),
-        start(scenario, seed, network, duration=manner.duration) as ride,
-    ):
-        car = Car(
-            ride=ride,
-            step=scenario.step,
-            records=(tally.record, *((log.record,) if manner.save else ()), *records),
-            reporter=reporter,
-            orders=orders,
-            pace=Pace(manner.speed, running=not manner.controlled),
-            stays=manner.controlled,
-        )
-        car.run()
+    records = (tally.record, *((log.record,) if manner.save else ()))
+    with suppress(Dismissed), _remedied(scenario), _in_company(scenario, manner, signals) as others:
+        _drive(scenario, seed, manner, _Told(orders, records, others))
     if manner.save is not None:
         save(log.ride, manner.save)
     tally.summary.wall_s = round(time.monotonic() - began, 3)
     return tally.summary
 
 
-@contextmanager
-def _company(
-    scenario: Scenario, seed: int, manner: Manner
-) -> Iterator[tuple[Reporter | None, tuple[Record, ...]]]:
-    """Who is told of the ride, and who takes it down to answer about it: nobody without a hub."""
+@dataclass(frozen=True)
+class _Told:
+    """Who tells the car, and who is told."""
+
+    orders: control.Orders
+    records: tuple[Record, ...]
+    others: Company | None
+
+
+def _drive(scenario: Scenario, seed: int, manner: Manner, told: _Told) -> None:
+    reporter, records, others = None, told.records, told.others
+    if others is not None:
+        keys = Keys(manner.vehicle)
+        reporter = Reporter(others.outbox, keys, place_of(scenario), seed, others.alive)
+        records = (*records, others.planning.record)
+    network = network_of(scenario)
+    with start(scenario, seed, network, duration=manner.duration) as ride:
+        pace = Pace(manner.speed, running=not manner.controlled)
+        Car(ride, scenario.step, records, reporter, told.orders, pace, manner.controlled).run()
+    if others is not None:
+        others.outbox.close(HURRIED if pace.quit else UNHURRIED)
+
+
+def _in_company(
+    scenario: Scenario, manner: Manner, signals: control.Signals
+) -> AbstractContextManager[Company | None]:
+    """Who is told of the ride and may ask about it: nobody without a hub."""
     if manner.link is None:
-        yield None, ()
-        return
-    keys = Keys(manner.vehicle)
-    with join(manner.link, HUB_PATIENCE) as bus, workers(scenario.network) as pool:
-        planning = Replanner(pool)
-        serve(bus, keys, planning)
-        yield Reporter(bus, keys, place_of(scenario), seed), (planning.record,)
+        return nullcontext()
+    return company(manner.link, Keys(manner.vehicle), scenario.network, manner.staff, signals)
+
+
+@contextmanager
+def _remedied(scenario: Scenario) -> Iterator[None]:
+    """Faults of SUMO with a word on where to look."""
+    try:
+        yield
+    except (SumoFailed, EgoGone) as error:
+        if str(scenario.routes) in str(error):
+            raise
+        look = f"look at the vehicles in {scenario.routes} and at the roads in {scenario.network}"
+        raise type(error)(f"{error}; {look}") from error

@@ -91,6 +91,8 @@ class Outbox:
     def close(self, patience: float) -> bool:
         """Send what waits, for up to `patience` [s], and take no more; whether all was sent."""
         with self._changed:
+            if self._closing:
+                return not self._sending
             self._changed.wait_for(lambda: not (self._waiting or self._sending), patience)
             self._closing = True
             unsent = len(self._waiting) + self._sending

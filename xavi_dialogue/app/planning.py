@@ -19,8 +19,9 @@ from planner import trace as plan_trace
 from planner.trace import PlanTrace, WhatIf
 from planner.whatif import WhatIfError, replan
 from sim.network import Network
+from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.children import TOP
-from xavi_dialogue.app.pool import Job, Pool
+from xavi_dialogue.app.pool import WAITING, Job, Pool
 from xavi_dialogue.app.ride import Moment
 from xavi_dialogue.app.worker import Order
 from xavi_dialogue.transports.bus import BusError, Call
@@ -41,25 +42,28 @@ class Planners(Protocol):
     def submit(self, job: Job) -> None: ...
 
 
-def workers(network: Path) -> Pool:
-    """Start workers for a network file."""
+def workers(network: Path, count: int = 1, waiting: int = WAITING) -> Pool:
+    """Start workers for a network file; see Pool."""
     path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
     # -P keeps the working directory off the path: it may hold packages of our names.
     command = [sys.executable, "-P", "-m", "xavi_dialogue.app.worker", str(network.resolve())]
-    return Pool(command, environment={**os.environ, "PYTHONPATH": path})
+    environment = {**os.environ, "PYTHONPATH": path}
+    return Pool(command, environment=environment, count=count, waiting=waiting)
 
 
 class Replanner:
     """Takes requests for planning again from the latest decisions of this ride."""
 
-    def __init__(self, planners: Planners, kept: int = KEPT) -> None:
+    def __init__(self, planners: Planners, kept: int = KEPT, alive: Alive | None = None) -> None:
         """Know no decision yet.
 
         Args:
             planners: get what is to be done.
             kept: how many decisions are remembered.
+            alive: counts requests, and what came of them.
         """
         self._planners, self._kept = planners, kept
+        self._alive = Alive("car") if alive is None else alive
         self._traces: dict[str, bytes] = {}
 
     def record(self, moment: Moment) -> None:
@@ -76,26 +80,28 @@ class Replanner:
         try:
             wanted = unpack(call.payload, WhatIfRequest)
         except MessageError as error:
-            _answer(call, Failure(reason="planner-failed", detail=str(error)))
+            self._answer(call, Failure(reason="planner-failed", detail=str(error)))
             return
         trace = self._traces.get(wanted.trace_id)
         if trace is None:
             detail = f"no decision {wanted.trace_id} among the latest {self._kept}"
-            _answer(call, Failure(reason="outside-record", detail=detail))
+            self._answer(call, Failure(reason="outside-record", detail=detail))
             return
         what_if = msgspec.convert(msgspec.to_builtins(wanted), WhatIf)
         order = msgspec.json.encode(Order(msgspec.Raw(trace), what_if))
         self._planners.submit(
-            Job(order, came + wanted.deadline_ms / 1000.0, partial(_answer, call))
+            Job(order, came + wanted.deadline_ms / 1000.0, partial(self._answer, call))
         )
 
-
-def _answer(call: Call, outcome: bytes | Failure) -> None:
-    with contextlib.suppress(BusError):  # who asked is gone
-        if isinstance(outcome, Failure):
-            call.refuse(pack(outcome))
-        else:
-            call.reply(outcome)
+    def _answer(self, call: Call, outcome: bytes | Failure) -> None:
+        reason = outcome.reason if isinstance(outcome, Failure) else "planned"
+        self._alive.count("what_ifs")
+        self._alive.count(f"what_ifs_{reason.replace('-', '_')}")
+        with contextlib.suppress(BusError):  # who asked is gone
+            if isinstance(outcome, Failure):
+                call.refuse(pack(outcome))
+            else:
+                call.reply(outcome)
 
 
 def durations(traces: Sequence[PlanTrace], network: Network) -> Mapping[str, tuple[float, ...]]:

@@ -23,7 +23,6 @@ from xavi_dialogue.app.commands.shell import (
     ZenohFile,
     to_json,
 )
-from xavi_dialogue.app.exit_status import ExitStatus
 
 
 def add(app: typer.Typer, shell: Shell) -> None:
@@ -48,10 +47,18 @@ def _drive(shell: Shell) -> Callable[..., None]:
             Path | None,
             typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
         ] = None,
+        workers: Annotated[
+            int, typer.Option(min=1, max=64, help="Processes that plan what-ifs for others.")
+        ] = 1,
+        waiting: Annotated[
+            int, typer.Option(min=1, max=1000, help="What-ifs that may wait for one of them.")
+        ] = 8,
         as_json: AsJson = False,
         control: Control = False,
     ) -> None:
         """Drive a scenario; with --connect or --zenoh, reported on the bus."""
+        from xavi_dialogue.app.company import Staff
+        from xavi_dialogue.app.control import Signals
         from xavi_dialogue.app.drive import Manner, drive
         from xavi_dialogue.app.narration import story
         from xavi_dialogue.transports.link import Link
@@ -59,12 +66,13 @@ def _drive(shell: Shell) -> Callable[..., None]:
         with shell.errors():
             loaded = shell.load(scenario, told=control)
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
-            manner = Manner(speed or 0.0, duration, link, vehicle, control, save)
-            summary = drive(loaded, loaded.seed if seed is None else seed, manner)
+            staff, signals = Staff(workers, waiting), Signals()
+            manner = Manner(speed or 0.0, duration, link, vehicle, control, save, staff)
+            summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
         if not control:
             shell.write(to_json(summary) if as_json else story(summary.events))
-            if summary.ended is None:
-                raise typer.Exit(ExitStatus.INTERRUPTED)
+        if signals.told:
+            raise typer.Exit(signals.status)
 
     return drive
 
