@@ -7,7 +7,6 @@ Loopback by default, no multicast, no gossip, no shared memory. Callbacks run on
 
 import itertools
 import json
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -34,6 +33,7 @@ from xavi_dialogue.transports.bus import (
     Watcher,
 )
 from xavi_dialogue.transports.link import Link
+from xavi_dialogue.transports.timers import Timers
 
 JSON = "application/json"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
@@ -47,6 +47,7 @@ SAFE: dict[str, object] = {  # without a configuration file
     "timestamping/enabled": True,
 }
 GRACE = 0.5  # [s] that Zenoh may take beyond a deadline to clean up; ours has passed by then
+_TIMERS = Timers()  # of all requests of this process
 
 
 class ZenohBus:
@@ -124,18 +125,16 @@ class ZenohBus:
 
         def end(outcome: Outcome) -> None:
             if next(tally) == 0:
-                timer.cancel()
+                cancel()
                 done(outcome)
 
-        timer = threading.Timer(timeout, end, (TooLate(f"no reply from {key} in time"),))
-        timer.daemon = True
-        timer.start()
+        cancel = _TIMERS.after(timeout, lambda: end(TooLate(f"no reply from {key} in time")))
 
         def on_reply(reply: zenoh.Reply) -> None:
             end(_outcome(reply))
 
         def on_end() -> None:
-            end(NobodyThere(f"nobody serves {key}"))
+            end(NobodyThere(f"nobody serves {key}, or this role may not ask it"))
 
         try:
             self._session.get(

@@ -1,0 +1,79 @@
+"""Timers of a process: any number of them, on one thread."""
+
+import heapq
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+Cancel: TypeAlias = Callable[[], None]
+SPENT = 1000  # timers that were cancelled and are still kept, before they are thrown out
+
+
+@dataclass(order=True)
+class _Timer:
+    due: float  # [s] on the monotonic clock
+    number: int
+    ring: Callable[[], None] | None = field(compare=False)  # None: cancelled
+
+
+class Timers:
+    """Calls what is to be called, each in its time."""
+
+    def __init__(self) -> None:
+        self._timers: list[_Timer] = []  # a heap
+        self._changed = threading.Condition()
+        self._thread: threading.Thread | None = None
+        self._set = self._cancelled = 0
+
+    def after(self, delay: float, ring: Callable[[], None]) -> Cancel:
+        """Have something called, on a thread of ours.
+
+        Args:
+            delay: [s] until then.
+            ring: must return at once, and not fail.
+
+        Returns:
+            What to call where that is no longer wanted; harmless when it is too late.
+        """
+        with self._changed:
+            self._set += 1
+            timer = _Timer(time.monotonic() + delay, self._set, ring)
+            heapq.heappush(self._timers, timer)
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name="timers", daemon=True)
+                self._thread.start()
+            elif self._timers[0] is timer:
+                self._changed.notify()
+        return lambda: self._cancel(timer)
+
+    def _cancel(self, timer: _Timer) -> None:
+        with self._changed:
+            if timer.ring is None:
+                return
+            timer.ring = None
+            self._cancelled += 1
+            if self._cancelled > SPENT:
+                self._timers = [one for one in self._timers if one.ring is not None]
+                heapq.heapify(self._timers)
+                self._cancelled = 0
+
+    def _run(self) -> None:
+        while True:
+            ring = self._next()
+            if ring is not None:
+                ring()
+
+    def _next(self) -> Callable[[], None] | None:
+        """Wait for the first timer, or for a change of which that is."""
+        with self._changed:
+            if not self._timers:
+                self._changed.wait()
+            elif (wait := self._timers[0].due - time.monotonic()) > 0.0:
+                self._changed.wait(wait)
+            else:
+                timer = heapq.heappop(self._timers)
+                ring, timer.ring = timer.ring, None
+                return ring
+        return None
