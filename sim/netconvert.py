@@ -113,12 +113,21 @@ def _priorities(priority: Mapping[str, int]) -> str:
     return "<edges>" + "".join(lines) + "</edges>"
 
 
-def _run(*arguments: str) -> None:
+def program() -> str:
+    """Where netconvert is.
+
+    Raises:
+        NetconvertMissing: nowhere.
+    """
     beside = Path(sys.executable).parent / "netconvert"
-    program = str(beside) if beside.exists() else shutil.which("netconvert")
-    if program is None:
+    found = str(beside) if beside.exists() else shutil.which("netconvert")
+    if found is None:
         raise NetconvertMissing
-    command = [program, *arguments, "--xml-validation", "never"]
+    return found
+
+
+def _run(*arguments: str) -> None:
+    command = [program(), *arguments, "--xml-validation", "never"]
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=PATIENCE

@@ -310,6 +310,15 @@ class Simulation:
             raise SumoFailed(f"SUMO at {self.time:g} s: {reason}") from error
 
 
+def version() -> str:
+    """Which SUMO there is.
+
+    Raises:
+        SumoMissing: none, or a system library is not installed.
+    """
+    return str(_libsumo().getVersion()[1])
+
+
 def _libsumo() -> Any:
     """The libsumo module, untyped by its makers.
 
