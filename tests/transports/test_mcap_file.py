@@ -451,7 +451,7 @@ def test_a_recording_too_large_to_be_held_is_refused_before_it_is(
             given += 1
             yield entry("car/scene", scene(given))
 
-    with pytest.raises(TooMuch, match="--vehicle"):
+    with pytest.raises(TooMuch, match="--car"):
         tape_of(endless())
     assert given < 100
 

@@ -251,7 +251,7 @@ class _Reading:
         if self.size > MAX_TAPE:
             raise TooMuch(
                 f"it holds more than the {MAX_TAPE // MIB} MiB that can be played;"
-                " record less, or name one car with --vehicle"
+                " record less, or name one car with --car"
             )
 
 
@@ -307,7 +307,7 @@ def _chosen(reading: _Reading, vehicle: str | None) -> str:
     if not names:
         raise NothingToPlay(f"it holds no ride{f': {reading.why}' if reading.why else ''}")
     if vehicle is None and len(names) > 1:
-        raise NothingToPlay(f"it holds several cars; name one with --vehicle: {listed}")
+        raise NothingToPlay(f"it holds several cars; name one with --car: {listed}")
     if vehicle is not None and vehicle not in names:
         raise NothingToPlay(f"it holds no car {vehicle}; there is: {listed}")
     return vehicle or names[0]
