@@ -13,12 +13,15 @@ from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError
 from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
+from xavi_dialogue.app.keys import BadEndpoint, KeysError, KeysExist, NotOnlyKeys
 from xavi_dialogue.app.parsing import ParseUsageError
 from xavi_dialogue.app.sessions import SessionUsageError
 from xavi_dialogue.app.settings import SettingsError
 from xavi_dialogue.transports.bus import BadLink, BusError
+from xavi_dialogue.transports.certificates import CertificateError
 from xavi_dialogue.transports.database import StoreError
 from xavi_dialogue.transports.ride_file import RideFileError
+from xavi_dialogue.transports.roles import BadName
 from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
 
@@ -27,13 +30,14 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
         (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
             *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
+            *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
         ),
         ExitStatus.USAGE,
     ),
     (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(FaultFound, StoreError),
+            *(FaultFound, StoreError, KeysError),
         ),
         ExitStatus.FAILED,
     ),

@@ -9,7 +9,7 @@ the bus and must return at once.
     ├── BadLink          the configuration of the link cannot be used
     ├── BusFailed        the carrier failed otherwise
     └── NoAnswer
-        ├── NobodyThere  nobody serves the key
+        ├── NobodyThere  nobody serves the key, or who asks may not
         ├── TooLate      no reply within the time given
         └── Refused      the reply is a failure
 """
@@ -202,7 +202,7 @@ def call(bus: Bus, key: str, payload: bytes, timeout: float) -> bytes:
     """Send a request and wait for its reply.
 
     Raises:
-        NobodyThere: nobody serves the key.
+        NobodyThere: nobody serves the key, or we may not ask it.
         TooLate: no reply within `timeout` [s].
         Refused: the reply is a failure.
     """

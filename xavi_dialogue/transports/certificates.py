@@ -1,0 +1,212 @@
+"""Certificates of the bus: the only module that knows cryptography.
+
+Keys are on the curve P-256, certificates are X.509 as a TLS library checks them (RFC 5280).
+
+    CertificateError
+    ├── BadHost          a name that no certificate can be for
+    └── BadCertificate   it cannot be read
+"""
+
+import ipaddress
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from typing import Self
+
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
+
+AUTHORITY = "xavi development CA"
+SKEW = timedelta(minutes=5)  # by which a clock elsewhere may be late
+HOST = re.compile(r"(?!-)[A-Za-z0-9-]{1,63}(?<!-)(\.(?!-)[A-Za-z0-9-]{1,63}(?<!-))*")
+MAX_HOST = 253  # characters of a name in the DNS
+
+
+class CertificateError(ValueError):
+    """A certificate that cannot be made or used."""
+
+
+class BadHost(CertificateError):
+    """A name that no certificate can be for."""
+
+
+class BadCertificate(CertificateError):
+    """A certificate that cannot be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """A certificate and its private key, both PEM."""
+
+    certificate: bytes
+    key: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a certificate says."""
+
+    name: str  # common name
+    begins: datetime  # UTC
+    ends: datetime  # UTC
+
+
+@dataclass(frozen=True, slots=True)
+class Authority:
+    """A development CA. It signs certificates that are valid as long as itself."""
+
+    certificate: x509.Certificate
+    key: ec.EllipticCurvePrivateKey
+
+    @classmethod
+    def new(cls, now: datetime, valid: timedelta) -> Self:
+        """A new one.
+
+        Args:
+            now: from when on it is valid; with a zone.
+            valid: how long.
+        """
+        key = ec.generate_private_key(ec.SECP256R1())
+        draft = _draft(AUTHORITY, AUTHORITY, key, (now - SKEW, now + valid))
+        draft = draft.add_extension(x509.BasicConstraints(ca=True, path_length=0), critical=True)
+        draft = draft.add_extension(_usage(signs_certificates=True), critical=True)
+        return cls(draft.sign(key, hashes.SHA256()), key)
+
+    @classmethod
+    def load(cls, identity: Identity) -> Self:
+        """One that was made before.
+
+        Raises:
+            BadCertificate: it cannot be read, or is none of ours.
+        """
+        try:
+            certificate = x509.load_pem_x509_certificate(identity.certificate)
+            key = serialization.load_pem_private_key(identity.key, password=None)
+        except (ValueError, TypeError) as error:
+            raise BadCertificate(f"no certificate with its key: {error}") from error
+        if not isinstance(key, ec.EllipticCurvePrivateKey):
+            raise BadCertificate("the key is of another kind than ours")
+        if key.public_key() != certificate.public_key():
+            raise BadCertificate("the key is not that of the certificate")
+        return cls(certificate, key)
+
+    @property
+    def identity(self) -> Identity:
+        """As it is kept."""
+        return _identity(self.certificate, self.key)
+
+    def issue(
+        self, name: str, hosts: Sequence[str], now: datetime, valid: timedelta | None = None
+    ) -> Identity:
+        """Make a key and a certificate for it.
+
+        Args:
+            name: common name: by it access is granted.
+            hosts: names and addresses under which it may be connected to. Without any it is a
+                client's, and nobody takes who shows it for a hub.
+            now: from when on it is valid; with a zone.
+            valid: how long; at most, and without it, as long as the authority.
+
+        Raises:
+            BadHost: one of the hosts is neither a name nor an address.
+        """
+        key = ec.generate_private_key(ec.SECP256R1())
+        ends = self.certificate.not_valid_after_utc
+        if valid is not None:
+            ends = min(ends, now + valid)
+        begins = min(now - SKEW, ends)
+        draft = _draft(name, AUTHORITY, key, (begins, ends))
+        draft = draft.add_extension(x509.BasicConstraints(ca=False, path_length=None), True)
+        draft = draft.add_extension(_usage(signs_certificates=False), critical=True)
+        purposes = [ExtendedKeyUsageOID.CLIENT_AUTH]
+        if hosts:
+            purposes.append(ExtendedKeyUsageOID.SERVER_AUTH)
+            known = x509.SubjectAlternativeName([_host(host) for host in hosts])
+            draft = draft.add_extension(known, critical=False)
+        draft = draft.add_extension(x509.ExtendedKeyUsage(purposes), critical=False)
+        ours = x509.AuthorityKeyIdentifier.from_issuer_public_key(self.key.public_key())
+        draft = draft.add_extension(ours, critical=False)
+        return _identity(draft.sign(self.key, hashes.SHA256()), key)
+
+
+def read(certificate: bytes) -> Shown:
+    """What a certificate says.
+
+    Args:
+        certificate: PEM.
+
+    Raises:
+        BadCertificate: it is none.
+    """
+    try:
+        found = x509.load_pem_x509_certificate(certificate)
+    except ValueError as error:
+        raise BadCertificate(f"no certificate: {error}") from error
+    names = found.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    name = str(names[0].value) if names else ""
+    return Shown(name, found.not_valid_before_utc, found.not_valid_after_utc)
+
+
+def utc_now() -> datetime:
+    """The time of day."""
+    return datetime.now(UTC)
+
+
+def _draft(
+    name: str,
+    issuer: str,
+    key: ec.EllipticCurvePrivateKey,
+    valid: tuple[datetime, datetime],
+) -> x509.CertificateBuilder:
+    identifier = x509.SubjectKeyIdentifier.from_public_key(key.public_key())
+    return (
+        x509.CertificateBuilder()
+        .subject_name(_named(name))
+        .issuer_name(_named(issuer))
+        .public_key(key.public_key())
+        .serial_number(x509.random_serial_number())
+        .not_valid_before(valid[0])
+        .not_valid_after(valid[1])
+        .add_extension(identifier, critical=False)
+    )
+
+
+def _named(name: str) -> x509.Name:
+    return x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)])
+
+
+def _usage(*, signs_certificates: bool) -> x509.KeyUsage:
+    return x509.KeyUsage(
+        digital_signature=not signs_certificates,
+        content_commitment=False,
+        key_encipherment=False,
+        data_encipherment=False,
+        key_agreement=False,
+        key_cert_sign=signs_certificates,
+        crl_sign=signs_certificates,
+        encipher_only=False,
+        decipher_only=False,
+    )
+
+
+def _host(host: str) -> x509.GeneralName:
+    try:
+        return x509.IPAddress(ipaddress.ip_address(host))
+    except ValueError:
+        if len(host) > MAX_HOST or not HOST.fullmatch(host):
+            raise BadHost(f"{host!r} is neither the name of a host nor an address") from None
+        return x509.DNSName(host)
+
+
+def _identity(certificate: x509.Certificate, key: ec.EllipticCurvePrivateKey) -> Identity:
+    return Identity(
+        certificate.public_bytes(serialization.Encoding.PEM),
+        key.private_bytes(
+            serialization.Encoding.PEM,
+            serialization.PrivateFormat.PKCS8,
+            serialization.NoEncryption(),
+        ),
+    )
