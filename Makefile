@@ -33,8 +33,8 @@ format: develop ## put the code in its standard form
 	@$(BIN)/python -m ruff check --fix
 	@$(BIN)/python -m ruff format
 
-schema: develop ## write docs/plan_trace.schema.json anew
-	@$(BIN)/python -m xavi_dialogue.transports.schema docs/plan_trace.schema.json
+schema: develop ## write docs/plan_trace.schema.json and docs/messages/ anew
+	@$(BIN)/python -m xavi_dialogue.transports.schema docs
 
 diagram: develop ## draw the conversation's states in ARCHITECTURE.md anew
 	@$(BIN)/python -m xavi_dialogue.app.diagram ARCHITECTURE.md

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from planner import trace
-from xavi_dialogue.transports.schema import plan_trace, schema_of
+from xavi_dialogue.transports.schema import documents, schema_of, write
 
 
 class Inner(msgspec.Struct):
@@ -47,10 +47,24 @@ def test_a_type_that_contains_itself_is_refused() -> None:
         schema_of(Chain)
 
 
-def test_the_schema_in_the_docs_is_current(root: Path) -> None:
-    stored = (root / "docs" / "plan_trace.schema.json").read_text(encoding="utf-8")
-    assert stored == plan_trace(), "docs/plan_trace.schema.json is out of date; run: make schema"
-    assert "$ref" not in stored
+def test_the_schemas_in_the_docs_are_current(root: Path) -> None:
+    files = documents()
+    found = {f"messages/{path.name}" for path in (root / "docs" / "messages").iterdir()}
+    assert found == {name for name in files if "/" in name}, "run: make schema"
+    for name, text in files.items():
+        stored = (root / "docs" / name).read_text(encoding="utf-8")
+        assert stored == text, f"docs/{name} is out of date; run: make schema"
+        assert "$ref" not in stored
+
+
+def test_schemas_that_are_of_no_message_any_more_go(tmp_path: Path) -> None:
+    (tmp_path / "messages").mkdir()
+    (tmp_path / "messages" / "old.schema.json").touch()
+    (tmp_path / "README.md").touch()
+    write(tmp_path)
+    assert (tmp_path / "README.md").exists()
+    written = {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.schema.json")}
+    assert written == set(documents())
 
 
 def test_the_commented_example_in_the_docs_is_a_plan_trace(root: Path) -> None:

@@ -1,8 +1,8 @@
 """JSON Schema of the messages, for readers in other languages.
 
-Run as a program it writes the schema of the plan trace:
+Run as a program it writes the schemas of the plan trace and of every message into a folder:
 
-    python -m xavi_dialogue.transports.schema docs/plan_trace.schema.json
+    python -m xavi_dialogue.transports.schema docs
 """
 
 import json
@@ -13,6 +13,7 @@ from typing import Any
 import msgspec
 
 from planner import trace
+from xavi_dialogue.transports.messages import MESSAGES, schema_name
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 POINTER = "#/$defs/"
@@ -49,10 +50,28 @@ def _inline(node: Any, definitions: dict[str, Any], within: tuple[str, ...]) -> 
     return {key: _inline(value, definitions, within) for key, value in node.items()}
 
 
-def plan_trace() -> str:
-    """The schema of the plan trace as the text of a file."""
-    return json.dumps(schema_of(trace.PlanTrace, trace.SCHEMA), indent=2, sort_keys=True) + "\n"
+def documents() -> dict[str, str]:
+    """The texts of the files in the folder of documents, by where they lie in it."""
+    files = {"plan_trace.schema.json": _text(schema_of(trace.PlanTrace, trace.SCHEMA))}
+    for name, kind in MESSAGES.items():
+        files[f"messages/{name}.schema.json"] = _text(schema_of(kind, schema_name(kind)))
+    return files
+
+
+def _text(schema: dict[str, Any]) -> str:
+    return json.dumps(schema, indent=2, sort_keys=True) + "\n"
+
+
+def write(folder: Path) -> None:
+    """Write all of them; what else is in the folder of messages is of none any more, and goes."""
+    files = documents()
+    (folder / "messages").mkdir(parents=True, exist_ok=True)
+    for path in (folder / "messages").glob("*.schema.json"):
+        if path.relative_to(folder).as_posix() not in files:
+            path.unlink()
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_text(plan_trace(), encoding="utf-8")
+    write(Path(sys.argv[1]))
