@@ -18,6 +18,7 @@ from xavi_dialogue.app.control import Signals
 from xavi_dialogue.app.outbox import Outbox
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.pool import WAITING
+from xavi_dialogue.app.roads import serve_roads
 from xavi_dialogue.transports.bus import (
     Bus,
     BusError,
@@ -97,6 +98,7 @@ def company(
         alive.gauge("workers", lambda: len(pool.pids))
         planning = Replanner(pool, alive=alive)
         bus.watch(keys.of("alive/service"), Attendance(keys.vehicle))
+        serve_roads(bus, keys, network)
         serve(bus, keys, planning, alive)
         yield Company(outbox, planning, alive)
 
