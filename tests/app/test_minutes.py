@@ -3,6 +3,7 @@
 import asyncio
 import resource
 import signal
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -15,11 +16,15 @@ import pytest
 from planner.events import Event
 from sim.scene import VehicleState
 from tests.fakes import EGO
+from xavi_dialogue.app import control
+from xavi_dialogue.app.behind import Behind
 from xavi_dialogue.app.cabin import LOST, RemoteCabin
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.convoy import Convoy
+from xavi_dialogue.app.exit_status import ExitStatus, status_of
 from xavi_dialogue.app.minutes import NOTHING, Minutes
 from xavi_dialogue.app.piped import Piped
+from xavi_dialogue.app.reception import FOREIGN
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.transports import commands, transcript
 from xavi_dialogue.transports.bus import Call, Keys
@@ -301,6 +306,29 @@ def test_a_service_that_says_nothing_has_timed_out(client: Client, service: Fake
     assert late.text
 
 
+def test_tokens_go_with_all_that_is_asked_and_a_wrong_one_is_told_in_words(
+    service: FakeService,
+) -> None:
+    bus, came = service.hub.connect(), []
+
+    def refuse(call: Call) -> None:
+        came.append(msgspec.json.decode(call.payload))
+        call.refuse(pack(Failure(reason="out-of-scope", detail=FOREIGN)))
+
+    for name in ("ask", "history", "forget", "cancel"):
+        bus.serve(KEYS.of(f"@rpc/{name}"), refuse)
+    client = Client(bus, KEYS, "ada", token="t" * 43, share=True)
+    minutes = Minutes(client, "ada", HEADER)
+    refused = client.ask("One?")
+    client.cancel("r1")
+    for wanted in (minutes.told, minutes.forget):
+        with pytest.raises(CommandError, match=f": {FOREIGN}\\."):
+            wanted()
+    assert (refused.text, status_of(refused)) == (f"({FOREIGN})", ExitStatus.DECLINED)
+    assert [one["token"] for one in came] == ["t" * 43] * 4
+    assert came[0]["share"]
+
+
 def test_now_is_what_the_passenger_has_been_told_of(client: Client, service: FakeService) -> None:
     car = service.hub.connect()
 
@@ -353,19 +381,38 @@ class FakeConvoy:
 
     def __init__(self, service: FakeService, *, able: bool = True) -> None:
         self.service, self.able = service, able
+        self.over = threading.Event()
+        self.halts_at: float | None = None  # [s]; None: it takes no orders
 
-    def recover(self, _: Client) -> bool:
+    def check(self) -> None:
+        pass
+
+    def recover(self, client: Client) -> bool:
         if self.able:
             self.service.appear()
         return self.able
 
+    def order(self, order: control.Order) -> None:
+        raise CommandError("I take no orders.")
 
-def cabin(client: Client, behind: FakeConvoy) -> RemoteCabin:
-    return RemoteCabin(as_convoy(behind), client, Minutes(client, "ada", HEADER))
+    def set_off(self) -> None:
+        pass
+
+    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+        if self.halts_at is None:
+            self.order(order)
+            raise AssertionError
+        return scene(self.halts_at, "paused")
+
+    def now(self, client: Client) -> float | None:
+        return client.now()
+
+    def trouble(self) -> str:
+        return "the car is away" if not self.able else ""
 
 
-def as_convoy(behind: FakeConvoy) -> Convoy:
-    return behind  # type: ignore[return-value]
+def cabin(client: Client, behind: Behind) -> RemoteCabin:
+    return RemoteCabin(behind, client, Minutes(client, "ada", HEADER))
 
 
 def test_a_question_that_a_dead_service_missed_is_asked_again(
@@ -396,7 +443,7 @@ class Pipe:
 
     def say(self, *lines: str) -> bool:
         minutes = Minutes(self.client, "ada", HEADER)
-        behind = as_convoy(FakeConvoy(self.service))
+        behind = FakeConvoy(self.service)
         write, note = self.out.append, self.notes.append
         piped = Piped(behind, self.client, minutes, write, note, self.as_json, scene(8.0), 8.0)
         return all(piped.take(line) for line in lines)
@@ -486,3 +533,36 @@ def test_a_question_through_the_pipe_survives_the_service(pipe: Pipe) -> None:
     pipe.service.vanish()
     assert pipe.say("One?")
     assert pipe.out == ["Answer to One?"]
+
+
+def test_a_moment_that_cannot_be_driven_to_is_told_and_can_still_be_asked_about(
+    pipe: Pipe,
+) -> None:
+    assert pipe.say("@ 9.0s", "One?")
+    assert pipe.notes == ["I take no orders."]
+    assert pipe.out == ["Answer to One?"]
+
+
+def test_of_a_ride_that_goes_on_by_itself_now_is_asked_until_a_moment_is_named(
+    pipe: Pipe, client: Client
+) -> None:
+    client.scene = scene(3.0)
+    minutes, behind = Minutes(client, "ada", HEADER), FakeConvoy(pipe.service)
+    write, note = pipe.out.append, pipe.notes.append
+    piped = Piped(behind, client, minutes, write, note, False, scene(1.0), None, live=True)
+    for line in ("One?", "/plan", "@ 2.0s", "Two?", "@ 9.0s", "Three?"):
+        assert piped.take(line)
+    assert [turn.reply.sim_time for turn in pipe.service.turns] == [3.0, 2.0, 9.0]
+    assert pipe.notes == []
+    assert "I plan to go on." in pipe.out
+
+
+def test_what_ails_the_car_is_in_the_status_and_orders_are_declined(
+    client: Client, service: FakeService
+) -> None:
+    sat = cabin(client, FakeConvoy(service, able=False))
+    client.scene = scene(3.0, "paused")
+    assert sat.status().endswith("the car is away")
+    for order in (sat.pause, sat.resume, lambda: sat.speed(2.0)):
+        with pytest.raises(CommandError, match="I take no orders"):
+            order()

@@ -2,7 +2,7 @@ import pytest
 
 from planner.events import Event
 from planner.trace import ACTIONS
-from xavi_dialogue.app.narration import clock, narrate, plan_in_words, story
+from xavi_dialogue.app.narration import Teller, clock, narrate, plan_in_words, story
 
 
 @pytest.mark.parametrize(
@@ -51,3 +51,18 @@ def test_a_plan_is_a_row_of_actions() -> None:
 
 def test_clocks() -> None:
     assert [clock(0.0), clock(59.99), clock(600.0)] == ["0:00", "0:59", "10:00"]
+
+
+def test_a_ride_that_is_driven_again_is_not_told_again_and_another_one_is() -> None:
+    first = (Event("action-committed", 4.0, "exit-left", 4), Event("gave-way", 5.0, None, 3, 2))
+    then = Event("action-ended", 6.0, "exit-left")
+    teller = Teller()
+
+    def told(events: tuple[Event, ...]) -> list[str | None]:
+        return [teller.tell(number, event) for number, event in enumerate(events)]
+
+    assert told(first) == ["0:04 I turn left.", "0:05 I give way to vehicle 2."]
+    assert told((*first, then)) == [None, None, "0:06 I have turned left."]
+    other = (Event("action-committed", 2.0, "exit-right", 4), first[1])
+    assert told(other) == ["0:02 I turn right.", "0:05 I give way to vehicle 2."]
+    assert teller.tell(2, then) is None  # that turn was none of this ride

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pytest
 
+from xavi_dialogue.app.steady_car import AGAIN
 from xavi_dialogue.transports.text import clean
 
 pytestmark = pytest.mark.slow
@@ -136,16 +137,21 @@ def test_no_process_outlives_the_chat(chat: Chat, number: signal.Signals, status
     assert until(lambda: not any(map(alive, started)))
 
 
-def test_when_the_car_dies_the_record_can_be_asked_about_but_not_driven_on(chat: Chat) -> None:
-    car = next(pid for pid in children(chat.process.pid) if b"drive" in command(pid))
+def test_the_ride_of_a_car_that_is_killed_is_driven_on_and_told_the_same(chat: Chat) -> None:
+    car = child(chat, b"drive")
     os.kill(car, signal.SIGKILL)
-    chat.say("What are you doing?")
+    chat.say("Where are you going?")  # answered from the record, or from that of the new car
     assert chat.hear()
-    chat.say("@ 1000s")
-    chat.say("What are you doing?")
-    status, out, err = chat.end()
-    assert (status, out) == (1, "")
-    assert "the car has ended (signal 9)" in err
+    chat.say("@ 11s")
+    chat.say("What if you had not turned right?")
+    assert "destination" in chat.hear()
+    assert child(chat, b"drive") != car
+    os.kill(child(chat, b"serve"), signal.SIGKILL)  # and the next one goes on as well
+    chat.say("What if you had not turned right?")
+    assert chat.hear().startswith("As I said, ")
+    status, _, err = chat.end()
+    assert status == 0
+    assert err.count(AGAIN) == 1
     assert "Traceback" not in err
 
 
@@ -220,6 +226,11 @@ class Screen:
         assert found, f"{text!r} is not shown in:\n{self.seen}"
         self.seen = self.seen.partition(text)[2]
         return True
+
+
+def child(chat: Chat, word: bytes) -> int:
+    """The process that was started with a command."""
+    return next(pid for pid in children(chat.process.pid) if word in command(pid))
 
 
 def command(pid: int) -> bytes:

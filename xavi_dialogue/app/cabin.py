@@ -5,15 +5,16 @@ from contextlib import suppress
 from datetime import datetime
 
 from xavi_dialogue.app import control
+from xavi_dialogue.app.behind import Behind
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import DEADLINE, GRACE, Client, ServiceLost, new_request
-from xavi_dialogue.app.convoy import Convoy
 from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import clock, plan_in_words
 from xavi_dialogue.dialogue.referents import vehicle_words
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.transports.commands import forms
 from xavi_dialogue.transports.messages import SceneReport
+from xavi_dialogue.transports.text import one_line
 
 KMH = 3.6
 PHRASES = (
@@ -29,7 +30,7 @@ ALONE = "There is no other vehicle in view."
 class RemoteCabin:
     """See transports.cabin.Cabin."""
 
-    def __init__(self, behind: Convoy, client: Client, minutes: Minutes) -> None:
+    def __init__(self, behind: Behind, client: Client, minutes: Minutes) -> None:
         self._behind, self._client, self._minutes = behind, client, minutes
 
     def status(self) -> str:
@@ -38,7 +39,8 @@ class RemoteCabin:
         if scene is None:
             return "waiting for the car"
         speed = f"{scene.vehicles[0].speed * KMH:.0f} km/h"
-        parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan), _state(scene)]
+        parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan)]
+        parts.append(self._behind.trouble() or _state(scene))
         return "  ·  ".join(filter(None, parts))
 
     def vehicles(self) -> str:
@@ -82,7 +84,7 @@ class RemoteCabin:
             with suppress(RuntimeError):  # the conversation is over
                 loop.call_soon_threadsafe(settle, reply)
 
-        self._client.send(text, done, at=self._client.now(), request=request)
+        self._client.send(text, done, at=self._behind.now(self._client), request=request)
         return await answer
 
     async def why(self) -> str:
@@ -107,15 +109,15 @@ class RemoteCabin:
 
     def pause(self) -> None:
         """Halt the ride."""
-        self._behind.car.order(control.Pause())
+        self._behind.order(control.Pause())
 
     def resume(self) -> None:
         """Go on."""
-        self._behind.car.order(control.Resume())
+        self._behind.order(control.Resume())
 
     def speed(self, factor: float) -> None:
         """Change how fast the ride goes."""
-        self._behind.car.order(control.Speed(factor))
+        self._behind.order(control.Speed(factor))
 
     def check(self) -> None:
         """Raise where the ride cannot be talked about any more."""
@@ -131,7 +133,7 @@ def vehicles_in_words(scene: SceneReport | None) -> str:
     if scene is None:
         return ALONE
     lines = (
-        f"vehicle {name}: {words.description or 'a ' + scene.vehicles[name].kind},"
+        f"vehicle {name}: {words.description or 'a ' + one_line(scene.vehicles[name].kind)},"
         f" {scene.vehicles[name].speed * KMH:.0f} km/h"
         for name, words in vehicle_words(scene.vehicles).items()
     )

@@ -1,24 +1,20 @@
 """`xavi chat`: car, service and conversation in one go, at a terminal or through a pipe."""
 
-import asyncio
-import os
-import signal
-import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
-from datetime import datetime, timedelta
 from pathlib import Path
 
 from xavi_dialogue.app import control
-from xavi_dialogue.app.cabin import RemoteCabin
-from xavi_dialogue.app.client import Client
-from xavi_dialogue.app.convoy import Convoy, convoy, first_scene
+from xavi_dialogue.app.client import Client, OnEvent
+from xavi_dialogue.app.convoy import Company, Convoy, convoy, first_scene
+from xavi_dialogue.app.identity import Passenger
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.minutes import Minutes
-from xavi_dialogue.app.narration import Narrator
 from xavi_dialogue.app.piped import Piped, Write
-from xavi_dialogue.transports.bus import Keys
-from xavi_dialogue.transports.messages import EventReport
+from xavi_dialogue.app.talking import Typed, Unasked, talk, warner
+from xavi_dialogue.transports.bus import Bus, Keys
+from xavi_dialogue.transports.commands import CommandError
 
 
 @dataclass(frozen=True)
@@ -28,9 +24,10 @@ class Ride:
     scenario: str  # folder
     name: str  # of the scenario
     seed: int
-    session: str
+    passenger: Passenger
     keeping: Keeping | None = None  # of what is said; None: it is not kept
     resume: float | None = None  # [s] how far to drive before anything is asked
+    record: Path | None = None  # file that the ride is recorded in
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
@@ -52,18 +49,19 @@ def through_pipe(
         as_json: write replies as JSON.
 
     Raises:
-        ChildFailed: car or service ended, or did not start.
+        ChildFailed: a process did not start, or ended too often.
         ServiceLost: a question was not answered.
     """
     note(f"driving {ride.name}, seed {ride.seed}")
-    warn = _warner(note)
-    with convoy(ride.scenario, ride.seed, speed, ride.keeping, warn) as behind:
-        client = Client(behind.bus, Keys(), ride.session)
-        first_scene(behind, client)
-        scene = behind.drive(client, control.Until(ride.resume), halt=True)
+    company = Company(ride.record, warner(note), note)
+    with convoy(ride.scenario, ride.seed, speed, ride.keeping, company) as behind:
+        client = client_of(ride.passenger, behind.bus, Keys())
+        scene = first_scene(behind, client)
+        with suppress(CommandError):  # there is no car any more, which has been told
+            scene = behind.drive(client, control.Until(ride.resume), halt=True)
         at = scene.sim_time if ride.resume is None else ride.resume
         note(f"asking at {at:.1f} s")
-        minutes = Minutes(client, ride.session, ride.header)
+        minutes = Minutes(client, ride.passenger.session, ride.header)
         piped = Piped(behind, client, minutes, write, note, as_json, scene, at)
         for raw in lines:
             if not piped.take(raw):
@@ -80,60 +78,30 @@ def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None
         speed: simulated seconds per second; 0 is as fast as possible.
 
     Raises:
-        ChildFailed: car or service ended, or did not start.
+        ChildFailed: a process did not start, or ended too often.
     """
-    told: list[Write] = []
-
-    def warn(text: str) -> None:
-        for tell in tuple(told) or (_warner(note),):
-            tell(text)
-
+    unasked = Unasked(note)
+    company = Company(ride.record, unasked.warn, unasked.tell)
     first = speed if ride.resume is None else 0.0
-    with convoy(ride.scenario, ride.seed, first, ride.keeping, warn) as behind:
-        asyncio.run(_talk(ride, behind, history, told, speed))
+    with convoy(ride.scenario, ride.seed, first, ride.keeping, company) as behind:
+        client = client_of(ride.passenger, behind.bus, Keys(), unasked.on_event)
+        minutes = Minutes(client, ride.passenger.session, ride.header)
+        typed = Typed(history, None if ride.keeping is None else ride.keeping.days)
+        talk(behind, client, minutes, typed, unasked, lambda: _begin(ride, behind, client, speed))
 
 
-async def _talk(ride: Ride, behind: Convoy, history: Path, told: list[Write], speed: float) -> None:
-    # Deferred: a quarter of a second that only a terminal needs.
-    from prompt_toolkit.application import create_app_session
+def client_of(
+    passenger: Passenger, bus: Bus, keys: Keys, on_event: OnEvent | None = None
+) -> Client:
+    """A passenger on the bus."""
+    token, share = passenger.token, passenger.share
+    return Client(bus, keys, passenger.session, on_event, token=token, share=share)
 
-    from xavi_dialogue.transports.screen import Keyboard, silent_screen
-    from xavi_dialogue.transports.terminal import TerminalChat
-    from xavi_dialogue.transports.typed import TypedLines, UnkeptLines, erase
 
-    narrator = Narrator()
-
-    def on_event(report: EventReport) -> None:
-        line = narrator.tell(report.event)
-        if line is not None:
-            for tell in told:
-                tell(line)
-
-    client = Client(behind.bus, Keys(), ride.session, on_event)
-    await asyncio.to_thread(first_scene, behind, client)
+def _begin(ride: Ride, behind: Convoy, client: Client, speed: float) -> None:
+    """Wait for the car, and have it drive to where the conversation goes on."""
+    first_scene(behind, client)
     if ride.resume is not None:
-        until = control.Until(ride.resume)
-        await asyncio.to_thread(behind.drive, client, until, halt=True)
-        behind.car.order(control.Speed(speed))
-    typed: TypedLines | UnkeptLines = UnkeptLines()
-    if ride.keeping is not None:
-        history.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        erase(history, before=datetime.now() - timedelta(days=ride.keeping.days))
-        typed = TypedLines(history, ride.session)
-    minutes = Minutes(client, ride.session, ride.header, typed.forget)
-    cabin = RemoteCabin(behind, client, minutes)
-    with create_app_session(output=silent_screen(sys.stdout, os.environ.get("TERM"))):
-        chat = TerminalChat(cabin, typed, keyboard=Keyboard(sys.stdin))
-        told.append(chat.tell)
-        loop = asyncio.get_running_loop()
-        for number in (signal.SIGTERM, signal.SIGHUP):
-            loop.add_signal_handler(number, chat.end)
-        behind.car.order(control.Resume())
-        try:
-            await chat.run()
-        finally:
-            behind.over.set()
-
-
-def _warner(note: Write) -> Write:
-    return lambda text: note(f"warning: {text}")
+        with suppress(CommandError):  # there is no car any more, which has been told
+            behind.drive(client, control.Until(ride.resume), halt=True)
+            behind.order(control.Speed(speed))

@@ -191,6 +191,29 @@ class Steady:
         self._child.stop()
 
 
+class Expendable:
+    """A child without which one can go on: that it has ended is told once."""
+
+    def __init__(self, child: Child, tell: Callable[[str], None]) -> None:
+        """Watch it.
+
+        Args:
+            child: that is watched.
+            tell: gets its end, with its last words.
+        """
+        self.child = child
+        self._tell: Callable[[str], None] | None = tell
+
+    def check(self) -> None:
+        """Tell if it has ended."""
+        try:
+            self.child.check()
+        except ChildFailed as error:
+            tell, self._tell = self._tell, None
+            if tell is not None:
+                tell(f"{error}; the ride goes on without it")
+
+
 def _ours() -> dict[str, str]:
     """Our environment without what would lead a child to another bus."""
     return {name: value for name, value in os.environ.items() if not name.startswith("XAVI_")}

@@ -5,6 +5,7 @@ import secrets
 import threading
 import time
 from collections.abc import Callable
+from typing import TypeAlias
 
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import NoExplanation, Reason
@@ -15,7 +16,6 @@ from xavi_dialogue.transports.messages import (
     MAX_TEXT,
     AskReply,
     AskRequest,
-    CancelReply,
     CancelRequest,
     EventReport,
     Failure,
@@ -39,6 +39,8 @@ NONSENSE = "the dialogue service sent nonsense"
 REFUSED = "the dialogue service refused"
 POLL = 0.1  # [s] between looks at whether waiting still makes sense
 
+OnEvent: TypeAlias = Callable[[EventReport], None]
+
 
 class ServiceLost(Exception):
     """The service does not answer."""
@@ -52,8 +54,22 @@ class Client:
         bus: Bus,
         keys: Keys,
         session: str,
-        on_event: Callable[[EventReport], None] | None = None,
+        on_event: OnEvent | None = None,
+        *,
+        token: str | None = None,
+        share: bool = False,
     ) -> None:
+        """Begin to listen.
+
+        Args:
+            bus: of the car and the service.
+            keys: of the car.
+            session: that is talked in.
+            on_event: gets what happens, on a thread of the bus.
+            token: of the session, see app.identity; None: it is open to all.
+            share: others may read what is said.
+        """
+        self._token, self._share = token, share
         self.scene: SceneReport | None = None  # the latest
         self._bus, self._keys, self._session = bus, keys, session
         self._changed = threading.Condition()
@@ -97,6 +113,8 @@ class Client:
             style=style,
             deadline_ms=DEADLINE * 1000.0,
             at=at,
+            token=self._token,
+            share=self._share,
         )
         key = self._keys.of("@rpc/ask")
 
@@ -120,17 +138,22 @@ class Client:
 
     def cancel(self, request: str) -> None:
         """Tell the service that an answer is no longer wanted."""
-        wanted = CancelRequest(request=request, session=self._session)
+        wanted = CancelRequest(request=request, session=self._session, token=self._token)
         self._bus.request(self._keys.of("@rpc/cancel"), pack(wanted), 1.0, lambda _: None)
 
     def probe(self) -> None:
-        """Make sure that the service answers; waits for it.
+        """Make sure that the service answers, whatever it says; waits for it.
 
         Raises:
             ServiceLost: it does not.
         """
-        nothing = CancelRequest(request=new_request(), session=self._session)
-        self._call("@rpc/cancel", pack(nothing), CancelReply)
+        nothing = CancelRequest(request=new_request(), session=self._session, token=self._token)
+        try:
+            call(self._bus, self._keys.of("@rpc/cancel"), pack(nothing), PATIENCE)
+        except Refused:
+            return
+        except NoAnswer as error:
+            raise _lost(error) from error
 
     def history(self) -> tuple[PastTurn, ...]:
         """The latest turns of the session, oldest first; waits for them.
@@ -138,7 +161,7 @@ class Client:
         Raises:
             ServiceLost: they cannot be had.
         """
-        wanted = pack(HistoryRequest(session=self._session))
+        wanted = pack(HistoryRequest(session=self._session, token=self._token))
         return self._call("@rpc/history", wanted, HistoryReply).turns
 
     def forget(self) -> ForgetReply:
@@ -147,8 +170,8 @@ class Client:
         Raises:
             ServiceLost: the service does not answer, or refuses.
         """
-        wanted = pack(ForgetRequest(request=new_request(), session=self._session))
-        return self._call("@rpc/forget", wanted, ForgetReply)
+        wanted = ForgetRequest(request=new_request(), session=self._session, token=self._token)
+        return self._call("@rpc/forget", pack(wanted), ForgetReply)
 
     def _call(self, tail: str, wanted: bytes, kind: type[M]) -> M:
         try:
@@ -250,4 +273,7 @@ def _failure(came: Refused) -> Failure | None:
 def _refusal(failure: Failure | None) -> str:
     if failure is None:
         return REFUSED
-    return f"{REFUSED}: {clean(failure.detail) or failure.reason}"
+    detail = clean(failure.detail)
+    if failure.reason == "out-of-scope" and detail:  # says all by itself
+        return detail
+    return f"{REFUSED}: {detail or failure.reason}"

@@ -3,16 +3,20 @@
 import socket
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
+from pathlib import Path
+from typing import TypeAlias
 
 from xavi_dialogue.app import control
-from xavi_dialogue.app.children import Child, ChildFailed, Steady
+from xavi_dialogue.app.children import Child, ChildFailed, Expendable, Steady
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.memory import Keeping
-from xavi_dialogue.transports.bus import HubUnreachable
+from xavi_dialogue.app.steady_car import SteadyCar
+from xavi_dialogue.transports.bus import HubUnreachable, Keys
+from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
@@ -25,31 +29,32 @@ BACK = 15.0  # [s] until it must answer then
 CLOSING = 1.5  # [s] that it may take to leave the bus
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
+Tell: TypeAlias = Callable[[str], None]
+
 
 @dataclass(frozen=True)
 class Convoy:
-    """The processes behind a chat, and its own connection to them."""
+    """The processes behind a chat, and its own connection to them; see Behind."""
 
-    car: Child
+    car: SteadyCar
     service: Steady
     bus: ZenohBus
-    over: threading.Event = field(default_factory=threading.Event)  # nobody waits any more
+    recorder: Expendable | None = None
+    over: threading.Event = field(default_factory=threading.Event)
 
     def check(self) -> None:
-        """Make sure that both are there; start the service anew if it is not.
+        """Make sure that there are processes; start the service anew if it is not there.
 
         Raises:
-            ChildFailed: the car has ended, or the service once too often.
+            ChildFailed: the car has not come up, or the service ended once too often.
         """
         self.service.check()
         self.car.check()
+        if self.recorder is not None:
+            self.recorder.check()
 
     def recover(self, client: Client) -> bool:
-        """See to it that there is a service that answers; whether there is.
-
-        Raises:
-            ChildFailed: see `check`.
-        """
+        """See Behind."""
         give_up = time.monotonic() + BACK
         while time.monotonic() < give_up and not self.over.wait(RETRY):
             self.service.check()
@@ -58,26 +63,57 @@ class Convoy:
                 return True
         return False
 
+    def order(self, order: control.Order) -> None:
+        """See Behind."""
+        self.car.order(order)
+
+    def set_off(self) -> None:
+        """See Behind."""
+        with suppress(CommandError):  # there is no car any more, which has been told
+            self.car.order(control.Resume())
+
     def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
-        """Give the car an order, and wait until it has obeyed it.
-
-        Args:
-            client: sees the car's scenes.
-            order: to give.
-            halt: wait until the car has halted or the ride is over, too.
-
-        Raises:
-            ChildFailed: a process has ended, or the car is not heard of any more.
-        """
-        number = self.car.order(order)
+        """See Behind."""
+        self.car.order(order)
 
         def done(scene: SceneReport) -> bool:
-            return scene.orders >= number and not (halt and scene.state == "driving")
+            return self.car.obeyed(scene) and not (halt and scene.state == "driving")
 
-        scene = client.wait_for(done, self.check, SILENCE)
-        if scene is None:
-            raise ChildFailed("the car is not heard of any more")
-        return scene
+        while True:
+            scene = client.wait_for(done, self.wait, SILENCE)
+            if scene is not None:
+                return scene
+            if not self.car.catching_up:
+                raise ChildFailed("the car is not heard of any more")
+
+    def wait(self) -> None:
+        """To be called while something of the car is waited for.
+
+        Raises:
+            ChildFailed: see `check`; or the chat is over.
+            CommandError: there is no car any more.
+        """
+        if self.over.is_set():
+            raise ChildFailed("the chat is over")
+        self.check()
+        self.car.hope()
+
+    def now(self, client: Client) -> float | None:
+        """See Behind."""
+        return self.car.now(client.now())
+
+    def trouble(self) -> str:
+        """See Behind."""
+        return self.car.trouble()
+
+
+@dataclass(frozen=True)
+class Company:
+    """What else there is to a convoy besides its car."""
+
+    record: Path | None = None  # file that the ride is recorded in
+    warn: Tell = lambda _: None  # gets the service's warnings, on a thread
+    tell: Tell = lambda _: None  # gets what the passenger should know, on a thread
 
 
 @contextmanager
@@ -86,7 +122,7 @@ def convoy(
     seed: int,
     speed: float,
     keeping: Keeping | None = None,
-    warn: Callable[[str], None] | None = None,
+    company: Company | None = None,
 ) -> Iterator[Convoy]:
     """Start service and car, the car waiting for the service; stop them in reverse.
 
@@ -95,25 +131,45 @@ def convoy(
         seed: of the ride.
         speed: simulated seconds per second; 0 is as fast as possible.
         keeping: where and how long the service keeps what is said; None: not at all.
-        warn: gets the service's warnings, on a thread.
+        company: what else there is.
 
     Raises:
         ChildFailed: one does not come up.
     """
-    ride = ["--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
+    ride = ["drive", "--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
+    with convoy_of(ride, speed, keeping, company) as behind:
+        yield behind
+
+
+@contextmanager
+def convoy_of(
+    car: Sequence[str], speed: float, keeping: Keeping | None, company: Company | None = None
+) -> Iterator[Convoy]:
+    """The same with any command that reports and obeys like a car.
+
+    Args:
+        car: arguments of `xavi`; where to connect to is added.
+        speed: at which it begins.
+        keeping: see `convoy`.
+        company: see `convoy`.
+
+    Raises:
+        ChildFailed: one does not come up.
+    """
     with ExitStack() as stack:
-        yield _start(stack, ride, _kept(keeping), warn)
+        yield _start(stack, car, speed, _kept(keeping), company or Company())
 
 
 def first_scene(behind: Convoy, client: Client) -> SceneReport:
-    """Wait for the car to be on the road.
+    """Wait for the car to be on the road; from then on it is started anew where it ends.
 
     Raises:
         ChildFailed: it does not come up.
     """
-    scene = client.wait_for(lambda _: True, behind.check, START_PATIENCE)
+    scene = client.wait_for(lambda _: True, behind.wait, START_PATIENCE)
     if scene is None:
         raise ChildFailed("the car does not start")
+    behind.car.follow(client)
     return scene
 
 
@@ -124,14 +180,17 @@ def _kept(keeping: Keeping | None) -> list[str]:
 
 
 def _start(
-    stack: ExitStack, ride: list[str], kept: list[str], warn: Callable[[str], None] | None
+    stack: ExitStack, car: Sequence[str], speed: float, kept: list[str], company: Company
 ) -> Convoy:
-    """Both processes and a connection to them, on a port that another process may snatch."""
+    """The processes and a connection to them, on a port that another process may snatch."""
     for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
         serve = ["serve", "--listen", endpoint, *kept]
-        service = stack.enter_context(Steady(partial(Child, "the dialogue service", serve, warn)))
-        car = stack.enter_context(Child("the car", ["drive", *ride, "--connect", endpoint]))
+        begin = partial(Child, "the dialogue service", serve, company.warn)
+        service = stack.enter_context(Steady(begin))
+        recorder = _recorder(stack, company, endpoint)
+        drive = partial(Child, "the car", [*car, "--connect", endpoint])
+        driven = stack.enter_context(SteadyCar(drive, speed, company.tell))
         try:
             bus = stack.enter_context(_join(service, endpoint))
         except ChildFailed:
@@ -141,8 +200,33 @@ def _start(
         else:
             service.spare = SPARE
             stack.callback(_let_go, bus, service)
-            return Convoy(car, service, bus)
+            if recorder is not None:
+                _await(recorder.child, bus)
+            return Convoy(driven, service, bus, recorder)
     raise AssertionError("the last attempt returns or raises")
+
+
+def _recorder(stack: ExitStack, company: Company, endpoint: str) -> Expendable | None:
+    if company.record is None:
+        return None
+    record = ["record", str(company.record.absolute()), "--connect", endpoint]
+    child = stack.enter_context(Child("the recorder", record, company.warn))
+    return Expendable(child, company.tell)
+
+
+def _await(recorder: Child, bus: ZenohBus) -> None:
+    """Wait until the recorder is there, so that it misses nothing of the ride.
+
+    Raises:
+        ChildFailed: it does not come up.
+    """
+    there = threading.Event()
+    bus.watch(Keys().of("alive/recorder"), lambda _, alive: there.set() if alive else None)
+    give_up = time.monotonic() + START_PATIENCE
+    while not there.wait(RETRY):
+        recorder.check()
+        if time.monotonic() > give_up:
+            raise ChildFailed("the recorder does not come up")
 
 
 def _let_go(bus: ZenohBus, service: Steady) -> None:

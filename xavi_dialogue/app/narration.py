@@ -8,6 +8,8 @@ from importlib.resources import files
 from planner.events import Event
 from planner.trace import Action
 
+REMEMBERED = 10_000  # events
+
 
 def narrate(event: Event) -> str | None:
     """A line such as "0:04 I change to the left lane."; None for what goes without saying."""
@@ -31,6 +33,25 @@ class Narrator:
             self._begun = None
             return narrate(event) if begun == event.action else None
         return narrate(event)
+
+
+class Teller:
+    """Tells what happens once, also where the same ride is driven again from its beginning."""
+
+    def __init__(self) -> None:
+        self._narrator = Narrator()
+        self._told: dict[int, Event] = {}  # by number
+
+    def tell(self, number: int, event: Event) -> str | None:
+        """The line for an event of the ride that has a number, if any."""
+        known = self._told.get(number)
+        if known == event:
+            return None
+        if known is not None or len(self._told) >= REMEMBERED:  # it is another ride
+            self._narrator = Narrator()
+            self._told.clear()
+        self._told[number] = event
+        return self._narrator.tell(event)
 
 
 def story(events: Iterable[Event]) -> str:

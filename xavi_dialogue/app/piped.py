@@ -6,9 +6,9 @@ from datetime import datetime
 from typing import TypeAlias
 
 from xavi_dialogue.app import control
+from xavi_dialogue.app.behind import Behind
 from xavi_dialogue.app.cabin import plan_told, vehicles_in_words
 from xavi_dialogue.app.client import Client, ServiceLost
-from xavi_dialogue.app.convoy import Convoy
 from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.dialogue.reply import Reply, encode
 from xavi_dialogue.transports import commands
@@ -28,16 +28,17 @@ HELP = (
 
 @dataclass
 class Piped:
-    """A conversation line by line about a ride that halts between questions."""
+    """A conversation line by line, about a ride that halts between questions unless it is live."""
 
-    behind: Convoy
+    behind: Behind
     client: Client
     minutes: Minutes
     write: Write  # takes answers
     note: Write  # takes what is none
     as_json: bool  # write replies as JSON
     scene: SceneReport  # where the ride has halted
-    at: float  # [s] what questions are about
+    at: float | None  # [s] what questions are about; None: the moment at which they are asked
+    live: bool = False  # the ride goes on by itself, whatever is asked
 
     def take(self, raw: str) -> bool:
         """Take a line; whether to go on.
@@ -46,15 +47,19 @@ class Piped:
             ChildFailed: car or service ended.
             ServiceLost: a question was not answered.
         """
-        line = one_line(raw)
+        self.behind.check()
+        try:
+            return self._take(one_line(raw))
+        except CommandError as error:
+            self.note(str(error))
+        return True
+
+    def _take(self, line: str) -> bool:
         moved = moment(line)
         if moved is not None:
             self._move(moved)
         elif line.startswith("/"):
-            try:
-                return self._obey(commands.read(line, "pipe"))
-            except CommandError as error:
-                self.note(str(error))
+            return self._obey(commands.read(line, "pipe"))
         elif line.startswith("@"):
             self.note(f"a moment is written @ 8.0s, not {line[:SHOWN]!r}")
         elif line:
@@ -63,7 +68,7 @@ class Piped:
 
     def _move(self, at: float) -> None:
         self.at = at
-        if self.scene.sim_time < at and self.scene.state != "ended":
+        if not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
 
     def _ask(self, text: str) -> None:
@@ -73,12 +78,13 @@ class Piped:
         self.write(encode(reply) if self.as_json else reply.text)
 
     def _reply(self, text: str) -> Reply:
+        at = self.behind.now(self.client) if self.at is None else self.at
         try:
-            return self.client.ask(text, self.at)
+            return self.client.ask(text, at)
         except ServiceLost:
             if not self.behind.recover(self.client):
                 raise
-        return self.client.ask(text, self.at)
+        return self.client.ask(text, at)
 
     def _obey(self, command: Command) -> bool:
         match command.name:
@@ -91,9 +97,9 @@ class Piped:
             case "more":
                 self._ask(commands.MORE)
             case "vehicles":
-                self._tell_now(vehicles_in_words(self.scene))
+                self._tell_now(vehicles_in_words)
             case "plan":
-                self._tell_now(plan_told(self.scene))
+                self._tell_now(plan_told)
             case "history":
                 self._tell(self.minutes.told())
             case "save":
@@ -102,11 +108,12 @@ class Piped:
                 self.note(self.minutes.forget())
         return True
 
-    def _tell_now(self, text: str) -> None:
+    def _tell_now(self, told: Callable[[SceneReport], str]) -> None:
         """Tell what is known of the latest moment alone."""
-        if self.at < self.scene.sim_time:
-            self.note(f"this is how it is at {self.scene.sim_time:.1f} s")
-        self._tell(text)
+        scene = self.client.scene if self.live and self.client.scene else self.scene
+        if self.at is not None and self.at < scene.sim_time:
+            self.note(f"this is how it is at {scene.sim_time:.1f} s")
+        self._tell(told(scene))
 
     def _tell(self, text: str) -> None:
         """What was asked for and is no answer: JSON lines hold answers alone."""

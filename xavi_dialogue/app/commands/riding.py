@@ -2,7 +2,10 @@
 
 import sys
 from collections.abc import Callable
-from typing import Annotated, Literal
+from datetime import datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -10,14 +13,31 @@ from xavi_dialogue.app.commands.sessions import keeping_in, typed_file
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
     AsJson,
+    Connect,
     KeepDays,
-    ScenarioName,
     Seed,
     SessionName,
     Shell,
     SpeedFactor,
     StoreFile,
+    Vehicle,
+    ZenohFile,
 )
+
+if TYPE_CHECKING:
+    from xavi_dialogue.app.identity import Passenger
+    from xavi_dialogue.app.memory import Keeping
+    from xavi_dialogue.app.remote import There
+    from xavi_dialogue.dialogue.reply import Reply
+
+DEFAULT_SCENARIO = "s1"
+
+AnyScenario = Annotated[
+    str | None, typer.Option("--scenario", help="A name, or a folder. Default: s1.")
+]
+Share = Annotated[
+    bool, typer.Option("--share", help="Let others on the bus read what is asked and answered.")
+]
 
 
 def add(app: typer.Typer, shell: Shell) -> None:
@@ -28,67 +48,158 @@ def add(app: typer.Typer, shell: Shell) -> None:
 
 def _chat(shell: Shell) -> Callable[..., None]:
     def chat(
-        scenario: Annotated[
-            str | None, typer.Option("--scenario", help="A name, or a folder. Default: s1.")
-        ] = None,
+        scenario: AnyScenario = None,
         seed: Seed = None,
         speed: SpeedFactor = None,
         session: SessionName = None,
         as_json: AsJson = False,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        share: Share = False,
+        record: Annotated[
+            Path | None,
+            typer.Option(dir_okay=False, metavar="FILE", help="Record the ride (MCAP)."),
+        ] = None,
         store: StoreFile = None,
         keep_days: KeepDays = KEEP_DAYS,
     ) -> None:
-        """Ride and talk."""
-        from datetime import datetime
-        from secrets import token_hex
-
-        from xavi_dialogue.app import going_on
-        from xavi_dialogue.app.chat import Ride, at_terminal, through_pipe
-
+        """Ride and talk; with --connect or --zenoh, in a car that is under way."""
         with shell.errors():
             keeping = keeping_in(store, keep_days)
-            going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
-            if session is not None:
-                going = going_on.find(keeping, session)
-            loaded = shell.load(going.place(scenario))
-            seed = going.seed(seed, loaded)
-            at = going.moment(loaded, seed)
-            shell.note(going.note(at, keeping))
-            ride = Ride(str(loaded.folder), loaded.name, seed, going.session, keeping, at)
-            if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
-                pace = 1.0 if speed is None else speed
-                at_terminal(ride, typed_file(), shell.note, speed=pace)
-            else:
-                through_pipe(
-                    ride,
-                    shell.lines(),
-                    shell.write,
-                    shell.note,
-                    speed=speed or 0.0,
-                    as_json=as_json,
-                )
+            there = _there(connect, zenoh, vehicle)
+            if there is None:
+                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, record)
+                return
+            _alone(scenario=scenario, seed=seed, speed=speed, record=record)
+            _ride_along(shell, there, session, as_json, keeping, share)
 
     return chat
+
+
+def _drive(
+    shell: Shell,
+    scenario: str | None,
+    seed: int | None,
+    speed: float | None,
+    session: str | None,
+    as_json: bool,
+    keeping: "Keeping | None",
+    share: bool,
+    record: Path | None,
+) -> None:
+    """Talk in a car of one's own."""
+    from xavi_dialogue.app import going_on
+    from xavi_dialogue.app.chat import Ride, at_terminal, through_pipe
+
+    going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+    if session is not None:
+        going = going_on.find(keeping, session)
+    loaded = shell.load(going.place(scenario))
+    seed = going.seed(seed, loaded)
+    at = going.moment(loaded, seed)
+    shell.note(going.note(at, keeping))
+    passenger = _passenger(going.session, share, kept=keeping is not None)
+    ride = Ride(str(loaded.folder), loaded.name, seed, passenger, keeping, at, record)
+    if _terminal(as_json):
+        pace = 1.0 if speed is None else speed
+        at_terminal(ride, typed_file(), shell.note, speed=pace)
+    else:
+        lines, pace = shell.lines(), speed or 0.0
+        through_pipe(ride, lines, shell.write, shell.note, speed=pace, as_json=as_json)
+
+
+def _ride_along(
+    shell: Shell,
+    there: "There",
+    session: str | None,
+    as_json: bool,
+    keeping: "Keeping | None",
+    share: bool,
+) -> None:
+    """Talk in a car that others drive."""
+    from xavi_dialogue.app import going_on, remote
+    from xavi_dialogue.app.talking import Typed
+
+    if session is None:
+        session = going_on.fresh(datetime.now().astimezone(), token_hex(2)).session
+        shell.note(f"this conversation is {session}: --session {session} goes on with it")
+    passenger = _passenger(session, share)
+    if _terminal(as_json):
+        typed = Typed(typed_file(), None if keeping is None else keeping.days)
+        remote.at_terminal(there, passenger, typed, shell.note)
+    else:
+        lines = shell.lines()
+        remote.through_pipe(there, passenger, lines, shell.write, shell.note, as_json=as_json)
 
 
 def _ask(shell: Shell) -> Callable[..., None]:
     def ask(
         text: str,
-        scenario: ScenarioName = "s1",
+        scenario: AnyScenario = None,
         seed: Seed = None,
         at: Annotated[float | None, typer.Option(min=0.0, help="Simulation time [s].")] = None,
         style: Annotated[Literal["passenger", "paper"], typer.Option()] = "passenger",
         as_json: AsJson = False,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        session: SessionName = None,
+        share: Share = False,
     ) -> None:
-        """Drive up to a moment, answer one question, and exit."""
-        from xavi_dialogue.app.ask import ask_once
+        """Drive up to a moment, answer one question, and exit; or ask a car that is under way."""
         from xavi_dialogue.app.exit_status import status_of
         from xavi_dialogue.dialogue.reply import encode
 
+        def driven() -> "Reply":
+            from xavi_dialogue.app.ask import ask_once
+
+            loaded = shell.load(scenario or DEFAULT_SCENARIO)
+            return ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
+
+        def under_way(there: "There") -> "Reply":
+            from xavi_dialogue.app import going_on
+            from xavi_dialogue.app.remote import ask_there
+
+            _alone(scenario=scenario, seed=seed)
+            fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            passenger = _passenger(session or fresh.session, share)
+            return ask_there(there, passenger, text, at, style)
+
         with shell.errors():
-            loaded = shell.load(scenario)
-            reply = ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
+            there = _there(connect, zenoh, vehicle)
+            reply = driven() if there is None else under_way(there)
         shell.write(encode(reply) if as_json else reply.text)
         raise typer.Exit(status_of(reply))
 
     return ask
+
+
+def _there(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | None":
+    """Whom to talk with; None: nobody is named."""
+    if connect is None and zenoh is None:
+        return None
+    from xavi_dialogue.app.remote import There
+    from xavi_dialogue.transports.link import Link
+
+    return There(Link.to_hub(connect, zenoh), vehicle)
+
+
+def _alone(**given: object) -> None:
+    """Refuse what is about a car of one's own."""
+    for name, value in given.items():
+        if value is not None:
+            raise typer.BadParameter(
+                f"--{name} is for a car of your own, and --connect or --zenoh for one under way"
+            )
+
+
+def _passenger(session: str, share: bool, *, kept: bool = True) -> "Passenger":
+    from xavi_dialogue.app.identity import Passenger, default_path, own_secret, token_of
+
+    secret = own_secret(default_path(), make=kept)
+    return Passenger(session, token_of(secret, session), share)
+
+
+def _terminal(as_json: bool) -> bool:
+    return sys.stdin.isatty() and sys.stdout.isatty() and not as_json

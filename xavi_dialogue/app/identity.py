@@ -1,0 +1,84 @@
+"""Who a passenger is to a service: a secret of this user, and from it a token a conversation.
+
+A conversation belongs to whoever begins it: its first question's token has to come with all that
+is asked of it later. The secret never leaves the machine, and no token tells anything of another.
+
+    IdentityError   the secret cannot be read or made
+"""
+
+import base64
+import hashlib
+import hmac
+import os
+import secrets
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+SECRET_BYTES = 32
+
+
+class IdentityError(Exception):
+    """The user's secret cannot be read or made."""
+
+
+@dataclass(frozen=True)
+class Passenger:
+    """As whom to talk."""
+
+    session: str
+    token: str | None = None  # None: the conversation is open to all
+    share: bool = False  # others may read it on the bus
+
+
+def default_path() -> Path:
+    """The file of this user's secret."""
+    # Deferred: few commands need it.
+    from platformdirs import user_state_path
+
+    return user_state_path("xavi-dialogue") / "secret"
+
+
+def token_of(secret: bytes, session: str) -> str:
+    """The token of a conversation: HMAC-SHA256 (RFC 2104) of its name, as URL-safe base64."""
+    digest = hmac.new(secret, session.encode(), hashlib.sha256).digest()
+    return base64.urlsafe_b64encode(digest).decode().rstrip("=")
+
+
+def own_secret(file: Path, *, make: bool = True) -> bytes:
+    """The secret in a file that only its owner can read; made where there is none.
+
+    Args:
+        file: of the secret.
+        make: write a file where there is none; else that secret lasts as long as this process.
+
+    Raises:
+        IdentityError: the file cannot be read or made, or holds something else.
+    """
+    try:
+        if make and not file.exists():
+            _make(file)
+        elif not file.exists():
+            return secrets.token_bytes(SECRET_BYTES)
+        secret = file.read_bytes()
+    except OSError as error:
+        raise IdentityError(f"your secret in {file} cannot be used: {error.strerror}") from error
+    if len(secret) != SECRET_BYTES:
+        raise IdentityError(
+            f"{file} does not hold a secret of {SECRET_BYTES} bytes; remove it to get a new one,"
+            " which opens no conversation of before"
+        )
+    return secret
+
+
+def _make(file: Path) -> None:
+    """Write a new secret, whole or not at all; of several that do so at once, one wins."""
+    file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    draft = file.with_name(f"{file.name}.{os.getpid()}.{secrets.token_hex(4)}")
+    try:
+        with os.fdopen(os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as new:
+            new.write(secrets.token_bytes(SECRET_BYTES))
+        with suppress(FileExistsError):
+            os.link(draft, file)
+    finally:
+        draft.unlink(missing_ok=True)
