@@ -13,7 +13,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from xavi_dialogue.app.bench.commands import Measure, commands
-from xavi_dialogue.app.commands import keys, looking, processes, riding, sessions
+from xavi_dialogue.app.commands import doctor, keys, looking, processes, riding, sessions
 from xavi_dialogue.app.commands.shell import Shell, to_json
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
@@ -52,8 +52,15 @@ def _options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
+    from xavi_dialogue.app.settings import SettingsError
+
     with _errors():
-        context.default_map = _settings(context, config)
+        try:
+            context.default_map = _settings(context, config)
+        except SettingsError as error:
+            if context.invoked_subcommand != "doctor":
+                raise
+            context.obj = error  # it goes on, and tells this among its findings
 
 
 def _settings(context: typer.Context, given: Path | None) -> dict[str, Any]:
@@ -125,7 +132,7 @@ def _note(text: str) -> None:
 
 
 SHELL = Shell(_errors, _write, _note, _lines)
-for room in (riding, processes, looking, sessions, keys):
+for room in (riding, processes, looking, sessions, keys, doctor):
     room.add(app, SHELL)
 
 
