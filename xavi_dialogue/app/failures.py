@@ -13,8 +13,10 @@ from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError
 from xavi_dialogue.app.debug.tree import TreeError
 from xavi_dialogue.app.exit_status import ExitStatus
+from xavi_dialogue.app.identity import IdentityError
 from xavi_dialogue.app.keys import BadEndpoint, KeysError, KeysExist, NotOnlyKeys
 from xavi_dialogue.app.parsing import ParseUsageError
+from xavi_dialogue.app.remote import Missing
 from xavi_dialogue.app.sessions import SessionUsageError
 from xavi_dialogue.app.settings import SettingsError
 from xavi_dialogue.transports.bus import BadLink, BusError
@@ -37,10 +39,11 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(FaultFound, StoreError, KeysError),
+            *(FaultFound, StoreError, KeysError, IdentityError),
         ),
         ExitStatus.FAILED,
     ),
+    ((Missing,), ExitStatus.PLANNER_UNAVAILABLE),
 )
 
 
