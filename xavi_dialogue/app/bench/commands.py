@@ -107,9 +107,13 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
         show(lambda note: explain(rides, write, note), as_json)
 
     @group.command("dialogue")
-    def _dialogue(as_json: AsJson = False) -> None:
-        """How long answers take."""
-        show(lambda _: dialogue(), as_json)
+    def _dialogue(
+        sessions: Annotated[int, typer.Option(min=1, help="Passengers at once.")] = 1000,
+        seconds: Annotated[float, typer.Option(min=1.0, help="At each rate.")] = 20.0,
+        as_json: AsJson = False,
+    ) -> None:
+        """How long answers take, to one passenger and to many at once."""
+        show(lambda note: dialogue(sessions, seconds, note), as_json)
 
 
 def _of_parsing(group: typer.Typer, show: Show) -> None:
@@ -202,11 +206,11 @@ def explain(rides: Path, write: Path | None, note: Callable[[str], None]) -> "Re
     return found
 
 
-def dialogue() -> "Report":
+def dialogue(sessions: int, seconds: float, note: Callable[[str], None]) -> "Report":
     """Measure answers."""
     from xavi_dialogue.app.bench.dialogue import measure
 
-    return measure()
+    return measure(sessions, seconds, note)
 
 
 def parse(questions: Path, note: Callable[[str], None]) -> "Report":

@@ -1,19 +1,24 @@
-"""`xavi bench dialogue`: how long answers take, within one process and over the bus."""
+"""`xavi bench dialogue`: how long answers take, of one passenger and of a thousand at once."""
 
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import msgspec
+
 from sim.network import Network
 from sim.scenario import load
-from xavi_dialogue.app.bench.figures import Figures, Watch
+from xavi_dialogue.app.bench.figures import Figure, Watch, figures_table, in_columns
+from xavi_dialogue.app.bench.passengers import Load, Question, ask_all
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.control import Until
-from xavi_dialogue.app.convoy import convoy, first_scene
+from xavi_dialogue.app.convoy import Convoy, convoy, first_scene
 from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.ride import network_of, start
-from xavi_dialogue.transports.bus import Keys
+from xavi_dialogue.transports.bus import Keys, call
+from xavi_dialogue.transports.messages import AliveReport, unpack
 
 SCENARIOS = ("s1", "s2")
 SEED = 0
@@ -30,27 +35,63 @@ QUESTIONS = (
     "Are you sure?",
     "Hello!",
 )
+MOMENTS = tuple(round(2.0 + 0.1 * k, 1) for k in range(40))  # [s] at which it is asked
+RATES = (20, 50, 100, 200)  # questions a second, of all passengers together
+TARGETS = {"from the record": 50.0, "planned again": 500.0}  # [ms] at p99
 
 
-def measure() -> Figures:
-    """Answers within one process, from the record or with planning again, and over the bus."""
+class Report(msgspec.Struct, frozen=True):
+    """What was measured; times in ms."""
+
+    bench: str
+    figures: tuple[Figure, ...]  # one passenger, one question after the other
+    targets: dict[str, float]  # at p99 [ms], by the end of a figure's name
+    loads: tuple[Load, ...]  # many passengers at once
+    session_bytes: float  # of the service's memory, for each session with one turn
+    service_bytes: float  # of the service's memory at the end
+
+    def table(self) -> str:
+        """The report for people."""
+        rows = [
+            ("", "asked", "a second", "answered", "busy", "timed out", "lost", "p50 ms", "p99 ms"),
+            *(_row(load) for load in self.loads),
+        ]
+        memory = (
+            f"memory: {self.session_bytes / 1000.0:.1f} kB a session,"
+            f" {self.service_bytes / 1e6:.0f} MB the service"
+        )
+        return "\n\n".join([figures_table(self.figures), in_columns(rows), memory])
+
+
+def _row(load: Load) -> tuple[str, ...]:
+    numbers = (load.answered, load.busy, load.timed_out, load.lost)
+    spread = ("-" if one is None else f"{one:.1f}" for one in (load.p50_ms, load.p99_ms))
+    rate = f"{load.answered_per_s:.1f}"
+    return (load.name, str(load.asked), rate, *map(str, numbers), *spread)
+
+
+def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Report:
+    """Answers within one process, over the bus, and to many passengers at once.
+
+    Args:
+        sessions: how many passengers there are.
+        seconds: how long they ask at each rate.
+        note: is told what goes on.
+    """
     watch = Watch()
+    note("within one process")
     for name in SCENARIOS:
-        conversation, _ = ride(name)
-        at = conversation.dialogue.traces[-1].sim_time
-        for question in QUESTIONS * ROUNDS:
-            planned = len(conversation.dialogue.planned)
-            began = time.perf_counter()
-            conversation.ask(question, at)
-            taken = time.perf_counter() - began
-            again = len(conversation.dialogue.planned) > planned
-            kind = "planned again" if again else "from the record"
-            watch.taken.setdefault(f"{name} {kind}", []).append(taken)
-    _over_the_bus(watch, "over the bus", None)
+        _alone(watch, name)
     with TemporaryDirectory() as folder:
         keeping = Keeping(Path(folder) / "dialogue.sqlite3", days=1)
-        _over_the_bus(watch, "over the bus, kept on disk", keeping)
-    return Figures("dialogue", watch.figures())
+        with convoy(SCENARIOS[0], SEED, 0.0, keeping) as behind:
+            client = Client(behind.bus, Keys(), "bench")
+            first_scene(behind, client)
+            at = behind.drive(client, Until(None), halt=True).sim_time
+            note("one passenger over the bus")
+            _over_the_bus(watch, behind, client, at)
+            loads, memory = _crowded(behind, sessions, seconds, at, note)
+    return Report("dialogue", watch.figures(), TARGETS, loads, *memory)
 
 
 def ride(name: str) -> tuple[Conversation, Network]:
@@ -63,13 +104,57 @@ def ride(name: str) -> tuple[Conversation, Network]:
     return conversation, network
 
 
-def _over_the_bus(watch: Watch, how: str, keeping: Keeping | None) -> None:
-    """The same, from a passenger's process through the service's."""
-    name = SCENARIOS[0]
-    with convoy(name, SEED, 0.0, keeping) as behind:
-        client = Client(behind.bus, Keys(), "bench")
-        first_scene(behind, client)
-        at = behind.drive(client, Until(None), halt=True).sim_time
-        for question in QUESTIONS * ROUNDS:
-            with watch.time(f"{name} {how}"):
-                client.ask(question, at)
+def _alone(watch: Watch, name: str) -> None:
+    conversation, _ = ride(name)
+    at = conversation.dialogue.traces[-1].sim_time
+    for question in QUESTIONS * ROUNDS:
+        planned = len(conversation.dialogue.planned)
+        began = time.perf_counter()
+        conversation.ask(question, at)
+        taken = time.perf_counter() - began
+        again = len(conversation.dialogue.planned) > planned
+        kind = "planned again" if again else "from the record"
+        watch.taken.setdefault(f"{name} {kind}", []).append(taken)
+
+
+def _over_the_bus(watch: Watch, behind: Convoy, client: Client, until: float) -> None:
+    """From a passenger's process through the service's, kept on disk, about many moments."""
+    for at in (moment for moment in MOMENTS if moment <= until):
+        for question in QUESTIONS:
+            before = _counters(behind)["what_ifs"]
+            began = time.perf_counter()
+            client.ask(question, at)
+            taken = time.perf_counter() - began
+            again = _counters(behind)["what_ifs"] > before
+            kind = "planned again" if again else "from the record"
+            watch.taken.setdefault(f"over the bus {kind}", []).append(taken)
+
+
+def _crowded(
+    behind: Convoy, sessions: int, seconds: float, until: float, note: Callable[[str], None]
+) -> tuple[tuple[Load, ...], tuple[float, float]]:
+    """Many passengers: all at once, then at given rates; and the memory that they take."""
+    bus, keys, loads = behind.bus, Keys(), []
+    moments = [moment for moment in MOMENTS if moment <= until]
+
+    def asked(count: int, rate: float) -> Iterator[Question]:
+        for k in range(count):
+            due = k / rate if rate else 0.0
+            text = QUESTIONS[(k + k // len(QUESTIONS)) % len(QUESTIONS)]
+            yield Question(due, f"passenger-{k % sessions}", text, moments[7 * k % len(moments)])
+
+    before = _counters(behind)["resident_bytes"]
+    note(f"{sessions} passengers, all at once")
+    loads.append(ask_all(bus, keys, "all at once", asked(sessions, 0.0)))
+    each = (_counters(behind)["resident_bytes"] - before) / sessions
+    for rate in RATES:
+        note(f"{sessions} passengers, {rate} questions a second")
+        count = round(rate * seconds)
+        loads.append(ask_all(bus, keys, f"{rate} a second", asked(count, rate)))
+    return tuple(loads), (round(each), _counters(behind)["resident_bytes"])
+
+
+def _counters(behind: Convoy) -> dict[str, float]:
+    """How the service fares."""
+    payload = call(behind.bus, Keys().of("alive/service"), b"", 10.0)
+    return unpack(payload, AliveReport).counters
