@@ -96,6 +96,7 @@ def company(
         pool = stack.enter_context(workers(network, staff.workers, staff.waiting))
         alive.gauge("outbox", outbox.waiting)
         alive.gauge("workers", lambda: len(pool.pids))
+        alive.gauge("workers_idle", lambda: pool.idle)
         planning = Replanner(pool, alive=alive)
         bus.watch(keys.of("alive/service"), Attendance(keys.vehicle))
         serve_roads(bus, keys, network)
