@@ -180,6 +180,15 @@ def test_a_reply_that_zenoh_refuses_is_an_error_of_ours() -> None:
                 again(b"twice")
 
 
+@pytest.mark.parametrize("keep", [0, 5])
+def test_nothing_is_sent_on_a_bus_that_is_closed(keep: int) -> None:
+    with host(Link.of_hub(free_endpoint())) as bus:
+        publisher = bus.publisher(KEY("trace"), keep)
+        publisher.put(b"sent")
+    with pytest.raises(BusFailed, match="the message was not sent"):
+        publisher.put(b"late")
+
+
 def test_zenoh_errors_are_ours() -> None:
     endpoint = free_endpoint()
     with pytest.raises(HubUnreachable, match="xavi serve"):

@@ -101,7 +101,12 @@ def matches(pattern: str, key: str) -> bool:
 class Publisher(Protocol):
     """Sends messages under one key."""
 
-    def put(self, payload: bytes) -> None: ...
+    def put(self, payload: bytes) -> None:
+        """Send one.
+
+        Raises:
+            BusFailed: the bus is closed.
+        """
 
 
 class Call(Protocol):

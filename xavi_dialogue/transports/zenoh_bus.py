@@ -60,7 +60,7 @@ class ZenohBus:
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """See Bus."""
-        publisher: Publisher
+        publisher: zenoh.Publisher | ext.AdvancedPublisher
         if not keep:
             publisher = self._session.declare_publisher(
                 key, encoding=JSON, congestion_control=CongestionControl.DROP
@@ -78,7 +78,7 @@ class ZenohBus:
                 publisher_detection=True,
             )
         self._declared.append(publisher)
-        return publisher
+        return _ZenohPublisher(publisher)
 
     def send(self, key: str, payload: bytes) -> None:
         """See Bus."""
@@ -182,6 +182,17 @@ class ZenohBus:
         traceback: TracebackType | None,
     ) -> None:
         self.close()
+
+
+class _ZenohPublisher:
+    """Sends under one key."""
+
+    def __init__(self, publisher: zenoh.Publisher | ext.AdvancedPublisher) -> None:
+        self._publisher = publisher
+
+    def put(self, payload: bytes) -> None:
+        with _translated("message"):
+            self._publisher.put(payload)
 
 
 class _ZenohPresence:
