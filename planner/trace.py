@@ -7,6 +7,7 @@ time; `trace_id` is the hash of its canonical JSON, so equal decisions have equa
 """
 
 import hashlib
+from functools import cached_property
 from typing import Literal
 
 import msgspec
@@ -192,7 +193,7 @@ class WhatIf(msgspec.Struct, frozen=True):
     rollouts: int = 40  # drawn with the ego's forced actions
 
 
-class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True):
+class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     """The record of one decision."""
 
     schema: str
@@ -214,7 +215,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True):
     waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
 
-    @property
+    @cached_property
     def trace_id(self) -> str:
         """16 hex digits of the SHA-256 of the canonical JSON."""
         return hashlib.sha256(encode(self)).hexdigest()[:16]

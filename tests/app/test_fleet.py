@@ -250,6 +250,19 @@ def test_a_question_whose_turn_does_not_come_in_time_fell_to_a_busy_service(benc
     assert (came, desk.questions) == ([], {})
 
 
+def test_who_could_not_be_answered_in_time_is_told_at_once(bench: Bench) -> None:
+    plans(bench, drive(bench, "car", 3.0))
+    bench.service.reception.pace = 1.0  # [s] that a question takes
+    came = [ask(bench, "answer", session=f"s{k}", deadline_ms=5000.0) for k in range(10)]
+    patient = ask(bench, "answer", session="patient", deadline_ms=60_000.0)
+    bench.service._empty_inbox()
+    assert [len(one) for one in came] == [0] * 4 + [1] * 6  # more than 3.5 s would be too long
+    assert {refused(one).reason for one in came[4:]} == {"busy"}
+    bench.service.work()
+    assert [replied(one).kind for one in (*came[:4], patient)] == ["answer"] * 5
+    assert bench.service.reception.pace < 1.0  # it takes less
+
+
 def history(bench: Bench, session: str, token: str | None) -> bytes:
     came: list[object] = []
     wanted = pack(HistoryRequest(session=session, token=token))

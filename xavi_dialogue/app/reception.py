@@ -36,6 +36,8 @@ _LOG = logging.getLogger(__name__)
 MAX_CARS = 64  # that are known of; of those that are gone, the one heard of first is dropped first
 MAX_OPEN = 4  # questions of a session
 MAX_WAITING = 4000  # questions in all
+HOPE = 0.7  # share of its deadline that a question may have to wait for its turn; see Reception.ask
+LEARNT = 0.1  # weight of the latest question in the pace
 MAX_TURNS = 100  # in a history, and fewer where they would be too large
 FOREIGN = "this conversation belongs to somebody else; begin another with --session NAME"
 
@@ -58,6 +60,7 @@ class Reception:
     memory: Memory
     alive: Alive
     desks: dict[str, Desk] = field(default_factory=dict)  # by car
+    pace: float = 0.0  # [s] that a question takes, on a running average
 
     def __post_init__(self) -> None:
         self.owners = Owners(self.memory.owner)
@@ -78,8 +81,15 @@ class Reception:
         """How many questions are open."""
         return sum(len(desk.questions) for desk in self.desks.values())
 
+    def learn(self, taken: float) -> None:
+        """Learn how long [s] a question took."""
+        self.pace += LEARNT * (taken - self.pace)
+
     def ask(self, call: Call) -> None:
-        """Lay a question on the desk.
+        """Lay a question on the desk, if its turn can be hoped to come in time.
+
+        Else it is told so at once: when more is asked than can be answered, a queue that grows
+        makes everybody late.
 
         Raises:
             Refusal: it is not taken up.
@@ -87,7 +97,9 @@ class Reception:
         desk, asked = self._admitted(call, AskRequest)
         if asked.request in desk.questions:
             raise Refusal("busy", "a request of this name is open")
-        if desk.open(asked.session) >= MAX_OPEN or self.waiting() >= MAX_WAITING:
+        wait = self.pace * sum(one.ready for one in self.desks.values())
+        full = self.waiting() >= MAX_WAITING or wait > HOPE * asked.deadline_ms / 1000.0
+        if full or desk.open(asked.session) >= MAX_OPEN:
             raise Refusal("busy", "too many questions are waiting; ask again in a moment")
         came = time.monotonic()
         self._know(desk, asked.session)

@@ -128,10 +128,17 @@ class Service:
         while True:
             self._empty_inbox()
             for desk in [*self.reception.desks.values()]:
-                self._run(desk, desk.settle(time.monotonic()))
+                self._settle(desk)
             if self._inbox.empty() and not any(d.ready for d in self.reception.desks.values()):
                 break
         self._memory.tidy(time.time(), idle=not self.reception.waiting())
+
+    def _settle(self, desk: Desk) -> None:
+        """Have a desk answer one question, and learn how long that takes."""
+        ready, began = desk.ready, time.monotonic()
+        self._run(desk, desk.settle(began))
+        if ready:
+            self.reception.learn(time.monotonic() - began)
 
     def _empty_inbox(self) -> None:
         with contextlib.suppress(queue.Empty):
