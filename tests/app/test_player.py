@@ -361,3 +361,13 @@ def test_orders_to_seek_are_written_and_read() -> None:
     assert control.read(control.write(control.Seek(2.5))) == control.Seek(2.5)
     with pytest.raises(control.OrderError):
         control.read("seek -1")
+
+
+def test_a_passenger_who_is_taken_back_asks_about_that_moment(tape: Tape) -> None:
+    hub = MemoryHub()
+    client = Client(hub.connect(), KEYS, "ada", lambda _: None)
+    one = Player(tape, hub.connect(), KEYS, Pace(1.0, running=True))
+    one.go_to(tape.index_at(6.0))
+    assert client.now() == 6.0
+    one.go_to(tape.index_at(2.0))
+    assert client.now() == 2.0

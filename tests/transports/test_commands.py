@@ -42,6 +42,16 @@ def test_a_speed_is_a_number_in_range(argument: str) -> None:
         commands.factor(argument)
 
 
+@pytest.mark.parametrize("argument", ["back", "nan", "-1", "inf", ""])
+def test_a_moment_is_a_number_of_seconds(argument: str) -> None:
+    with pytest.raises(CommandError, match="a moment in seconds"):
+        commands.moment(argument)
+
+
+def test_moments() -> None:
+    assert (commands.moment("0"), commands.moment("2.5s")) == (0.0, 2.5)
+
+
 def test_speeds() -> None:
     assert (commands.factor("0"), commands.factor("2.5")) == (0.0, 2.5)
 
@@ -53,7 +63,7 @@ def test_every_command_is_listed_within_the_width(width: int) -> None:
     starts = [line.split()[0] for line in lines if line.startswith("/")]
     assert starts == [f"/{form.name}" for form in forms("terminal")]
     assert {form.name for form in forms("terminal")} - {form.name for form in forms("pipe")} == {
-        *("pause", "resume", "speed")
+        *("pause", "resume", "speed", "seek")
     }
 
 

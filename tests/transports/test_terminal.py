@@ -87,6 +87,11 @@ class FakeCabin:
     def speed(self, factor: float) -> None:
         self.did.append(factor)
 
+    def seek(self, time: float) -> None:
+        if time > 100.0:
+            raise CommandError("Only a recorded ride can.")
+        self.did.append(f"seek {time}")
+
     def check(self) -> None:
         if self.broken:
             raise Broken("the car has ended")
@@ -221,11 +226,12 @@ def test_commands() -> None:
     async def scene() -> None:
         async with terminal() as t:
             await t.type("/pause", ENTER, "/speed 2", ENTER, "/resume", ENTER)
+            await t.type("/seek 2.5", ENTER)
             await t.type("/vehicles", ENTER, "/plan", ENTER, "/help", ENTER)
             await t.sees("the car ahead")
             await t.sees("I plan to go on.")
             await t.sees("/speed X")
-            assert t.cabin.did == ["pause", 2.0, "resume"]
+            assert t.cabin.did == ["pause", 2.0, "resume", "seek 2.5"]
 
     asyncio.run(scene())
 
@@ -237,6 +243,9 @@ def test_commands() -> None:
         ("/speed", "/speed is written /speed X."),
         ("/speed fast", "not 'fast'"),
         ("/speed nan", "not 'nan'"),
+        ("/seek", "/seek is written /seek T."),
+        ("/seek back", "not 'back'"),
+        ("/seek 200", "Only a recorded ride can."),
     ],
 )
 def test_unknown_commands_are_errors(line: str, problem: str) -> None:

@@ -119,6 +119,10 @@ class RemoteCabin:
         """Change how fast the ride goes."""
         self._behind.order(control.Speed(factor))
 
+    def seek(self, time: float) -> None:
+        """Go to a moment [s] of a recorded ride."""
+        self._behind.order(control.Seek(time))
+
     def check(self) -> None:
         """Raise where the ride cannot be talked about any more."""
         self._behind.check()

@@ -1,13 +1,13 @@
 """`xavi chat`: car, service and conversation in one go, at a terminal or through a pipe."""
 
 from collections.abc import Iterable
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.client import Client, OnEvent
-from xavi_dialogue.app.convoy import Company, Convoy, convoy, first_scene
+from xavi_dialogue.app.convoy import Company, Convoy, convoy, convoy_of, first_scene
 from xavi_dialogue.app.identity import Passenger
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.minutes import Minutes
@@ -28,10 +28,13 @@ class Ride:
     keeping: Keeping | None = None  # of what is said; None: it is not kept
     resume: float | None = None  # [s] how far to drive before anything is asked
     record: Path | None = None  # file that the ride is recorded in
+    played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording of it
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
         """Of transcripts."""
+        if self.played:
+            return (("recording", self.name),)
         return (("scenario", self.name), ("seed", str(self.seed)))
 
 
@@ -52,9 +55,9 @@ def through_pipe(
         ChildFailed: a process did not start, or ended too often.
         ServiceLost: a question was not answered.
     """
-    note(f"driving {ride.name}, seed {ride.seed}")
+    note(f"playing {ride.name}" if ride.played else f"driving {ride.name}, seed {ride.seed}")
     company = Company(ride.record, warner(note), note)
-    with convoy(ride.scenario, ride.seed, speed, ride.keeping, company) as behind:
+    with _behind(ride, speed, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys())
         scene = first_scene(behind, client)
         with suppress(CommandError):  # there is no car any more, which has been told
@@ -63,6 +66,7 @@ def through_pipe(
         note(f"asking at {at:.1f} s")
         minutes = Minutes(client, ride.passenger.session, ride.header)
         piped = Piped(behind, client, minutes, write, note, as_json, scene, at)
+        piped.seeks = behind.seeks
         for raw in lines:
             if not piped.take(raw):
                 return
@@ -83,11 +87,18 @@ def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None
     unasked = Unasked(note)
     company = Company(ride.record, unasked.warn, unasked.tell)
     first = speed if ride.resume is None else 0.0
-    with convoy(ride.scenario, ride.seed, first, ride.keeping, company) as behind:
+    with _behind(ride, first, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys(), unasked.on_event)
         minutes = Minutes(client, ride.passenger.session, ride.header)
         typed = Typed(history, None if ride.keeping is None else ride.keeping.days)
         talk(behind, client, minutes, typed, unasked, lambda: _begin(ride, behind, client, speed))
+
+
+def _behind(ride: Ride, speed: float, company: Company) -> AbstractContextManager[Convoy]:
+    if ride.played:
+        played = [*ride.played, "--speed", repr(speed)]
+        return convoy_of(played, speed, ride.keeping, company, seeks=True)
+    return convoy(ride.scenario, ride.seed, speed, ride.keeping, company)
 
 
 def client_of(

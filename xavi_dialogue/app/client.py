@@ -209,6 +209,8 @@ class Client:
         except MessageError:
             return
         with self._changed:
+            if self.scene is not None and report.sim_time < self.scene.sim_time:
+                self._latest = None  # a recording went back, to before what was told last
             self.scene = report
             self._changed.notify_all()
 

@@ -5,7 +5,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import TypeAlias
@@ -27,6 +27,7 @@ START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels m
 SPARE = 5  # times that a service which has died is started anew
 BACK = 15.0  # [s] until it must answer then
 CLOSING = 1.5  # [s] that it may take to leave the bus
+LIVE = "Only a recorded ride can be taken to any moment: xavi replay FILE."
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
 Tell: TypeAlias = Callable[[str], None]
@@ -41,6 +42,7 @@ class Convoy:
     bus: ZenohBus
     recorder: Expendable | None = None
     over: threading.Event = field(default_factory=threading.Event)
+    seeks: bool = False  # the car is a recording, which can go to any moment
 
     def check(self) -> None:
         """Make sure that there are processes; start the service anew if it is not there.
@@ -65,6 +67,8 @@ class Convoy:
 
     def order(self, order: control.Order) -> None:
         """See Behind."""
+        if isinstance(order, control.Seek) and not self.seeks:
+            raise CommandError(LIVE)
         self.car.order(order)
 
     def set_off(self) -> None:
@@ -143,7 +147,12 @@ def convoy(
 
 @contextmanager
 def convoy_of(
-    car: Sequence[str], speed: float, keeping: Keeping | None, company: Company | None = None
+    car: Sequence[str],
+    speed: float,
+    keeping: Keeping | None,
+    company: Company | None = None,
+    *,
+    seeks: bool = False,
 ) -> Iterator[Convoy]:
     """The same with any command that reports and obeys like a car.
 
@@ -152,12 +161,14 @@ def convoy_of(
         speed: at which it begins.
         keeping: see `convoy`.
         company: see `convoy`.
+        seeks: it is a recording, which can go to any moment.
 
     Raises:
         ChildFailed: one does not come up.
     """
     with ExitStack() as stack:
-        yield _start(stack, car, speed, _kept(keeping), company or Company())
+        behind = _start(stack, car, speed, _kept(keeping), company or Company())
+        yield replace(behind, seeks=seeks)
 
 
 def first_scene(behind: Convoy, client: Client) -> SceneReport:
@@ -189,7 +200,7 @@ def _start(
         begin = partial(Child, "the dialogue service", serve, company.warn)
         service = stack.enter_context(Steady(begin))
         recorder = _recorder(stack, company, endpoint)
-        drive = partial(Child, "the car", [*car, "--connect", endpoint])
+        drive = partial(Child, "the car", [*car, "--connect", endpoint], company.warn)
         driven = stack.enter_context(SteadyCar(drive, speed, company.tell))
         try:
             bus = stack.enter_context(_join(service, endpoint))

@@ -22,6 +22,13 @@ from xavi_dialogue.app.settings import SettingsError
 from xavi_dialogue.transports.bus import BadLink, BusError
 from xavi_dialogue.transports.certificates import CertificateError
 from xavi_dialogue.transports.database import StoreError
+from xavi_dialogue.transports.recording import (
+    FileThere,
+    NotARecording,
+    NothingToPlay,
+    RecordingError,
+    TooMuch,
+)
 from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.roles import BadName
 from xavi_dialogue.transports.text import one_line
@@ -33,13 +40,14 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
             *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
             *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
+            *(FileThere, NotARecording, NothingToPlay, TooMuch),
         ),
         ExitStatus.USAGE,
     ),
     (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(FaultFound, StoreError, KeysError, IdentityError),
+            *(FaultFound, StoreError, KeysError, IdentityError, RecordingError),
         ),
         ExitStatus.FAILED,
     ),

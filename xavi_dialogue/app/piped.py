@@ -39,6 +39,7 @@ class Piped:
     scene: SceneReport  # where the ride has halted
     at: float | None  # [s] what questions are about; None: the moment at which they are asked
     live: bool = False  # the ride goes on by itself, whatever is asked
+    seeks: bool = False  # it is a recording, which can go to any moment
 
     def take(self, raw: str) -> bool:
         """Take a line; whether to go on.
@@ -68,7 +69,9 @@ class Piped:
 
     def _move(self, at: float) -> None:
         self.at = at
-        if not self.live and self.scene.sim_time < at and self.scene.state != "ended":
+        if self.seeks:
+            self.scene = self.behind.drive(self.client, control.Seek(at), halt=True)
+        elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
 
     def _ask(self, text: str) -> None:

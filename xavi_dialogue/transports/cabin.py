@@ -46,6 +46,13 @@ class Cabin(Protocol):
 
     def speed(self, factor: float) -> None: ...
 
+    def seek(self, time: float) -> None:
+        """Go to a moment [s].
+
+        Raises:
+            CommandError: the ride is not a recorded one.
+        """
+
     def check(self) -> None:
         """Raise where the ride cannot be talked about any more."""
 

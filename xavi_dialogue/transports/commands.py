@@ -1,6 +1,7 @@
 """Slash commands: what a passenger may write besides questions, read and listed."""
 
 import difflib
+import math
 import textwrap
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -85,6 +86,21 @@ def factor(argument: str) -> float:
         number = -1.0
     if not 0.0 <= number <= MAX_SPEED:
         raise CommandError(f"/speed takes one number from 0 to {MAX_SPEED:g}, not {argument!r}.")
+    return number
+
+
+def moment(argument: str) -> float:
+    """What /seek takes: a moment [s] of the ride.
+
+    Raises:
+        CommandError: it is no number from 0 on.
+    """
+    try:
+        number = float(argument.removesuffix("s"))
+    except ValueError:
+        number = -1.0
+    if not 0.0 <= number < math.inf:
+        raise CommandError(f"/seek takes a moment in seconds, such as 8.0, not {argument!r}.")
     return number
 
 

@@ -167,6 +167,8 @@ class TerminalChat:
                 cabin.resume()
             case "speed":
                 cabin.speed(commands.factor(command.argument))
+            case "seek":
+                cabin.seek(commands.moment(command.argument))
             case "why":
                 put(self._why)
             case "more":
