@@ -15,15 +15,13 @@ from typing import TypeAlias
 
 import msgspec
 
-from planner import trace as plan_trace
-from planner.trace import PlanTrace, TraceError
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.desk import Desk
+from xavi_dialogue.app.dispatch import Dispatch, planned, ride_of
 from xavi_dialogue.app.errands import Answer, Errand, PlanAgain
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.reception import Reception, Refusal
 from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import (
     DEFAULT_VEHICLE,
     EVERY_CAR,
@@ -31,25 +29,18 @@ from xavi_dialogue.transports.bus import (
     BusError,
     Call,
     Keys,
-    NobodyThere,
     Outcome,
     Presence,
-    Refused,
-    TooLate,
     vehicle_in,
 )
 from xavi_dialogue.transports.messages import (
     MESSAGES,
     AnyMessage,
-    AskReply,
     EventReport,
     Failure,
     MessageError,
-    PastTurn,
     SceneReport,
     TraceReport,
-    TurnReport,
-    WhatIfRequest,
     pack,
     schema_name,
     unpack,
@@ -85,7 +76,7 @@ class Service:
         self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
         self._seen: dict[str, Presence] = {}  # our signs of life, by car
-        self._replies = self._shared = 0
+        self._dispatch = Dispatch(bus, self.reception.owners, self._memory, self.alive)
 
     def desk(self, vehicle: str = DEFAULT_VEHICLE) -> Desk:
         """The desk of a car."""
@@ -173,7 +164,7 @@ class Service:
             call.refuse(pack(refusal.failure))
 
     def _history(self, call: Call) -> None:
-        self.reception.history(call, self._next())
+        self.reception.history(call, self._dispatch.next())
 
     def _hearer(self, kind: _Heard) -> Callable[[str, bytes], None]:
         def hear(key: str, payload: bytes) -> None:
@@ -197,7 +188,7 @@ class Service:
         desk.hear(report)
         self.alive.at(report.sim_time)
         if isinstance(report, EventReport):
-            ride = _ride(desk) or RideName(report.ride)
+            ride = ride_of(desk) or RideName(report.ride)
             self._memory.hear(ride, report.seq, time.time(), report.event)
 
     def _on_car(self, key: str, alive: bool) -> None:
@@ -221,112 +212,18 @@ class Service:
         for errand in errands:
             match errand:
                 case Answer():
-                    self._send(desk, errand)
+                    self._dispatch.answer(desk, errand)
                 case PlanAgain():
-                    self._plan_again(desk, errand)
-
-    def _send(self, desk: Desk, answer: Answer) -> None:
-        question, asked = answer.question, answer.question.asked
-        if answer.turn is not None:
-            owner = self.reception.owners.of(asked.session)
-            self._memory.keep(asked.session, _ride(desk), time.time(), answer.turn, owner)
-        taken = round((time.monotonic() - question.came) * 1000.0, 3)
-        fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
-        reply = AskReply(**fields, request=asked.request, seq=self._next(), wall_time=time.time())
-        _do(partial(question.call.reply, pack(reply)))
-        self._count(answer, taken)
-        if asked.share:
-            self._share(answer)
-
-    def _count(self, answer: Answer, taken: float) -> None:
-        reply, asked = answer.reply, answer.question.asked
-        self.alive.count("questions")
-        self.alive.count("answered" if reply.kind == "answer" else "declined")
-        self.alive.count("busy", reply.reason == "busy")
-        known = {
-            "vehicle": vehicle_in(answer.question.call.key),
-            "session": asked.session,
-            "request": asked.request,
-            "trace_id": reply.trace_id,
-            "kind": reply.kind,
-            "reason": reply.reason,
-            "duration_ms": taken,
-        }
-        _LOG.info("a question was answered", extra=known)
-
-    def _share(self, answer: Answer) -> None:
-        """Let others read a turn, as the passenger allows."""
-        asked, reply = answer.question.asked, answer.reply
-        vehicle = vehicle_in(answer.question.call.key)
-        assert vehicle is not None
-        report = TurnReport(
-            session=asked.session,
-            seq=self._shared,
-            sim_time=reply.sim_time,
-            wall_time=time.time(),
-            turn=PastTurn(asked.text, reply),
-        )
-        self._shared += 1
-        key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
-        _do(lambda: self._bus.send(key, pack(report)))
-
-    def _plan_again(self, desk: Desk, errand: PlanAgain) -> None:
-        need, question = errand.need, errand.question
-        remaining = max(question.deadline - time.monotonic(), 0.001)
-        fields = msgspec.structs.asdict(need)
-        wanted = WhatIfRequest(
-            **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
-            request=question.asked.request,
-            deadline_ms=remaining * 1000.0,
-        )
-        self.alive.count("what_ifs")
-        done = partial(self._post, self._on_planned, desk, errand)
-        vehicle = vehicle_in(question.call.key)
-        assert vehicle is not None
-        self._bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
+                    done = partial(self._post, self._on_planned, desk, errand)
+                    self._dispatch.plan_again(errand, done)
 
     def _on_planned(self, desk: Desk, errand: PlanAgain, outcome: Outcome) -> None:
-        self._run(desk, desk.deliver(errand, _planned(outcome)))
-
-    def _next(self) -> int:
-        self._replies += 1
-        return self._replies - 1
-
-
-def _ride(desk: Desk) -> RideName | None:
-    """The ride that is heard of."""
-    ledger = desk.ledger
-    if ledger is None:
-        return None
-    scene = ledger.scene
-    if scene is None:
-        return RideName(ledger.ride)
-    return RideName(ledger.ride, scene.scenario, scene.seed)
+        self._run(desk, desk.deliver(errand, planned(outcome)))
 
 
 def _do(job: _Job) -> None:
     with contextlib.suppress(BusError):  # who asked is gone
         job()
-
-
-def _planned(outcome: Outcome) -> PlanTrace | Reason:
-    """What the car sent back, or why there is nothing."""
-    match outcome:
-        case bytes():
-            try:
-                return plan_trace.decode(outcome)
-            except TraceError:
-                return "planner-failed"
-        case Refused(payload=payload):
-            try:
-                return unpack(payload, Failure).reason
-            except MessageError:
-                return "planner-failed"
-        case NobodyThere():
-            return "planner-unavailable"
-        case TooLate():
-            return "timed-out"
-    return "planner-unavailable"
 
 
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:

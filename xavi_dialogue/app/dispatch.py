@@ -1,0 +1,152 @@
+"""What leaves the service: replies, shared turns, and requests to cars; none is waited for."""
+
+import logging
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+
+import msgspec
+
+from planner import trace as plan_trace
+from planner.trace import PlanTrace, TraceError
+from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.desk import Desk
+from xavi_dialogue.app.errands import Answer, PlanAgain
+from xavi_dialogue.app.memory import Memory
+from xavi_dialogue.app.owners import Owners
+from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.transports.bus import (
+    Bus,
+    BusError,
+    Keys,
+    NobodyThere,
+    Outcome,
+    Refused,
+    TooLate,
+    vehicle_in,
+)
+from xavi_dialogue.transports.messages import (
+    AskReply,
+    Failure,
+    MessageError,
+    PastTurn,
+    TurnReport,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
+from xavi_dialogue.transports.store import RideName
+
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass
+class Dispatch:
+    """Sends what the desks want sent."""
+
+    bus: Bus
+    owners: Owners
+    memory: Memory
+    alive: Alive
+    replies: int = 0  # so far
+    shared: int = 0  # turns
+
+    def next(self) -> int:
+        """The sequence number of a reply."""
+        self.replies += 1
+        return self.replies - 1
+
+    def answer(self, desk: Desk, answer: Answer) -> None:
+        """Keep the turn, then send the reply, and share it where the passenger allows."""
+        question, asked = answer.question, answer.question.asked
+        if answer.turn is not None:
+            owner = self.owners.of(asked.session)
+            self.memory.keep(asked.session, ride_of(desk), time.time(), answer.turn, owner)
+        taken = round((time.monotonic() - question.came) * 1000.0, 3)
+        fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
+        reply = AskReply(**fields, request=asked.request, seq=self.next(), wall_time=time.time())
+        with suppress(BusError):  # who asked is gone
+            question.call.reply(pack(reply))
+        self._count(answer, taken)
+        if asked.share:
+            self._share(answer)
+
+    def _count(self, answer: Answer, taken: float) -> None:
+        reply, asked = answer.reply, answer.question.asked
+        self.alive.count("questions")
+        self.alive.count("answered" if reply.kind == "answer" else "declined")
+        self.alive.count("busy", reply.reason == "busy")
+        known = {
+            "vehicle": vehicle_in(answer.question.call.key),
+            "session": asked.session,
+            "request": asked.request,
+            "trace_id": reply.trace_id,
+            "kind": reply.kind,
+            "reason": reply.reason,
+            "duration_ms": taken,
+        }
+        _LOG.info("a question was answered", extra=known)
+
+    def _share(self, answer: Answer) -> None:
+        """Let others read a turn, as the passenger allows."""
+        asked, reply = answer.question.asked, answer.reply
+        vehicle = vehicle_in(answer.question.call.key)
+        assert vehicle is not None
+        report = TurnReport(
+            session=asked.session,
+            seq=self.shared,
+            sim_time=reply.sim_time,
+            wall_time=time.time(),
+            turn=PastTurn(asked.text, reply),
+        )
+        self.shared += 1
+        key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
+        with suppress(BusError):  # nobody reads it
+            self.bus.send(key, pack(report))
+
+    def plan_again(self, errand: PlanAgain, done: Callable[[Outcome], None]) -> None:
+        """Have the car plan again; `done` gets what comes of it, on a thread of the bus."""
+        need, question = errand.need, errand.question
+        remaining = max(question.deadline - time.monotonic(), 0.001)
+        fields = msgspec.structs.asdict(need)
+        wanted = WhatIfRequest(
+            **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
+            request=question.asked.request,
+            deadline_ms=remaining * 1000.0,
+        )
+        self.alive.count("what_ifs")
+        vehicle = vehicle_in(question.call.key)
+        assert vehicle is not None
+        self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
+
+
+def ride_of(desk: Desk) -> RideName | None:
+    """The ride that is heard of."""
+    ledger = desk.ledger
+    if ledger is None:
+        return None
+    scene = ledger.scene
+    if scene is None:
+        return RideName(ledger.ride)
+    return RideName(ledger.ride, scene.scenario, scene.seed)
+
+
+def planned(outcome: Outcome) -> PlanTrace | Reason:
+    """What the car sent back, or why there is nothing."""
+    match outcome:
+        case bytes():
+            try:
+                return plan_trace.decode(outcome)
+            except TraceError:
+                return "planner-failed"
+        case Refused(payload=payload):
+            try:
+                return unpack(payload, Failure).reason
+            except MessageError:
+                return "planner-failed"
+        case NobodyThere():
+            return "planner-unavailable"
+        case TooLate():
+            return "timed-out"
+    return "planner-unavailable"
