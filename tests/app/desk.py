@@ -37,6 +37,11 @@ def children(pid: int) -> list[int]:
     return sorted(child for child in found if _stat(child)[1:2] == [str(pid)])
 
 
+def command(pid: int) -> bytes:
+    """The command line of a process; each part ends with a zero."""
+    return Path(f"/proc/{pid}/cmdline").read_bytes()
+
+
 def _stat(pid: int) -> list[str]:
     """State, parent and so on; nothing where there is no such process."""
     try:

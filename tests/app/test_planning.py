@@ -16,7 +16,7 @@ from planner.trace import PlanTrace, WhatIf, decode, encode
 from planner.whatif import replan
 from sim.scenario import load
 from sim.scene import Scene
-from tests.app.desk import PATIENCE, Desk, children, remains, there, until
+from tests.app.desk import PATIENCE, Desk, children, command, remains, there, until
 from tests.fakes import s1_moments
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 from xavi_dialogue.app import worker
@@ -297,6 +297,7 @@ def test_a_car_plans_again_over_the_bus_and_its_worker_dies_with_it() -> None:
         wanted = WhatIfRequest(request="q", trace_id=seen.trace_id, removed=1, rollouts=5)
         answer = call(behind.bus, KEY, pack(wanted), PATIENCE)
         assert answer == encode(replan(seen, NETWORK, WhatIf(removed=1, rollouts=5)))
-        (planner,) = children(behind.car.pid)
-        os.kill(behind.car.pid, signal.SIGKILL)
+        (car,) = (pid for pid in children(os.getpid()) if b"\0drive\0" in command(pid))
+        (planner,) = children(car)
+        os.kill(car, signal.SIGKILL)
         assert until(lambda: not there(planner))

@@ -166,8 +166,7 @@ def test_several_workers_work_at_once_and_are_as_many_as_there_should_be(tmp_pat
         for number in range(6):
             assert desk.answer(f"echo {number}") == f'"{number}"'.encode()
         door.touch()
-        assert until(lambda: two.idle == 2)
-        assert len(two.pids) == 2
+        assert until(lambda: two.idle == len(two.pids) == 2)
 
 
 def test_a_job_whose_worker_is_killed_is_tried_once_more(desk: Desk, tmp_path: Path) -> None:
