@@ -1,13 +1,14 @@
 """One service, many cars and passengers: turns, bounds, owners, gaps, shared turns and plans."""
 
 import itertools
+import time
 from collections.abc import Callable
 
 import pytest
 
 from planner import trace as plan_trace
 from tests.app.test_service import Bench
-from tests.fakes import again, s1_moments
+from tests.fakes import again, s1_moments, scripted_mind
 from xavi_dialogue.app import desk as desks
 from xavi_dialogue.app import reception
 from xavi_dialogue.app.fair import FairQueue
@@ -15,6 +16,8 @@ from xavi_dialogue.app.ledger import PATIENCE, InOrder, Ledger
 from xavi_dialogue.app.memory import Keeping, Memory
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.dialogue.events import TraceRecorded
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.transports.bus import Bus, Call, Keys, Refused, call, matches, vehicle_in
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import (
@@ -443,3 +446,38 @@ def test_a_scene_may_go_back_in_time_and_be_asked_about(bench: Bench) -> None:
     bench.service.work()
     assert bench.ask("answer").sim_time == 2.0
     assert bench.ask("answer", request="q2", at=6.0).sim_time == 6.0
+
+
+def test_a_ride_is_known_by_its_first_decision_however_late_it_is_joined() -> None:
+    """What was said about a ride stays true where the service joins it after a while."""
+    rides = []
+    for late in (False, True):
+        ledger, named = Ledger(reports()[0].ride), Dialogue()
+        for report in reports():
+            if isinstance(report, TraceReport):
+                if late and report.seq < 3:
+                    ledger.traces.begin(3)
+                for one in ledger.trace(report):
+                    named, _ = advance(scripted_mind(), named, one)
+        rides.append((named.ride_id, len(named.traces)))
+    assert rides[0][0] == rides[1][0] is not None
+    assert rides[0][1] == rides[1][1] + 3
+
+
+def test_the_time_of_a_question_runs_wherever_it_waits(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drive(bench, "car", 3.0)
+    came = ask(bench, "answer", deadline_ms=1000.0)
+    now = time.monotonic()
+    monkeypatch.setattr(time, "monotonic", lambda: now + 1.0)
+    bench.service.work()
+    assert replied(came).reason == "busy"
+
+
+def test_a_service_that_is_told_to_stop_leaves_the_rest(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    came = [ask(bench, "answer", session=f"s{k}") for k in range(5)]
+    told = iter([False, False, True])
+    bench.service.work(0.0, lambda: next(told))
+    assert [len(one) for one in came] == [1, 1, 0, 0, 0]

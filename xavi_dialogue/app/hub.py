@@ -3,6 +3,7 @@
 import queue
 import sys
 from collections.abc import Callable
+from functools import partial
 
 from xavi_dialogue.app import control
 from xavi_dialogue.app.local import make_mind
@@ -39,8 +40,17 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
         note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service = Service(bus, mind, memory)
         service.open()
-        service.run(lambda: not orders.empty() and isinstance(orders.get(), control.Quit))
+        service.run(partial(_told_to_quit, orders))
     memory.close()
+
+
+def _told_to_quit(orders: control.Orders) -> bool:
+    """Whether it was; and then it remains so."""
+    while not orders.empty():
+        if isinstance(orders.get(), control.Quit):
+            orders.put(control.Quit())
+            return True
+    return False
 
 
 def _warm(mind: Mind) -> None:

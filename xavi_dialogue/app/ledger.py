@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from planner.events import Event
-from planner.trace import PlanTrace
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.state import EPSILON
@@ -63,7 +62,7 @@ class Ledger:
     """The reports of one ride."""
 
     ride: str
-    traces: InOrder[PlanTrace] = field(default_factory=InOrder)
+    traces: InOrder[TraceRecorded] = field(default_factory=InOrder)
     events: InOrder[Event] = field(default_factory=InOrder)
     scene: SceneReport | None = None  # the latest
     reached: float = 0.0  # [s] the latest moment of which a scene told
@@ -72,8 +71,9 @@ class Ledger:
 
     def trace(self, report: TraceReport) -> list[Input]:
         """What there is to tell the manager after a trace report."""
-        ready = [] if self.over else self.traces.add(report.seq, report.trace)
-        return [*map(TraceRecorded, ready), *self._end()]
+        recorded = TraceRecorded(report.trace, report.first)
+        ready = [] if self.over else self.traces.add(report.seq, recorded)
+        return [*ready, *self._end()]
 
     def event(self, report: EventReport) -> list[Input]:
         """What there is to tell the manager after an event report."""
@@ -94,7 +94,7 @@ class Ledger:
         # Who joins late is sent no more than what is kept for that.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
-        return [*map(TraceRecorded, traces), *map(EventRecorded, events), *self._end()]
+        return [*traces, *map(EventRecorded, events), *self._end()]
 
     def complete(self, at: float) -> bool:
         """Whether all that was recorded up to a moment [s] has arrived."""
@@ -124,7 +124,7 @@ class Ledger:
         self.missing = None
         traces = self.traces.give_up(scene.traces)
         events = self.events.give_up(scene.events)
-        return [*map(TraceRecorded, traces), *map(EventRecorded, events), *self._end()]
+        return [*traces, *map(EventRecorded, events), *self._end()]
 
     @property
     def lost(self) -> int:

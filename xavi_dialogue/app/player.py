@@ -157,6 +157,7 @@ class Player:
             sim_time=trace.sim_time,
             wall_time=time.time(),
             trace=trace,
+            first=self.tape.trace(0).trace_id,
         )
         self.alive.count("decisions")
         self.record(Moment(Scene(scene.sim_time, scene.vehicles), scene.plan, trace))

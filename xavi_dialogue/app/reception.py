@@ -85,11 +85,15 @@ class Reception:
         """Learn how long [s] a question took."""
         self.pace += LEARNT * (taken - self.pace)
 
-    def ask(self, call: Call) -> None:
+    def ask(self, call: Call, came: float) -> None:
         """Lay a question on the desk, if its turn can be hoped to come in time.
 
         Else it is told so at once: when more is asked than can be answered, a queue that grows
         makes everybody late.
+
+        Args:
+            call: the question.
+            came: when it came in [s], on the monotonic clock.
 
         Raises:
             Refusal: it is not taken up.
@@ -101,7 +105,6 @@ class Reception:
         full = self.waiting() >= MAX_WAITING or wait > HOPE * asked.deadline_ms / 1000.0
         if full or desk.open(asked.session) >= MAX_OPEN:
             raise Refusal("busy", "too many questions are waiting; ask again in a moment")
-        came = time.monotonic()
         self._know(desk, asked.session)
         self.owners.claim(asked.session, asked.token)
         desk.take(Question(call, asked, came))

@@ -81,6 +81,7 @@ class Reporter:
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
         self._event = bus.publisher(keys.of("event"), keep=KEPT_EVENTS)
         self._scenes = self._traces = self._events = 0
+        self._first: str | None = None  # id of the ride's first trace
         self._published = 0.0  # [s] on the monotonic clock
 
     def record(self, moment: Moment) -> None:
@@ -134,12 +135,14 @@ class Reporter:
         self._published = time.monotonic()
 
     def _publish_trace(self, trace: PlanTrace) -> None:
+        self._first = self._first or trace.trace_id
         report = TraceReport(
             ride=self._ride,
             seq=self._traces,
             sim_time=trace.sim_time,
             wall_time=time.time(),
             trace=trace,
+            first=self._first,
         )
         self._trace.put(pack(report))
         self._traces += 1

@@ -89,9 +89,10 @@ class Service:
         bus.subscribe(key("trace"), self._hearer(TraceReport), kept=True)
         bus.subscribe(key("event"), self._hearer(EventReport), kept=True)
         bus.subscribe(key("scene"), self._hearer(SceneReport))
-        requests = {"ask": desk.ask, "cancel": desk.cancel, "forget": desk.forget}
-        for name, handle in {**requests, "history": self._history}.items():
+        requests = {"cancel": desk.cancel, "forget": desk.forget, "history": self._history}
+        for name, handle in requests.items():
             bus.serve(key(f"@rpc/{name}"), partial(self._take, handle))
+        bus.serve(key("@rpc/ask"), self._take_question)
         for name, message in MESSAGES.items():
             if message not in CAR_MESSAGES:
                 bus.serve(key(f"@schema/{name}"), partial(_tell_schema, message))
@@ -105,18 +106,19 @@ class Service:
         """Serve until told to stop."""
         _LOG.info("serving")
         while not stopped():
-            self.work(IDLE)
+            self.work(IDLE, stopped)
         _LOG.info("no longer serving")
 
-    def work(self, patience: float = 0.0) -> None:
+    def work(self, patience: float = 0.0, stopped: Callable[[], bool] = lambda: False) -> None:
         """Handle what came in, waiting up to `patience` [s] for it, and keep deadlines.
 
         Questions are answered one at a time; what comes in meanwhile is taken down in between.
+        Told to stop, it leaves the others for what they are.
         """
         with contextlib.suppress(queue.Empty):
             wait = self._patience(patience)
             _do(self._inbox.get(wait > 0.0, wait))
-        while True:
+        while not stopped():
             self._empty_inbox()
             for desk in [*self.reception.desks.values()]:
                 self._settle(desk)
@@ -155,6 +157,10 @@ class Service:
             _do(lambda: call.refuse(pack(Failure(reason="busy", detail="too much comes in"))))
         else:
             self._post(self._handle, handle, call)
+
+    def _take_question(self, call: Call) -> None:
+        """Have a question taken up; its time runs from now on, wherever it waits."""
+        self._take(partial(self.reception.ask, came=time.monotonic()), call)
 
     def _handle(self, handle: Callable[[Call], None], call: Call) -> None:
         try:
@@ -205,6 +211,8 @@ class Service:
 
     def _show(self, vehicle: str) -> None:
         """Show those who look for this car's service that it is there."""
+        for gone in self._seen.keys() - self.reception.desks.keys() - {DEFAULT_VEHICLE}:
+            self._seen.pop(gone).withdraw()
         if vehicle not in self._seen:
             self._seen[vehicle] = self._bus.appear(Keys(vehicle).of("alive/service"))
 

@@ -16,6 +16,7 @@ class TraceRecorded:
     """The planner took a decision."""
 
     trace: PlanTrace
+    first: str | None = None  # id of the ride's first, which names it; None: this one, if any
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,8 +93,8 @@ def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded
     move = RideMove.ENDED if isinstance(event, RideEnded) else RideMove.RECORDED
     phase = after(RIDE_PHASES, dialogue.ride, move)
     match event:
-        case TraceRecorded(trace):
-            name = dialogue.ride_id or trace.trace_id
+        case TraceRecorded(trace, first):
+            name = dialogue.ride_id or first or trace.trace_id
             traces = (*dialogue.traces, trace)[-MAX_TRACES:]
             return replace(dialogue, ride=phase, ride_id=name, traces=traces)
         case EventRecorded(happened):

@@ -95,6 +95,7 @@ class TraceReport(Report, frozen=True, kw_only=True):
 
     schema: Literal["xavi.trace/1"] = "xavi.trace/1"
     trace: PlanTrace
+    first: Name | None = None  # id of the ride's first: the same ride driven again has the same
 
 
 class EventReport(Report, frozen=True, kw_only=True):
