@@ -185,6 +185,7 @@ def test_a_conversation_at_a_terminal(tmp_path: Path) -> None:
         assert screen.shows("Ask about the ride")
         started = children(chat.pid)
         assert len(started) == 2
+        assert screen.shows(" km/h")
         screen.type("What are you doing?\r")
         assert screen.shows("I am ")
         assert screen.shows("I turn right.")

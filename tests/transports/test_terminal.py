@@ -13,10 +13,10 @@ from prompt_toolkit.application import create_app_session
 from prompt_toolkit.data_structures import Size
 from prompt_toolkit.history import History
 from prompt_toolkit.input import PipeInput, create_pipe_input
-from prompt_toolkit.output.vt100 import Vt100_Output
 
 from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.messages import MAX_TEXT
+from xavi_dialogue.transports.screen import SilentScreen
 from xavi_dialogue.transports.terminal import KEPT, TerminalChat
 from xavi_dialogue.transports.text import clean
 from xavi_dialogue.transports.typed import TypedLines, UnkeptLines
@@ -101,16 +101,12 @@ class FakeCabin:
         return f"r{self.names}"
 
 
-class Screen(Vt100_Output):
-    """Writes to paper; asked where the cursor is, it answers through the keyboard."""
+class Screen(SilentScreen):
+    """Writes to paper; asked where the cursor is, it would answer through the keyboard."""
 
     def __init__(self, paper: io.StringIO, keyboard: PipeInput, columns: int = 80) -> None:
         super().__init__(paper, lambda: Size(24, self.columns))
         self.keyboard, self.columns = keyboard, columns
-
-    @property
-    def responds_to_cpr(self) -> bool:
-        return True
 
     def ask_for_cpr(self) -> None:
         self.keyboard.send_text("\x1b[1;1R")

@@ -50,14 +50,27 @@ def has_colours(
     return count(terminal) > 0
 
 
-def silent_screen(stdout: TextIO, terminal: str | None) -> Vt100_Output:
+class SilentScreen(Vt100_Output):
     """A terminal that is never asked where its cursor is.
 
     The answer comes in among the keys, and while lines are printed above the prompt either may
-    get lost. Nothing here needs to know.
+    get lost.
     """
-    screen = Vt100_Output.from_pty(stdout, term=terminal)
-    screen.enable_cpr = False
+
+    @property
+    def responds_to_cpr(self) -> bool:
+        """See Output."""
+        return False
+
+    def get_rows_below_cursor_position(self) -> int:
+        """The fewest that there can be; without a number no status line would be shown."""
+        return 1
+
+
+def silent_screen(stdout: TextIO, terminal: str | None) -> SilentScreen:
+    """The terminal that a stream writes to."""
+    screen = SilentScreen.from_pty(stdout, term=terminal)
+    assert isinstance(screen, SilentScreen)
     return screen
 
 
