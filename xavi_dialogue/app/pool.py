@@ -29,7 +29,7 @@ from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.messages import Failure
 
 WAITING = 8  # jobs that may wait for a worker
-LEAST = 0.01  # [s] less than any job takes
+LEAST = 0.02  # [s] less than any job takes
 GRACE = 1.0  # [s] after which a worker that is late is killed; a new one takes as long to start
 NICENESS = 10  # by which workers stand back behind the driving
 
