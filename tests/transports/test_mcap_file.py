@@ -1,6 +1,7 @@
 """Recordings as files: what was written is read, also of files cut off or made to harm."""
 
 import json
+import re
 import resource
 import struct
 import subprocess
@@ -469,3 +470,16 @@ def test_the_latest_of_several_scenes_at_one_moment_counts() -> None:
     then = msgspec.structs.replace(first, seq=7, state="paused", traces=9)
     tape, _ = tape_of([entry("car/scene", first), entry("car/scene", then)])
     assert tape.scene(0) == then
+
+
+def test_the_example_in_the_docs_reads_a_recording(
+    path: Path, root: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (root / "docs" / "recording.md").read_text(encoding="utf-8")
+    [example] = re.findall(r"^```python\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
+    write(path, entries())
+    monkeypatch.chdir(path.parent)
+    exec(compile(example, "recording.md", "exec"), {})
+    told = [f"{trace.sim_time} {len(trace.rollouts)}" for trace in s1_ride().traces[:2]]
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.rpartition(" ")[0] for line in lines] == told
