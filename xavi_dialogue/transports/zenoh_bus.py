@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import Self
 
 import zenoh
-from zenoh import CongestionControl, SampleKind, ext
+from zenoh import CongestionControl, Priority, SampleKind, ext
 from zenoh.handlers import Callback
 
 from xavi_dialogue.transports.bus import (
@@ -45,6 +45,8 @@ SAFE: dict[str, object] = {  # without a configuration file
     "transport/shared_memory/enabled": False,
     "transport/link/rx/max_message_size": MAX_MESSAGE,
     "timestamping/enabled": True,
+    # Who reads no more holds up all others who read the same, until its link is closed.
+    "transport/link/tx/queue/congestion_control/block/wait_before_close": 1_000_000,  # [us]
 }
 GRACE = 0.5  # [s] that Zenoh may take beyond a deadline to clean up; ours has passed by then
 _TIMERS = Timers()  # of all requests of this process
@@ -63,7 +65,10 @@ class ZenohBus:
         publisher: zenoh.Publisher | ext.AdvancedPublisher
         if not keep:
             publisher = self._session.declare_publisher(
-                key, encoding=JSON, congestion_control=CongestionControl.DROP
+                key,
+                encoding=JSON,
+                congestion_control=CongestionControl.DROP,
+                priority=Priority.DATA_LOW,
             )
         else:
             publisher = ext.declare_advanced_publisher(
@@ -143,6 +148,7 @@ class ZenohBus:
                 payload=payload,
                 encoding=JSON,
                 timeout=timeout + GRACE,
+                priority=Priority.INTERACTIVE_HIGH,  # the reply has it, too: records are larger
             )
         except zenoh.ZError as error:
             end(NobodyThere(f"cannot reach {key}: {error}"))
