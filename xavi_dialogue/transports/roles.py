@@ -24,7 +24,7 @@ Deed: TypeAlias = Literal[
 ]
 Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
 
-CAR_MESSAGES = ("scene", "trace", "event_report", "plan_trace")  # whose schemas the car tells
+CAR_MESSAGES = ("scene", "trace", "event", "event_report", "plan_trace")  # whose schemas the car tells
 DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel")
 TURNS = "dialogue/*/turn"
 ROADS = "@blob/network"
@@ -141,21 +141,27 @@ ROLES: Mapping[str, Role] = {
 # that go out to it, and the end of the key. A history of what is kept is asked for under the
 # publisher's own key, and answered under the key of what is kept.
 _HISTORY = "/@adv/pub/**"
-_LOOK_BACK = ("query", "declare_subscriber", "declare_liveliness_subscriber", "liveliness_query")
-_KEPT = ("put", "reply", "declare_queryable", "liveliness_token")
 PARTS: Mapping[Deed, tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...]] = {
     "publish": (("", ("put",), ("declare_subscriber",)),),
     "publish-kept": (
         ("", ("put", "reply"), ("declare_subscriber",)),
-        (_HISTORY, _KEPT, _LOOK_BACK),
+        (
+            _HISTORY,
+            ("put", "declare_queryable", "liveliness_token"),
+            ("query", "declare_subscriber"),
+        ),
     ),
     "subscribe": (("", ("declare_subscriber",), ("put",)),),
     "subscribe-kept": (
         ("", ("declare_subscriber",), ("put", "reply")),
-        (_HISTORY, _LOOK_BACK, _KEPT),
+        (
+            _HISTORY,
+            ("query", "declare_subscriber", "declare_liveliness_subscriber"),
+            ("put", "liveliness_token"),
+        ),
     ),
     "serve": (("", ("declare_queryable", "reply"), ("query",)),),
-    "ask": (("", ("query",), ("reply", "declare_queryable")),),
+    "ask": (("", ("query",), ("reply",)),),
     "appear": (("", ("liveliness_token",), ()),),
     "watch": (("", ("declare_liveliness_subscriber", "liveliness_query"), ("liveliness_token",)),),
 }
