@@ -437,10 +437,14 @@ def test_a_clients_certificate_is_none_of_a_hub(world: World, tmp_path: Path) ->
 
 def test_plain_zenoh_reads_the_configurations(world: World) -> None:
     world.hub.serve(KEY("@rpc/ask"), lambda asked: asked.reply(b"because"))
+    world.members["car"].appear(KEY("alive/car"))
+    world.settle()
     config = zenoh.Config.from_file(str(world.folder / "passenger.json5"))
     with zenoh.open(config) as session:
         replies = list(session.get(KEY("@rpc/ask"), payload=b"why?", timeout=PATIENCE))
+        roster = list(session.liveliness().get(EACH("alive/*"), timeout=PATIENCE))
     assert [reply.ok.payload.to_bytes() for reply in replies if reply.ok] == [b"because"]
+    assert [str(one.ok.key_expr) for one in roster if one.ok] == [KEY("alive/car")]
 
 
 def test_the_folder_is_private_and_holds_what_is_named(tmp_path: Path) -> None:
