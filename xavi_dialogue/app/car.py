@@ -26,7 +26,7 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.schema import schema_of
 
 SHOWN_EVERY = 0.1  # [s] of wall time: the scene, at 10 Hz
-TOLD = {"scene": SceneReport, "trace": TraceReport, "event": EventReport}
+TOLD = {"scene": SceneReport, "trace": TraceReport, "event_report": EventReport}
 COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see Alive
 
 

@@ -24,7 +24,7 @@ Deed: TypeAlias = Literal[
 ]
 Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
 
-CAR_MESSAGES = ("scene", "trace", "event", "event_report", "plan_trace")  # whose schemas the car tells
+CAR_MESSAGES = ("scene", "trace", "event_report", "plan_trace")  # whose schemas the car tells
 DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel")
 TURNS = "dialogue/*/turn"
 ROADS = "@blob/network"
