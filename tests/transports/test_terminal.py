@@ -62,7 +62,7 @@ class FakeCabin:
         return f"Why, after {len(self.asked)}?"
 
     async def history(self) -> str:
-        return "\n".join(f"> {text}" for text in self.asked)
+        return "\n".join(f"said {text}" for text in self.asked)
 
     async def save(self, file: str) -> str:
         if file == "taken":
@@ -309,7 +309,7 @@ def test_what_was_said_is_listed() -> None:
     async def scene() -> None:
         async with terminal() as t:
             await t.type("who?", ENTER, "/history", ENTER)
-            await t.sees("> who?")
+            await t.sees("said who?")
             assert t.cabin.asked == ["who?"]
 
     asyncio.run(scene())
