@@ -245,7 +245,7 @@ def test_a_bus_that_is_well(hub: ZenohBus, patient: Patient) -> None:
     assert {one.verdict for one in found[-4:]} == {"ok"}
     done = CliRunner().invoke(app, ["doctor", "--connect", hub.places[0]])
     assert done.exit_code == 0, done.stdout
-    assert f"ok      shuttle/service version {__version__}," in done.stdout
+    assert f"ok      shuttle/service      version {__version__}," in done.stdout
 
 
 def test_a_bus_on_which_something_is_amiss(hub: ZenohBus, monkeypatch: pytest.MonkeyPatch) -> None:

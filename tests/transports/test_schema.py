@@ -8,6 +8,8 @@ import msgspec
 import pytest
 
 from planner import trace
+from xavi_dialogue.transports.messages import KIB, MESSAGES, schema_name, unpack
+from xavi_dialogue.transports.roles import ROLES
 from xavi_dialogue.transports.schema import documents, schema_of, write
 
 
@@ -77,3 +79,40 @@ def test_the_commented_example_in_the_docs_is_a_plan_trace(root: Path) -> None:
         assert {sample.vehicle for sample in rollout.samples} <= set(decoded.scene)
     for prediction in decoded.predictions:
         assert sum(goal.probability for goal in prediction.goals) == pytest.approx(1.0, abs=1e-5)
+
+
+def examples(page: str) -> list[str]:
+    """The commented examples of a page, without their comments."""
+    found = re.findall(r"^```jsonc\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
+    return [re.sub(r"//.*", "", example) for example in found]
+
+
+def test_every_message_has_an_example_in_the_docs_that_can_be_read(root: Path) -> None:
+    page = (root / "docs" / "bus.md").read_text(encoding="utf-8")
+    [trace_example] = examples((root / "docs" / "trace.md").read_text(encoding="utf-8"))
+    shown = []
+    for example in map(json.loads, examples(page)):
+        name = example["schema"].removeprefix("xavi.").partition("/")[0]
+        if name == "trace":
+            example["trace"] = json.loads(trace_example)
+        read = unpack(json.dumps(example).encode(), MESSAGES[name])
+        assert set(example) <= set(read.__struct_fields__), name
+        shown.append(name)
+    assert shown == list(MESSAGES)
+
+
+def test_the_limits_in_the_docs_are_those_of_the_messages(root: Path) -> None:
+    page = (root / "docs" / "bus.md").read_text(encoding="utf-8")
+    told = re.findall(r"^\| `(xavi\.\w+/\d+)` \| (\d+) KiB \|", page, flags=re.MULTILINE)
+    limits = {schema_name(kind): kind.LIMIT for kind in MESSAGES.values()}
+    assert {name: int(size) * KIB for name, size in told} == limits
+
+
+def test_every_key_in_the_table_of_roles_is_in_the_docs(root: Path) -> None:
+    page = (root / "docs" / "bus.md").read_text(encoding="utf-8")
+    keys = set(re.findall(r"^\| `([^`]+)` \|", page, flags=re.MULTILINE))
+    granted = {tail for role in ROLES.values() for grant in role.grants for tail in grant.tails}
+    shown = {re.sub(r"^(@schema|alive)/.*", r"\1", key) for key in keys}
+    for tail in granted:
+        wanted = re.sub(r"^(@schema|alive)/.*", r"\1", tail).replace("/*/", "/<session>/")
+        assert wanted in shown, tail

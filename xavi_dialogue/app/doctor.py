@@ -30,7 +30,7 @@ SOON = timedelta(days=30)
 MAX_SEEN = 100  # who are asked how they fare
 TROUBLE = ("rejected", "busy", "foreign", "dropped", "reports_dropped")  # counters best at 0
 WIDTH = 80  # columns
-NAMES = 22  # columns
+NAMES = 28  # columns
 
 SIGNS = {"ok": "ok", "warning": "warning", "fault": "FAULT"}
 
@@ -76,19 +76,21 @@ def keys(folder: Path, now: datetime) -> Finding:
             shown.append((path.name, read(path.read_bytes())))
         bare = [path.name for path in sorted(folder.glob("*.key")) if path.stat().st_mode & 0o077]
     except (BadCertificate, OSError) as error:
-        return Finding("keys", "fault", f"{folder}: {error}", "make keys anew: xavi keys --force")
+        return Finding(
+            "keys", "fault", f"{folder}: {error}", f"make keys anew: xavi keys {folder} --force"
+        )
     if not shown:
         return Finding("keys", "ok", f"no certificates in {folder}")
     name, first = min(shown, key=lambda one: one[1].ends)
     over = f"{name} is valid until {first.ends:%Y-%m-%d %H:%M} UTC"
     if first.ends <= now or any(one.begins > now for _, one in shown):
         found = over if first.ends <= now else "some are not valid yet"
-        return Finding("keys", "fault", found, "see to the clock, or: xavi keys --force")
+        return Finding("keys", "fault", found, f"see to the clock, or: xavi keys {folder} --force")
     if bare:
         found = f"others on this machine can read {', '.join(bare)}"
-        return Finding("keys", "fault", found, "run: chmod 600 *.key")
+        return Finding("keys", "fault", found, f"run: chmod 600 {folder}/*.key")
     if first.ends <= now + SOON:
-        return Finding("keys", "warning", over, "make keys anew: xavi keys --force")
+        return Finding("keys", "warning", over, f"make keys anew: xavi keys {folder} --force")
     return Finding("keys", "ok", f"{len(shown)} certificates; {over}")
 
 
@@ -124,7 +126,7 @@ def roster(present: Iterable[str]) -> Finding:
     found = "; ".join(f"{car}: {', '.join(parts)}" for car, parts in sorted(by_car.items()))
     cars = sorted(car for car, parts in by_car.items() if "car" in parts)
     if not cars:
-        advice = "start one with: xavi drive --connect; or this certificate may not look"
+        advice = "start one with: xavi drive --connect ENDPOINT; or this certificate may not look"
         return Finding("roster", "warning", f"no car is there; {found or 'nor anybody'}", advice)
     alone = [car for car in cars if "service" not in by_car[car]]
     if alone:
