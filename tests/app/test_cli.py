@@ -65,6 +65,13 @@ def test_the_version_is_told() -> None:
         ["drive", "--scenario", "nowhere"],
         ["chat", "--scenario", "nowhere"],
         ["chat", "--session", "a b"],
+        ["chat", "--vehicle", "a/b", "--connect", "tcp/127.0.0.1:1"],
+        ["chat", "--scenario", "s1", "--connect", "tcp/127.0.0.1:1"],
+        ["chat", "--record", "README.md"],
+        ["chat", "--record", "x.mcap", "--connect", "tcp/127.0.0.1:1"],
+        ["ask", "Why?", "--seed", "1", "--connect", "tcp/127.0.0.1:1"],
+        ["ask", "Why?", "--zenoh", "nowhere.json5"],
+        ["ask", "Why?", "--connect", "nonsense"],
         ["transcripts", "--folder", "nowhere"],
     ],
 )

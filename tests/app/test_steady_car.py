@@ -9,7 +9,7 @@ import pytest
 
 from tests.fakes import EGO
 from xavi_dialogue.app import control, steady_car
-from xavi_dialogue.app.children import ChildFailed
+from xavi_dialogue.app.children import ChildFailed, Expendable
 from xavi_dialogue.app.client import Client
 from xavi_dialogue.app.steady_car import AGAIN, NO_MORE, STANDING, SteadyCar
 from xavi_dialogue.transports.bus import Keys
@@ -225,3 +225,14 @@ def test_the_end_of_the_chat_waits_for_no_car(garage: Garage, client: Client) ->
         garage.again(1)
     assert all(one.stopped for one in garage.started)
     assert not any(one.name == "keeper" for one in threading.enumerate())
+
+
+def test_the_end_of_one_that_can_be_spared_is_told_once(garage: Garage) -> None:
+    recorder = garage.start()
+    spared = Expendable(recorder, garage.told.append)  # type: ignore[arg-type]
+    spared.check()
+    assert garage.told == []
+    recorder.kill()
+    spared.check()
+    spared.check()
+    assert garage.told == ["the car has ended (signal 9); the ride goes on without it"]

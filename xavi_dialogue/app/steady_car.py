@@ -220,4 +220,6 @@ class SteadyCar:
         self._over.set()
         if self._keeper is not None:
             self._keeper.join()
+        if self._keeper is None or not self._ready:
+            self._child.kill()  # it is coming up, and hears nothing yet
         self._child.stop()

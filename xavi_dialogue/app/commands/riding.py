@@ -69,6 +69,8 @@ def _chat(shell: Shell) -> Callable[..., None]:
             keeping = keeping_in(store, keep_days)
             there = _there(connect, zenoh, vehicle)
             if there is None:
+                if record is not None and record.exists():
+                    raise typer.BadParameter(f"{record} is there already; name another file")
                 _drive(shell, scenario, seed, speed, session, as_json, keeping, share, record)
                 return
             _alone(scenario=scenario, seed=seed, speed=speed, record=record)
