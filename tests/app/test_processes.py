@@ -155,6 +155,21 @@ def test_the_ride_of_a_car_that_is_killed_is_driven_on_and_told_the_same(chat: C
     assert "Traceback" not in err
 
 
+def test_others_ask_a_car_that_is_under_way_over_its_hub(chat: Chat, tmp_path: Path) -> None:
+    words = command(child(chat, b"serve")).decode().split("\0")
+    there = ["--connect", words[words.index("--listen") + 1], "--json"]
+    answer = xavi("ask", "What are you doing?", "--at", "2", "--session", "bea", *there)
+    told = json.loads(answer.stdout)
+    assert (answer.returncode, told["kind"], told["sim_time"]) == (0, "answer", 2.0)
+    other = {**os.environ, "XDG_STATE_HOME": str(tmp_path)}
+    foreign = xavi("ask", "Why?", "--session", "bea", *there, env=other)
+    assert foreign.returncode == 3
+    assert "belongs to somebody else" in json.loads(foreign.stdout)["text"]
+    nobody = xavi("ask", "Why?", "--vehicle", "bus-7", *there)
+    assert (nobody.returncode, json.loads(nobody.stdout)["reason"]) == (5, "planner-unavailable")
+    assert "there is car" in json.loads(nobody.stdout)["text"]
+
+
 def test_a_child_that_cannot_start_is_named(root: Path, tmp_path: Path) -> None:
     folder = tmp_path / "mine"
     shutil.copytree(root / "sim" / "scenarios" / "s1", folder)
@@ -227,6 +242,11 @@ class Screen:
         assert found, f"{text!r} is not shown in:\n{self.seen}"
         self.seen = self.seen.partition(text)[2]
         return True
+
+
+def xavi(*arguments: str, env: dict[str, str] | None = None) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "xavi_dialogue", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=env)
 
 
 def child(chat: Chat, word: bytes) -> int:
