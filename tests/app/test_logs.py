@@ -17,6 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from xavi_dialogue.app.children import last_words
 from xavi_dialogue.app.commands.logged import logged
 from xavi_dialogue.app.logs import (
     MAX_LINE,
@@ -96,7 +97,7 @@ VALUES = st.one_of(
 @given(st.dictionaries(st.from_regex(r"x[a-z_]{1,12}", fullmatch=True), VALUES, max_size=40))
 def test_any_values_make_one_line_of_printable_characters(values: dict[str, Any]) -> None:
     for form in ("text", "json"):
-        line = told(form, record(**values))  # type: ignore[arg-type]
+        line = told(form, record(**values))
         assert len(line) < MAX_LINE
         assert line.isascii()
         assert line.isprintable()
@@ -119,6 +120,12 @@ def test_control_characters_of_a_vehicle_s_name_are_escaped() -> None:
 @pytest.mark.parametrize("line", ["xavi: warning: nothing is kept", "", "Traceback (most recent"])
 def test_lines_for_the_passenger_are_no_log(line: str) -> None:
     assert not is_log(line)
+
+
+def test_the_last_words_of_a_child_are_none_of_its_log() -> None:
+    said = ["xavi: cannot go on", *(told(form, record()) for form in ("text", "json")), ""]
+    assert last_words(said) == "xavi: cannot go on"
+    assert last_words(said[1:]) == ""
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Self
 
 from xavi_dialogue.app import control
+from xavi_dialogue.app.logs import is_log
 
 TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or installed
 REMEMBERED = 20  # lines of a child's standard error
@@ -94,7 +95,7 @@ class Child:
         code = self._process.poll()
         if code is not None:
             self._ear.join(FORCED)
-            words = next((line for line in reversed(self._said) if line.strip()), "")
+            words = last_words(self._said)
             ended = f"{self.name} has ended ({_manner(code)})"
             raise ChildFailed(f"{ended}: {words.removeprefix('xavi: ')}" if words else ended)
 
@@ -212,6 +213,11 @@ class Expendable:
             tell, self._tell = self._tell, None
             if tell is not None:
                 tell(f"{error}; the ride goes on without it")
+
+
+def last_words(said: Sequence[str]) -> str:
+    """The last line that is no log and not empty; its log is written later than all else."""
+    return next((line for line in reversed(said) if line.strip() and not is_log(line)), "")
 
 
 def _ours() -> dict[str, str]:

@@ -118,6 +118,9 @@ class Dispatch:
         self.alive.count("what_ifs")
         vehicle = vehicle_in(question.call.key)
         assert vehicle is not None
+        asked = {"session": question.asked.session, "request": wanted.request}
+        known = {"vehicle": vehicle, **asked, "trace_id": wanted.trace_id}
+        _LOG.info("a decision is to be planned again", extra=known)
         self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
 
 

@@ -1,5 +1,6 @@
 """`xavi drive`: the car by itself, or as a child that is told its pace."""
 
+import logging
 import queue
 import sys
 import time
@@ -27,6 +28,7 @@ from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, save
 
 Record: TypeAlias = Callable[[Moment], None]
 
+_LOG = logging.getLogger(__name__)
 HARD_BRAKE = -4.0  # [m/s2]
 UNHURRIED = 5.0  # [s] for the last reports to go out after the ride,
 HURRIED = 1.0  # and when told to quit
@@ -134,6 +136,7 @@ def drive(
     if manner.save is not None:
         save(log.ride, manner.save)
     tally.summary.wall_s = round(time.monotonic() - began, 3)
+    _LOG.info("the ride is over", extra={"ended": tally.summary.ended or "told to quit"})
     return tally.summary
 
 
@@ -153,6 +156,7 @@ def _drive(scenario: Scenario, seed: int, manner: Manner, told: _Told) -> None:
         reporter = Reporter(others.outbox, keys, place_of(scenario), seed, others.alive)
         records = (*records, others.planning.record)
     network = network_of(scenario)
+    _LOG.info("the ride begins", extra={"scenario": scenario.name, "seed": seed})
     with start(scenario, seed, network, duration=manner.duration) as ride:
         pace = Pace(manner.speed, running=not manner.controlled)
         Car(ride, scenario.step, records, reporter, told.orders, pace, manner.controlled).run()

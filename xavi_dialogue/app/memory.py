@@ -4,6 +4,7 @@ A turn is kept before its reply is sent. Where that fails the passenger is answe
 same, and warned once; what was missed is made up for as soon as the file can be written again.
 """
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +15,7 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.database import Damaged, StoreError, Unfit, Unpurged
 from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
 
+_LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # in place of the digest of an owner that cannot be read: no token has it
 PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
@@ -188,6 +190,7 @@ class Memory:
         self._unsynced = True
         if self._failing:
             self._failing = False
+            _LOG.warning("the store works again")
             self.warn("what is said is kept again, and what was missed as well")
 
     def _keep(self, store: Store) -> None:
@@ -212,5 +215,6 @@ class Memory:
 
     def _fail(self, error: StoreError) -> None:
         if not self._failing:
+            _LOG.error("the store fails", extra={"problem": str(error)})
             self.warn(f"what is said is not kept until this is mended: {error}")
         self._failing = True

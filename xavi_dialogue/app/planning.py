@@ -5,6 +5,7 @@ and go to workers (see pool.py), which answer or are given up at the deadline.
 """
 
 import contextlib
+import logging
 import os
 import sys
 import time
@@ -33,6 +34,7 @@ from xavi_dialogue.transports.messages import (
     unpack,
 )
 
+_LOG = logging.getLogger(__name__)
 KEPT = 300  # latest decisions that can be planned again: five minutes of driving
 
 
@@ -92,11 +94,14 @@ class Replanner:
         self._planners.submit(
             Job(order, came + wanted.deadline_ms / 1000.0, partial(self._answer, call))
         )
+        known = {"request": wanted.request, "trace_id": wanted.trace_id}
+        _LOG.info("a what-if was taken up", extra=known)
 
     def _answer(self, call: Call, outcome: bytes | Failure) -> None:
         reason = outcome.reason if isinstance(outcome, Failure) else "planned"
         self._alive.count("what_ifs")
         self._alive.count(f"what_ifs_{reason.replace('-', '_')}")
+        _LOG.info("a what-if was answered", extra={"reason": reason})
         with contextlib.suppress(BusError):  # who asked is gone
             if isinstance(outcome, Failure):
                 call.refuse(pack(outcome))

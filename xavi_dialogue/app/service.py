@@ -167,6 +167,8 @@ class Service:
             handle(call)
         except Refusal as refusal:
             self.alive.count("busy", refusal.failure.reason == "busy")
+            known = {"vehicle": vehicle_in(call.key), "reason": refusal.failure.reason}
+            _LOG.info("a request was refused", extra=known)
             call.refuse(pack(refusal.failure))
 
     def _history(self, call: Call) -> None:
@@ -186,7 +188,8 @@ class Service:
             desk = None if vehicle is None else self.desk(vehicle)
         except (MessageError, Refusal) as error:
             self.alive.count("rejected")
-            _LOG.info("a report was rejected", extra={"detail": str(error)})
+            known = {"vehicle": vehicle_in(key), "report": schema_name(kind)}
+            _LOG.info("a report was rejected", extra={**known, "problem": type(error).__name__})
             return
         if desk is None:
             self.alive.count("rejected")
@@ -226,7 +229,11 @@ class Service:
                     self._dispatch.plan_again(errand, done)
 
     def _on_planned(self, desk: Desk, errand: PlanAgain, outcome: Outcome) -> None:
-        self._run(desk, desk.deliver(errand, planned(outcome)))
+        result = planned(outcome)
+        known = {"request": errand.question.asked.request, "trace_id": errand.need.trace_id}
+        reason = result if isinstance(result, str) else None
+        _LOG.info("a decision was planned again", extra={**known, "reason": reason})
+        self._run(desk, desk.deliver(errand, result))
 
 
 def _do(job: _Job) -> None:
