@@ -18,7 +18,16 @@ from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.dialogue.events import TraceRecorded
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.transports.bus import Bus, Call, Keys, Refused, call, matches, vehicle_in
+from xavi_dialogue.transports.bus import (
+    Bus,
+    Call,
+    Keys,
+    Refused,
+    TooLate,
+    call,
+    matches,
+    vehicle_in,
+)
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import (
     AliveReport,
@@ -481,3 +490,44 @@ def test_a_service_that_is_told_to_stop_leaves_the_rest(bench: Bench) -> None:
     told = iter([False, False, True])
     bench.service.work(0.0, lambda: next(told))
     assert [len(one) for one in came] == [1, 1, 0, 0, 0]
+
+
+def test_a_request_that_comes_twice_is_answered_once(bench: Bench) -> None:
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    slow = [ask(bench, "lack", request="slow") for _ in range(2)]
+    bench.service.work()
+    assert len(held) == 1
+    answer()
+    kinds = [type(came) for [came] in slow]
+    assert sorted(kinds, key=str) == [bytes, TooLate]  # nothing is said twice
+    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    assert [turn.text for turn in turns] == ["lack"]
+
+
+def test_who_missed_the_reply_may_ask_again(bench: Bench) -> None:
+    drive(bench, "car", 3.0)
+    came = [ask(bench, "answer", request="once") for _ in range(2)]
+    bench.service.work()
+    again, other = ask(bench, "answer", request="once"), ask(bench, "refuse", request="once")
+    bench.service.work()
+    assert came[0] == again
+    assert replied(other).reason == "too-little-evidence"  # another question of the same name
+    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    assert [turn.text for turn in turns] == ["answer", "refuse"]
+
+
+def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) -> None:
+    first, later = Bench(Memory(keeping)), Bench(Memory(keeping))
+    for bench in (first, later):  # the first is killed before its reply arrives
+        drive(bench, "car", 3.0)
+        said = ask(bench, "answer", request="once", at=3.0)
+        bench.service.work()
+        assert replied(said).sim_time == 3.0
+    assert len(unpack(history(later, "ann", None), HistoryReply).turns) == 1
+    anew = ask(later, "answer", request="once", at=2.0)
+    later.service.work()
+    assert replied(anew).sim_time == 2.0
+    forgotten = pack(ForgetRequest(request="f", session="ann"))
+    later.passenger.request(Keys().of("@rpc/forget"), forgotten, 1.0, lambda _: None)
+    later.service.work()
+    assert later.service._dispatch.sent == {}

@@ -564,3 +564,33 @@ def test_who_writes_too_long_is_not_waited_for(path: Path) -> None:
         other.close()
         store.keep([new()])
         assert len(store.turns("ada", 9)) == 1
+
+
+def test_a_file_of_the_version_before_is_brought_to_this_one(path: Path) -> None:
+    with Store(path) as store:
+        store.keep([new("before")])
+    with sqlite3.connect(path) as old:  # as the version before had it
+        old.execute("DROP TABLE owners")
+        old.execute("ALTER TABLE turns DROP COLUMN request")
+        old.execute("PRAGMA user_version = 1")
+    old.close()
+    with Store(path) as store:
+        store.keep([new("after", owner="0" * 64, request="q1")])
+        assert [one.text for one in store.turns("ada", 9)] == ["before", "after"]
+        assert store.owner("ada") == "0" * 64
+        found = store.answered("ada", "q1")
+        assert found is not None
+        assert found.text == "after"
+        assert store.answered("ada", "q2") is None
+
+
+def test_an_owner_is_forgotten_with_the_session_and_is_a_digest(path: Path) -> None:
+    with Store(path) as store:
+        store.keep([new(owner="0" * 64), new(session="bob", owner="1" * 64)])
+        store.keep([new(owner="2" * 64)])  # the first remains
+        assert [store.owner(name) for name in ("ada", "bob", "cat")] == ["0" * 64, "1" * 64, None]
+        store.forget("ada")
+        assert [store.owner(name) for name in ("ada", "bob")] == [None, "1" * 64]
+        store.keep([new(session="cat", owner="no digest")])
+        with pytest.raises(Damaged, match="cat"):
+            store.owner("cat")

@@ -4,7 +4,7 @@ import logging
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import msgspec
 
@@ -15,6 +15,8 @@ from xavi_dialogue.app.desk import Desk
 from xavi_dialogue.app.errands import Answer, PlanAgain
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.owners import Owners
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import (
     Bus,
@@ -28,6 +30,7 @@ from xavi_dialogue.transports.bus import (
 )
 from xavi_dialogue.transports.messages import (
     AskReply,
+    AskRequest,
     Failure,
     MessageError,
     PastTurn,
@@ -39,6 +42,7 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.store import RideName
 
 _LOG = logging.getLogger(__name__)
+MAX_SENT = 500  # replies that can be repeated
 
 
 @dataclass
@@ -51,6 +55,8 @@ class Dispatch:
     alive: Alive
     replies: int = 0  # so far
     shared: int = 0  # turns
+    #: What was answered with what, by session and request.
+    sent: dict[tuple[str, str], tuple[AskRequest, bytes]] = field(default_factory=dict)
 
     def next(self) -> int:
         """The sequence number of a reply."""
@@ -62,15 +68,45 @@ class Dispatch:
         question, asked = answer.question, answer.question.asked
         if answer.turn is not None:
             owner = self.owners.of(asked.session)
-            self.memory.keep(asked.session, ride_of(desk), time.time(), answer.turn, owner)
+            self.memory.keep(
+                asked.session, ride_of(desk), time.time(), answer.turn, owner, asked.request
+            )
         taken = round((time.monotonic() - question.came) * 1000.0, 3)
-        fields = msgspec.structs.asdict(answer.reply) | {"timing_ms": taken}
-        reply = AskReply(**fields, request=asked.request, seq=self.next(), wall_time=time.time())
+        payload = self._packed(asked, answer.reply, taken)
+        self.sent[asked.session, asked.request] = (asked, payload)
+        while len(self.sent) > MAX_SENT:
+            del self.sent[next(iter(self.sent))]
         with suppress(BusError):  # who asked is gone
-            question.call.reply(pack(reply))
+            question.call.reply(payload)
         self._count(answer, taken)
         if asked.share:
             self._share(answer)
+
+    def repeat(self, asked: AskRequest) -> bytes | None:
+        """The reply to a request that was answered not long ago; None where it was not.
+
+        Messages may come twice, and who missed a reply asks again under the same name.
+        """
+        before = self.sent.get((asked.session, asked.request))
+        if before is not None:
+            return before[1] if before[0] == asked else None
+        turn = self.memory.answered(asked.session, asked.request)
+        if turn is None or turn.text != asked.text:
+            return None
+        if asked.at is not None and abs(turn.reply.sim_time - asked.at) > EPSILON:
+            return None
+        return self._packed(asked, turn.reply, turn.reply.timing_ms)
+
+    def forget(self, session: str) -> None:
+        """Repeat nothing of a session any more."""
+        for key in [key for key in self.sent if key[0] == session]:
+            del self.sent[key]
+
+    def _packed(self, asked: AskRequest, reply: Reply, taken: float | None) -> bytes:
+        fields = msgspec.structs.asdict(reply) | {"timing_ms": taken}
+        return pack(
+            AskReply(**fields, request=asked.request, seq=self.next(), wall_time=time.time())
+        )
 
     def _count(self, answer: Answer, taken: float) -> None:
         reply, asked = answer.reply, answer.question.asked

@@ -6,6 +6,7 @@ same, and warned once; what was missed is made up for as soon as the file can be
 
 import logging
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -94,6 +95,17 @@ class Memory:
             self._fail(error)
         return None
 
+    def answered(self, session: str, request: str) -> Turn | None:
+        """The turn with which a request was answered not long ago; None where it was not."""
+        if self.keeping is None or session in self._unforgotten:
+            return None
+        for new in self._missed:
+            if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
+                return new.turn
+        with suppress(StoreError):  # it is answered anew
+            return self._opened(self.keeping).answered(session, request)
+        return None
+
     def keep(
         self,
         session: str,
@@ -101,12 +113,13 @@ class Memory:
         wall_time: float,
         turn: Turn,
         owner: str | None = None,
+        request: str | None = None,
     ) -> None:
         """Keep a turn, and all that was missed; in the file when this returns, if at all."""
         if self.keeping is None:
             return
         if fits(turn):
-            self._missed.append(NewTurn(session, ride, wall_time, turn, owner))
+            self._missed.append(NewTurn(session, ride, wall_time, turn, owner, request))
         else:
             self.warn(f"a turn of session {session} is too large to be kept")
         self._write(self.keeping)

@@ -2,7 +2,7 @@
 
 import logging
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -58,12 +58,12 @@ class Reception:
 
     mind: Mind
     memory: Memory
+    owners: Owners
     alive: Alive
+    repeat: Callable[[AskRequest], bytes | None]  # the reply to a request answered not long ago
+    forgotten: Callable[[str], None]  # is told of a session that is no more
     desks: dict[str, Desk] = field(default_factory=dict)  # by car
     pace: float = 0.0  # [s] that a question takes, on a running average
-
-    def __post_init__(self) -> None:
-        self.owners = Owners(self.memory.owner)
 
     def desk(self, vehicle: str) -> Desk:
         """The desk of a car.
@@ -99,8 +99,14 @@ class Reception:
             Refusal: it is not taken up.
         """
         desk, asked = self._admitted(call, AskRequest)
-        if asked.request in desk.questions:
+        if (known := desk.questions.get(asked.request)) is not None:
+            if known.asked == asked:  # it came twice, and is answered once
+                call.drop()
+                return
             raise Refusal("busy", "a request of this name is open")
+        if (said := self.repeat(asked)) is not None:
+            call.reply(said)
+            return
         wait = self.pace * sum(one.ready for one in self.desks.values())
         full = self.waiting() >= MAX_WAITING or wait > HOPE * asked.deadline_ms / 1000.0
         if full or desk.open(asked.session) >= MAX_OPEN:
@@ -136,6 +142,7 @@ class Reception:
                 question.call.drop()
         erased = self.memory.forget(wanted.session)
         self.owners.release(wanted.session)
+        self.forgotten(wanted.session)
         reply = ForgetReply(
             request=wanted.request,
             session=wanted.session,

@@ -20,6 +20,7 @@ from xavi_dialogue.app.desk import Desk
 from xavi_dialogue.app.dispatch import Dispatch, planned, ride_of
 from xavi_dialogue.app.errands import Answer, Errand, PlanAgain
 from xavi_dialogue.app.memory import Memory
+from xavi_dialogue.app.owners import Owners
 from xavi_dialogue.app.reception import Reception, Refusal
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.transports.bus import (
@@ -72,11 +73,14 @@ class Service:
         """
         self.alive = Alive("service", COUNTERS)
         self._memory = Memory() if memory is None else memory
-        self.reception = Reception(mind, self._memory, self.alive)
+        owners = Owners(self._memory.owner)
+        self._dispatch = Dispatch(bus, owners, self._memory, self.alive)
+        self.reception = Reception(
+            mind, self._memory, owners, self.alive, self._dispatch.repeat, self._dispatch.forget
+        )
         self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
         self._seen: dict[str, Presence] = {}  # our signs of life, by car
-        self._dispatch = Dispatch(bus, self.reception.owners, self._memory, self.alive)
 
     def desk(self, vehicle: str = DEFAULT_VEHICLE) -> Desk:
         """The desk of a car."""

@@ -20,8 +20,8 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
-OPENING = 40  # attempts to open what another process is just making ...
-PAUSE = 0.05  # [s] ... with so much time between them
+OPENING = 2.0  # [s] at least for trying to open what another process is just making ...
+PAUSE = 0.05  # [s] ... with so much time between attempts
 PAGE = 4096  # bytes
 
 Row: TypeAlias = tuple[Any, ...]
@@ -211,14 +211,15 @@ class Database:
             raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
 
     def _open(self, steps: Mapping[int, str], version: int) -> None:
-        for attempt in range(1, OPENING + 1):
+        give_up = time.monotonic() + max(self._patience, OPENING)
+        while True:
             try:
                 self._version(version)  # before anything is changed in what may not be ours
                 self._set_up()
                 break
             except Unwritable as error:
                 # Whoever makes the file locks it in a way that waits for nobody.
-                if attempt == OPENING or "locked" not in str(error):
+                if time.monotonic() > give_up or "locked" not in str(error):
                     raise
                 time.sleep(PAUSE)
         with contextlib.suppress(OSError):  # the file of another user, who lets us write

@@ -18,6 +18,7 @@ from xavi_dialogue.transports.rows import Line, Summary, checked, decoded, decod
 
 VERSION = 2
 SCHEMA = "xavi.memory/1"  # of exported lines
+RECENT = 10  # turns among which a request that comes again is looked for
 MAX_TURN = 256 * 1024  # bytes
 PATIENCE = 5.0  # [s] to wait for others that write
 DAY = 86400.0  # [s]
@@ -28,7 +29,7 @@ CREATE TABLE rides (
 );
 CREATE TABLE turns (
     session TEXT NOT NULL, number INTEGER NOT NULL, ride TEXT REFERENCES rides,
-    sim_time REAL NOT NULL, wall_time REAL NOT NULL, turn TEXT NOT NULL,
+    sim_time REAL NOT NULL, wall_time REAL NOT NULL, turn TEXT NOT NULL, request TEXT,
     PRIMARY KEY (session, number)
 );
 CREATE TABLE events (
@@ -40,7 +41,10 @@ CREATE INDEX turns_by_ride ON turns (ride);
 CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)
 """
 # What brings tables of a version to the next.
-_MIGRATIONS = {1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)"}
+_MIGRATIONS = {
+    1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL);"
+    " ALTER TABLE turns ADD COLUMN request TEXT"
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +65,7 @@ class NewTurn:
     wall_time: float  # [s]
     turn: Turn
     owner: str | None = None  # digest of whom the session belongs to; None: it is open to all
+    request: str | None = None  # that it answered
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +126,13 @@ class Store:
         """The digest of whom a session belongs to; None where it is open to all."""
         rows = self._file.rows("SELECT digest FROM owners WHERE session = ?", (session,))
         return decoded_owner(self.path, session, rows[0][0]) if rows else None
+
+    def answered(self, session: str, request: str) -> Turn | None:
+        """The turn, among the latest of a session, with which a request was answered."""
+        sql = "SELECT request, turn FROM turns WHERE session = ? ORDER BY number DESC LIMIT ?"
+        rows = self._file.rows(sql, (session, RECENT))
+        found = (decoded(self.path, session, turn, Turn) for name, turn in rows if name == request)
+        return next(found, None)
 
     def holds(self, session: str) -> bool:
         """Whether there is anything of a session; whatever became of the names of others."""
@@ -252,9 +264,10 @@ class Store:
         if new.owner is not None:
             claim = "INSERT OR IGNORE INTO owners VALUES (?, ?)"
             file.execute(claim, (new.session, new.owner))
-        row = (new.session, ride, new.turn.reply.sim_time, new.wall_time, text, new.session)
+        times = (new.turn.reply.sim_time, new.wall_time)
+        row = (new.session, ride, *times, text, new.request, new.session)
         file.execute(
-            "INSERT INTO turns SELECT ?, coalesce(max(number), 0) + 1, ?, ?, ?, ?"
+            "INSERT INTO turns SELECT ?, coalesce(max(number), 0) + 1, ?, ?, ?, ?, ?"
             " FROM turns WHERE session = ?",
             row,
         )

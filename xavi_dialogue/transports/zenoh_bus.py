@@ -45,6 +45,7 @@ SAFE: dict[str, object] = {  # without a configuration file
     "transport/shared_memory/enabled": False,
     "transport/link/rx/max_message_size": MAX_MESSAGE,
     "timestamping/enabled": True,
+    "transport/unicast/open_timeout": 3000,  # [ms] for who listens there and is no hub
     # Who reads no more holds up all others who read the same, until its link is closed.
     "transport/link/tx/queue/congestion_control/block/wait_before_close": 1_000_000,  # [us]
 }
