@@ -8,7 +8,7 @@ import pytest
 
 from planner import trace as plan_trace
 from tests.app.test_service import Bench
-from tests.fakes import again, s1_moments, scripted_mind
+from tests.fakes import activity, again, s1_moments, scripted_mind
 from xavi_dialogue.app import desk as desks
 from xavi_dialogue.app import reception
 from xavi_dialogue.app.fair import FairQueue
@@ -17,7 +17,12 @@ from xavi_dialogue.app.memory import Keeping, Memory
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.dialogue.events import TraceRecorded
 from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.recollection import Result
+from xavi_dialogue.explain.record import Record
 from xavi_dialogue.transports.bus import (
     Bus,
     Call,
@@ -34,6 +39,7 @@ from xavi_dialogue.transports.messages import (
     AskReply,
     AskRequest,
     CancelRequest,
+    CarState,
     EventReport,
     Failure,
     ForgetRequest,
@@ -256,10 +262,10 @@ def test_a_question_whose_turn_does_not_come_in_time_fell_to_a_busy_service(benc
     came = ask(bench, "answer", deadline_ms=1000.0)
     bench.service._empty_inbox()
     desk = bench.service.desk()
-    [question] = desk.questions.values()
+    [question] = desk.waiting.open.values()
     [given_up, *_] = desk.settle(question.came + 1.0)
     assert given_up.reply.reason == "busy"  # type: ignore[union-attr]
-    assert (came, desk.questions) == ([], {})
+    assert (came, desk.waiting.open) == ([], {})
 
 
 def test_who_could_not_be_answered_in_time_is_told_at_once(bench: Bench) -> None:
@@ -531,3 +537,90 @@ def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) 
     later.passenger.request(Keys().of("@rpc/forget"), forgotten, 1.0, lambda _: None)
     later.service.work()
     assert later.service._dispatch.sent == {}
+
+
+def foreseeing(bench: Bench, calls: list[NeedRollout]) -> None:
+    """Have the mind need a plan to say why."""
+
+    def explain(query: Query, record: Record) -> Result:
+        need = NeedRollout(trace_id=record.traces[0].trace_id, removed=1)
+        if query.type == "why" and not record.extra and need not in record.refused:
+            calls.append(need)
+            return need
+        return activity(record)
+
+    bench.service.reception.mind = Mind(
+        lambda *_: Query(type="why"),
+        explain,  # whatever is said
+    )
+
+
+def test_what_a_passenger_will_ask_for_is_planned_before(bench: Bench) -> None:
+    foreseeing(bench, [])
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    bench.service.work()
+    assert [unpack(one.payload, WhatIfRequest).removed for one in held] == [1]
+    answer()
+    bench.service.work()
+    assert held == []
+    came = ask(bench, "why?")
+    bench.service.work()
+    assert replied(came).kind == "answer"
+    assert held == []
+
+
+def test_who_asks_meanwhile_waits_for_the_same_plan(bench: Bench) -> None:
+    foreseeing(bench, [])
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    bench.service.work()
+    came = ask(bench, "why?")
+    bench.service.work()
+    assert (len(held), came) == (1, [])
+    answer()
+    assert replied(came).kind == "answer"
+
+
+def test_what_is_foreseen_in_vain_is_asked_for_anew(bench: Bench) -> None:
+    foreseeing(bench, [])
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    bench.service.work()
+    came = ask(bench, "why?")
+    bench.service.work()
+    held.pop().refuse(pack(Failure(reason="timed-out")))
+    bench.service.work()
+    assert (len(held), came) == (1, [])
+    answer()
+    assert replied(came).kind == "answer"
+
+
+@pytest.mark.parametrize(("state", "speed"), [("paused", 1.0), ("driving", 0.0), ("driving", 9.0)])
+def test_nothing_is_foreseen_where_the_ride_is_no_ride(
+    bench: Bench, state: CarState, speed: float
+) -> None:
+    calls: list[NeedRollout] = []
+    foreseeing(bench, calls)
+    reporter = Reporter(bench.car, Keys())
+    bench.car.appear(Keys().of("alive/car"))
+    for moment in s1_moments():
+        reporter.record(moment)
+        reporter.show(moment, state, speed)
+    bench.service.work()
+    bench.service.work()
+    assert calls == []
+
+
+def test_a_fault_in_foreseeing_is_nobody_s_business(
+    bench: Bench, caplog: pytest.LogCaptureFixture
+) -> None:
+    def explain(query: Query, record: Record) -> Result:
+        if query.type == "why":
+            raise ZeroDivisionError
+        return activity(record)
+
+    bench.service.reception.mind = Mind(lambda *_: Query(type="what", tense="present"), explain)
+    drive(bench, "car", 3.0)
+    bench.service.work()
+    assert "ZeroDivisionError" in caplog.text
+    came = ask(bench, "what are you doing?")
+    bench.service.work()
+    assert replied(came).kind == "answer"

@@ -181,13 +181,13 @@ def test_a_question_is_given_up_before_its_deadline(bench: Bench) -> None:
     bench.drive(until=3.0)
     came = bench.send("answer", at=6.0, deadline_ms=2000.0)
     desk = bench.service.desk()
-    [question] = desk.questions.values()
+    [question] = desk.waiting.open.values()
     deadline = question.came + 2.0
     assert desk.settle(deadline - 0.2) == []
     [given_up] = desk.settle(deadline - 0.01)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
-    assert (came, desk.questions) == ([], {})
+    assert (came, desk.waiting.open) == ([], {})
 
 
 def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
@@ -195,7 +195,7 @@ def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
     bench.send("lack", deadline_ms=2000.0)
     desk = bench.service.desk()
-    [given_up] = desk.settle(desk.questions["q1"].came + 1.99)
+    [given_up] = desk.settle(desk.waiting.open["q1"].came + 1.99)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
     assert bench.ask("answer", request="q2").kind == "answer"
@@ -252,7 +252,7 @@ def test_who_asks_and_goes_harms_nobody(bench: Bench) -> None:
     serve(Gone(pack(asked)))
     serve(Gone(b"junk"))
     assert bench.ask("answer").kind == "answer"
-    assert bench.service.desk().questions == {}
+    assert bench.service.desk().waiting.open == {}
 
 
 @pytest.mark.parametrize(
@@ -300,7 +300,8 @@ def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(ben
     came = bench.send("lack")  # under the same name
     planned(bench, held[0])
     bench.service.work()
-    assert (came, bench.service.desk().dialogue.planned) == ([], {})
+    assert came == []
+    assert [need.vehicle for need in bench.service.desk().dialogue.planned] == [1]  # kept, unasked
     planned(bench, held[1])
     bench.service.work()
     assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]

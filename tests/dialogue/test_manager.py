@@ -165,7 +165,7 @@ def test_rollouts_that_are_not_those_waited_for_change_nothing() -> None:
         msgspec.structs.replace(right.trace, what_if=WhatIf(rollouts=2)),
     ):
         before = talk.dialogue
-        with pytest.raises(IllegalEvent, match="not those it waits for"):
+        with pytest.raises(IllegalEvent, match="not those that were needed"):
             talk.put(RolloutsArrived("q", "ada", wrong))
         assert talk.dialogue == before
     assert talk.dialogue.planned == {}

@@ -3,22 +3,24 @@
 No bus and no clock: what is heard and the time are given, what is to be sent is returned.
 """
 
-import heapq
 import logging
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from planner.trace import PlanTrace
 from xavi_dialogue.app.errands import Answer, Errand, PlanAgain, Question
-from xavi_dialogue.app.fair import FairQueue
+from xavi_dialogue.app.foresight import AHEAD, Foreseen
 from xavi_dialogue.app.ledger import Ledger
+from xavi_dialogue.app.waiting import Waiting
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
     Cancelled,
     Forgotten,
     Input,
+    PlannedAhead,
     Resumed,
     RolloutsArrived,
     RolloutsFailed,
@@ -28,7 +30,7 @@ from xavi_dialogue.dialogue.events import (
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.dialogue.states import Phase
+from xavi_dialogue.dialogue.states import IllegalEvent, Phase
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.explain.explanation import NeedRollout, Reason
 from xavi_dialogue.transports.messages import (
@@ -42,7 +44,6 @@ from xavi_dialogue.transports.messages import (
 _LOG = logging.getLogger(__name__)
 MAX_PAST = 200  # turns of a session that are known of
 MAX_SESSIONS = 2000  # that are known of; who has been silent for longest is forgotten first
-SPENT = 200  # questions that are over and still in the heap, before it is made anew
 
 Heard: TypeAlias = SceneReport | TraceReport | EventReport
 
@@ -51,16 +52,15 @@ Heard: TypeAlias = SceneReport | TraceReport | EventReport
 class Desk:
     """The questions about one car."""
 
+    vehicle: str
     mind: Mind
     dialogue: Dialogue = field(default_factory=Dialogue)
     ledger: Ledger | None = None
-    questions: dict[str, Question] = field(default_factory=dict)  # by request, in order
+    waiting: Waiting = field(default_factory=Waiting)
     past: dict[str, tuple[Turn, ...]] = field(default_factory=dict)  # by session, latest at the end
     car_alive: bool = False
-    _turns: FairQueue[Question] = field(default_factory=FairQueue)  # those that are ready
-    _planning: dict[NeedRollout, list[Question]] = field(default_factory=dict)
-    _deadlines: list[tuple[float, int, Question]] = field(default_factory=list)  # a heap
-    _taken: int = 0
+    _planning: dict[NeedRollout, list[Question]] = field(default_factory=dict)  # who needs what
+    _foreseen: Foreseen = field(default_factory=Foreseen)
 
     def resume(self, session: str, turns: tuple[Turn, ...]) -> None:
         """Know what was said in a session before; to be told before its first question."""
@@ -88,24 +88,15 @@ class Desk:
 
     def take(self, question: Question) -> None:
         """Take up a question."""
-        self.questions[question.asked.request] = question
-        if len(self._deadlines) > len(self.questions) + SPENT:
-            self._deadlines = [one for one in self._deadlines if self._is_open(one[2])]
-            heapq.heapify(self._deadlines)
-        self._taken += 1
-        heapq.heappush(self._deadlines, (question.deadline, self._taken, question))
+        self.waiting.take(question)
         self._look_at(question)
-
-    def open(self, session: str) -> int:
-        """How many questions of a session are open."""
-        return sum(one.asked.session == session for one in self.questions.values())
 
     def cancel(self, wanted: CancelRequest) -> Question | None:
         """Drop a question; None where there is no such question."""
-        question = self.questions.get(wanted.request)
+        question = self.waiting.open.get(wanted.request)
         if question is None or question.asked.session != wanted.session:
             return None
-        del self.questions[wanted.request]
+        del self.waiting.open[wanted.request]
         if question.begun:
             self._tell(Cancelled(wanted.request, wanted.session))
             self._release(wanted.session)
@@ -113,23 +104,25 @@ class Desk:
 
     def forget(self, session: str) -> tuple[int, list[Question]]:
         """Forget a session; how many turns of it were known, and its questions, now dropped."""
-        dropped = [one for one in self.questions.values() if one.asked.session == session]
+        dropped = self.waiting.of(session)
         for question in dropped:
-            del self.questions[question.asked.request]
+            del self.waiting.open[question.asked.request]
         self._tell(Forgotten(session))
         return len(self.past.pop(session, ())), dropped
 
     def deliver(self, errand: PlanAgain, result: PlanTrace | Reason) -> list[Errand]:
         """Go on with the questions for which the planner planned again, or did not."""
         errands: list[Errand] = []
-        waited = self._planning.pop(errand.need, [errand.question])
+        waited = self._planning.pop(errand.need, [])
         still = [question for question in waited if self._waits(question, errand.need)]
+        if isinstance(result, PlanTrace) and not still:
+            self._foresaw(errand.need, result)
         if result == "timed-out":  # those that came later have time left
-            late = [one for one in still if one.deadline <= errand.question.deadline]
+            late = [one for one in still if one.deadline <= errand.deadline]
             still, later = late, [one for one in still if one not in late]
             if later:
                 self._planning[errand.need] = later
-                errands.append(PlanAgain(later[0], errand.need))
+                errands.append(_plan_again(later[0], errand.need))
         for question in still:
             request, session = question.asked.request, question.asked.session
             if isinstance(result, str):
@@ -143,43 +136,45 @@ class Desk:
         """Give up the questions whose time is up, and begin the next one whose turn it is."""
         self._do_without(now)
         errands: list[Errand] = []
-        while self._deadlines and self._deadlines[0][0] <= now:
-            _, _, question = heapq.heappop(self._deadlines)
-            if self._is_open(question):
-                errands += self._expire(question)
-        while self._turns:
-            question = self._turns.pop()
-            if not self._is_open(question) or question.begun or not question.ready:
-                continue
+        while (overdue := self.waiting.overdue(now)) is not None:
+            errands += self._expire(overdue)
+        while (question := self.waiting.next_turn()) is not None:
             if not self._is_engaged(question.asked.session):
                 return errands + self._begin(question)
             question.ready = False  # one at a time; see _look_at
         return errands
 
-    @property
-    def ready(self) -> int:
-        """How many questions wait for nothing but their turn."""
-        return len(self._turns)
+    def foresee(self, now: float) -> list[Errand]:
+        """Have planned what the next passenger who asks why will need; to be called when idle.
+
+        Args:
+            now: [s] on the shell's clock.
+        """
+        ledger, dialogue = self.ledger, self.dialogue
+        if ledger is None or ledger.scene is None or self._planning or not self.car_alive:
+            return []
+        try:
+            need = self._foreseen.need(self.mind, dialogue, ledger.scene)
+        except Exception:  # a fault of ours; whoever asks will be told
+            _LOG.exception(
+                "what may be asked could not be foreseen", extra={"vehicle": self.vehicle}
+            )
+            return []
+        if need is None:
+            return []
+        self._planning[need] = []
+        return [PlanAgain(need, now + AHEAD)]
 
     def look(self) -> None:
         """See which questions have all that they waited for; to be called when that may be so."""
-        for question in self.questions.values():
+        for question in self.waiting.open.values():
             self._look_at(question)
-
-    def next_deadline(self) -> float | None:
-        """When the next question is given up [s] on the shell's clock."""
-        while self._deadlines and not self._is_open(self._deadlines[0][2]):
-            heapq.heappop(self._deadlines)
-        return self._deadlines[0][0] if self._deadlines else None
-
-    def _is_open(self, question: Question) -> bool:
-        return self.questions.get(question.asked.request) is question
 
     def _waits(self, question: Question, need: NeedRollout) -> bool:
         """Whether a question waits for these rollouts; it may have been given up or begun anew."""
         pending = self.dialogue.session(question.asked.session).pending
         return (
-            self._is_open(question)
+            self.waiting.has(question)
             and question.begun
             and pending is not None
             and pending.asked.request == question.asked.request
@@ -188,10 +183,13 @@ class Desk:
 
     def _begin_anew(self, ride: str) -> None:
         self.ledger, self.dialogue = Ledger(ride), Dialogue()
-        self._turns.clear()
         self._planning.clear()
-        for question in self.questions.values():
-            question.begun = question.ready = False
+        self.waiting.begin_anew()
+
+    def _foresaw(self, need: NeedRollout, trace: PlanTrace) -> None:
+        """Keep a plan that nobody waits for."""
+        with suppress(IllegalEvent):  # another ride has begun, or it is not what was wanted
+            self._tell(PlannedAhead(need, trace))
 
     def _do_without(self, now: float) -> None:
         """Go on without what has been missing from the record for too long."""
@@ -200,7 +198,8 @@ class Desk:
         lost = self.ledger.lost
         inputs = self.ledger.wait(now)
         if self.ledger.lost > lost:
-            _LOG.warning("reports were lost", extra={"count": self.ledger.lost - lost})
+            known = {"vehicle": self.vehicle, "count": self.ledger.lost - lost}
+            _LOG.warning("reports were lost", extra=known)
             self._record(inputs)
 
     def _is_engaged(self, session: str) -> bool:
@@ -209,9 +208,8 @@ class Desk:
 
     def _release(self, session: str) -> None:
         """Let the next question of a session have its turn."""
-        for question in self.questions.values():
-            if question.asked.session == session:
-                self._look_at(question)
+        for question in self.waiting.of(session):
+            self._look_at(question)
 
     def _record(self, inputs: Iterable[Input]) -> None:
         for one in inputs:
@@ -232,8 +230,7 @@ class Desk:
         at, ledger = self._moment(question), self.ledger
         complete = ledger is not None and ledger.complete(at)
         if complete or self._gone(at):
-            question.ready = True
-            self._turns.put(question.asked.session, question)
+            self.waiting.let_wait(question)
 
     def _gone(self, at: float) -> bool:
         """Whether a moment will not be heard of any more."""
@@ -292,16 +289,20 @@ class Desk:
                 case Answered(request, session, reply, turn):
                     if turn is not None:
                         self.resume(session, (*self.past.get(session, ()), turn))
-                    question = self.questions.pop(request)
+                    question = self.waiting.open.pop(request)
                     if question.begun:
                         self._release(session)
                     yield Answer(question, reply, turn)
                 case RolloutsWanted(request, _, need):
-                    question = self.questions[request]
-                    waiting = self._planning.setdefault(need, [])
-                    waiting.append(question)
-                    if len(waiting) == 1:
-                        yield PlanAgain(question, need)
+                    question = self.waiting.open[request]
+                    asked_for = need in self._planning
+                    self._planning.setdefault(need, []).append(question)
+                    if not asked_for:
+                        yield _plan_again(question, need)
+
+
+def _plan_again(question: Question, need: NeedRollout) -> PlanAgain:
+    return PlanAgain(need, question.deadline, question.asked.request, question.asked.session)
 
 
 def _asked(request: AskRequest, at: float) -> Asked:

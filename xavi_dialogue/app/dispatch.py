@@ -141,22 +141,18 @@ class Dispatch:
         with suppress(BusError):  # nobody reads it
             self.bus.send(key, pack(report))
 
-    def plan_again(self, errand: PlanAgain, done: Callable[[Outcome], None]) -> None:
-        """Have the car plan again; `done` gets what comes of it, on a thread of the bus."""
-        need, question = errand.need, errand.question
-        remaining = max(question.deadline - time.monotonic(), 0.001)
-        fields = msgspec.structs.asdict(need)
+    def plan_again(self, vehicle: str, errand: PlanAgain, done: Callable[[Outcome], None]) -> None:
+        """Have a car plan again; `done` gets what comes of it, on a thread of the bus."""
+        remaining = max(errand.deadline - time.monotonic(), 0.001)
+        fields = msgspec.structs.asdict(errand.need)
         wanted = WhatIfRequest(
             **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
-            request=question.asked.request,
+            request=errand.request,
             deadline_ms=remaining * 1000.0,
         )
         self.alive.count("what_ifs")
-        vehicle = vehicle_in(question.call.key)
-        assert vehicle is not None
-        asked = {"session": question.asked.session, "request": wanted.request}
-        known = {"vehicle": vehicle, **asked, "trace_id": wanted.trace_id}
-        _LOG.info("a decision is to be planned again", extra=known)
+        known = {"vehicle": vehicle, "session": errand.session, "request": errand.request}
+        _LOG.info("a what-if is asked for", extra={**known, "trace_id": errand.need.trace_id})
         self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
 
 

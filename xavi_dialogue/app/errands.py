@@ -42,8 +42,10 @@ class Answer:
 class PlanAgain:
     """A request to be sent to the car."""
 
-    question: Question  # the first that needs it
     need: NeedRollout
+    deadline: float  # [s] on the shell's clock, of the first question that needs it
+    request: str = "ahead"  # its name; or nobody has asked yet
+    session: str | None = None
 
 
 Errand: TypeAlias = Answer | PlanAgain

@@ -68,11 +68,11 @@ class Piped:
         return True
 
     def _move(self, at: float) -> None:
-        self.at = at
         if self.seeks:
             self.scene = self.behind.drive(self.client, control.Seek(at), halt=True)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
+        self.at = at  # not where the ride cannot go there: nothing could be said about it
 
     def _ask(self, text: str) -> None:
         if len(text) > MAX_TEXT:

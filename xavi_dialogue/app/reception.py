@@ -74,12 +74,16 @@ class Reception:
         if vehicle not in self.desks:
             if len(self.desks) >= MAX_CARS:
                 self._make_room()
-            self.desks[vehicle] = Desk(self.mind)
+            self.desks[vehicle] = Desk(vehicle, self.mind)
         return self.desks[vehicle]
 
     def waiting(self) -> int:
         """How many questions are open."""
-        return sum(len(desk.questions) for desk in self.desks.values())
+        return sum(len(desk.waiting.open) for desk in self.desks.values())
+
+    def ready(self) -> int:
+        """How many questions wait for nothing but their turn."""
+        return sum(desk.waiting.ready for desk in self.desks.values())
 
     def learn(self, taken: float) -> None:
         """Learn how long [s] a question took."""
@@ -99,7 +103,7 @@ class Reception:
             Refusal: it is not taken up.
         """
         desk, asked = self._admitted(call, AskRequest)
-        if (known := desk.questions.get(asked.request)) is not None:
+        if (known := desk.waiting.open.get(asked.request)) is not None:
             if known.asked == asked:  # it came twice, and is answered once
                 call.drop()
                 return
@@ -107,9 +111,9 @@ class Reception:
         if (said := self.repeat(asked)) is not None:
             call.reply(said)
             return
-        wait = self.pace * sum(one.ready for one in self.desks.values())
+        wait = self.pace * self.ready()
         full = self.waiting() >= MAX_WAITING or wait > HOPE * asked.deadline_ms / 1000.0
-        if full or desk.open(asked.session) >= MAX_OPEN:
+        if full or len(desk.waiting.of(asked.session)) >= MAX_OPEN:
             raise Refusal("busy", "too many questions are waiting; ask again in a moment")
         self._know(desk, asked.session)
         self.owners.claim(asked.session, asked.token)
@@ -197,7 +201,7 @@ class Reception:
 
     def _make_room(self) -> None:
         for vehicle, desk in self.desks.items():
-            if not desk.car_alive and not desk.questions:
+            if not desk.car_alive and not desk.waiting.open:
                 del self.desks[vehicle]
                 return
         raise Refusal("busy", f"this service talks about {MAX_CARS} cars already")

@@ -126,13 +126,16 @@ class Service:
             self._empty_inbox()
             for desk in [*self.reception.desks.values()]:
                 self._settle(desk)
-            if self._inbox.empty() and not any(d.ready for d in self.reception.desks.values()):
+            if self._inbox.empty() and not self.reception.ready():
                 break
-        self._memory.tidy(time.time(), idle=not self.reception.waiting())
+        idle = not self.reception.waiting()
+        self._memory.tidy(time.time(), idle=idle)
+        for desk in [*self.reception.desks.values()] if idle else ():
+            self._run(desk, desk.foresee(time.monotonic()))
 
     def _settle(self, desk: Desk) -> None:
         """Have a desk answer one question, and learn how long that takes."""
-        ready, began = desk.ready, time.monotonic()
+        ready, began = desk.waiting.ready, time.monotonic()
         self._run(desk, desk.settle(began))
         if ready:
             self.reception.learn(time.monotonic() - began)
@@ -145,7 +148,7 @@ class Service:
     def _patience(self, patience: float) -> float:
         """How long [s] nothing has to be done unless something comes in."""
         for desk in self.reception.desks.values():
-            deadline = desk.next_deadline()
+            deadline = desk.waiting.next_deadline()
             if deadline is not None:
                 patience = min(patience, max(deadline - time.monotonic(), 0.0))
             if desk.ledger is not None and desk.ledger.missing is not None:
@@ -230,11 +233,16 @@ class Service:
                     self._dispatch.answer(desk, errand)
                 case PlanAgain():
                     done = partial(self._post, self._on_planned, desk, errand)
-                    self._dispatch.plan_again(errand, done)
+                    self._dispatch.plan_again(desk.vehicle, errand, done)
 
     def _on_planned(self, desk: Desk, errand: PlanAgain, outcome: Outcome) -> None:
         result = planned(outcome)
-        known = {"request": errand.question.asked.request, "trace_id": errand.need.trace_id}
+        known = {
+            "vehicle": desk.vehicle,
+            "session": errand.session,
+            "request": errand.request,
+            "trace_id": errand.need.trace_id,
+        }
         reason = result if isinstance(result, str) else None
         _LOG.info("a decision was planned again", extra={**known, "reason": reason})
         self._run(desk, desk.deliver(errand, result))

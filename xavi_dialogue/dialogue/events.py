@@ -62,6 +62,14 @@ class RolloutsArrived:
 
 
 @dataclass(frozen=True, slots=True)
+class PlannedAhead:
+    """The planner planned again what nobody has asked about yet."""
+
+    need: NeedRollout
+    trace: PlanTrace
+
+
+@dataclass(frozen=True, slots=True)
 class RolloutsFailed:
     """The planner did not plan again."""
 
@@ -101,6 +109,7 @@ Input: TypeAlias = (
     | TurnedAway
     | RolloutsArrived
     | RolloutsFailed
+    | PlannedAhead
     | Cancelled
     | Resumed
     | Forgotten

@@ -20,6 +20,7 @@ from xavi_dialogue.dialogue.events import (
     Forgotten,
     Input,
     Output,
+    PlannedAhead,
     Resumed,
     RideEnded,
     RolloutsArrived,
@@ -71,6 +72,8 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
             return _go_on(mind, dialogue, event)
         case RolloutsFailed():
             return _give_up(mind, dialogue, event)
+        case PlannedAhead(need, trace):
+            return _planned(dialogue, need, trace), ()
         case Cancelled(request, name):
             session, _ = _waiting(dialogue, request, name, Move.CANCELLED)
             return _with(dialogue, name, session), ()
@@ -172,12 +175,21 @@ def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[S
 def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNED)
     assert pending.need is not None
-    if not _is_wanted(dialogue, pending.need, event.trace):
-        raise IllegalEvent(f"rollouts for {event.request!r} that are not those it waits for")
-    planned = [*dialogue.planned.items(), (pending.need, event.trace)][-MAX_PLANNED:]
-    dialogue = replace(dialogue, planned=dict(planned))
+    dialogue = _planned(dialogue, pending.need, event.trace)
     pending = replace(pending, extra=(*pending.extra, event.trace))
     return _think(mind, dialogue, session, pending)
+
+
+def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogue:
+    """Know a decision planned again.
+
+    Raises:
+        IllegalEvent: it is not the one that was needed.
+    """
+    if not _is_wanted(dialogue, need, trace):
+        raise IllegalEvent("rollouts that are not those that were needed")
+    planned = [*dialogue.planned.items(), (need, trace)][-MAX_PLANNED:]
+    return replace(dialogue, planned=dict(planned))
 
 
 def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
