@@ -9,7 +9,7 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat test lint format schema diagram judge bench fuzz clean runtime develop
+.PHONY: help chat test drills lint format schema diagram judge bench fuzz clean runtime develop
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
@@ -21,8 +21,11 @@ chat: runtime ## set up if need be, then ride and talk
 test: develop ## everything that must hold: lint, types, tests
 	@status=0; \
 	$(MAKE) --no-print-directory lint || status=1; \
-	$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS) || status=1; \
+	$(BIN)/python -m pytest -n 2 --dist loadfile --ignore=tests/drills $(ARGS) || status=1; \
 	exit $$status
+
+drills: develop ## what goes wrong between real processes, tried out (docs/drills.md)
+	@$(BIN)/python -m pytest tests/drills -n 2 --dist worksteal $(ARGS)
 
 lint: develop ## ruff and mypy
 	@$(BIN)/python -m ruff check
