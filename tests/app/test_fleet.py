@@ -624,3 +624,32 @@ def test_a_fault_in_foreseeing_is_nobody_s_business(
     came = ask(bench, "what are you doing?")
     bench.service.work()
     assert replied(came).kind == "answer"
+
+
+def test_names_of_requests_are_the_passengers_own(bench: Bench) -> None:
+    held, answer = plans(bench, drive(bench, "car", 3.0))
+    slow = ask(bench, "lack", request="1", session="ann")
+    bench.service.work()
+    quick = ask(bench, "answer", request="1", session="bob")
+    bench.service.work()
+    assert (len(held), slow, replied(quick).kind) == (1, [], "answer")
+    wanted = pack(CancelRequest(request="1", session="bob"))
+    bench.passenger.request(Keys().of("@rpc/cancel"), wanted, 1.0, lambda _: None)
+    answer()
+    assert replied(slow).kind == "answer"
+
+
+def test_a_fault_of_ours_costs_one_request_and_no_more(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    drive(bench, "car", 3.0)
+    monkeypatch.setattr(bench.service.desk(), "take", lambda _: 1 // 0)
+    lost = ask(bench, "answer")
+    bench.service.work()
+    assert refused(lost).reason == "planner-failed"
+    monkeypatch.undo()
+    came = ask(bench, "answer")
+    bench.service.work()
+    assert replied(came).kind == "answer"
+    assert bench.service.alive.counted("faults") == 1
+    assert "ZeroDivisionError" in caplog.text

@@ -195,7 +195,7 @@ def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
     bench.send("lack", deadline_ms=2000.0)
     desk = bench.service.desk()
-    [given_up] = desk.settle(desk.waiting.open["q1"].came + 1.99)
+    [given_up] = desk.settle(desk.waiting.open["ada", "q1"].came + 1.99)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
     assert bench.ask("answer", request="q2").kind == "answer"

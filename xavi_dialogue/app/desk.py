@@ -93,10 +93,9 @@ class Desk:
 
     def cancel(self, wanted: CancelRequest) -> Question | None:
         """Drop a question; None where there is no such question."""
-        question = self.waiting.open.get(wanted.request)
-        if question is None or question.asked.session != wanted.session:
+        question = self.waiting.open.pop((wanted.session, wanted.request), None)
+        if question is None:
             return None
-        del self.waiting.open[wanted.request]
         if question.begun:
             self._tell(Cancelled(wanted.request, wanted.session))
             self._release(wanted.session)
@@ -106,7 +105,7 @@ class Desk:
         """Forget a session; how many turns of it were known, and its questions, now dropped."""
         dropped = self.waiting.of(session)
         for question in dropped:
-            del self.waiting.open[question.asked.request]
+            del self.waiting.open[question.name]
         self._tell(Forgotten(session))
         return len(self.past.pop(session, ())), dropped
 
@@ -289,12 +288,12 @@ class Desk:
                 case Answered(request, session, reply, turn):
                     if turn is not None:
                         self.resume(session, (*self.past.get(session, ()), turn))
-                    question = self.waiting.open.pop(request)
+                    question = self.waiting.open.pop((session, request))
                     if question.begun:
                         self._release(session)
                     yield Answer(question, reply, turn)
-                case RolloutsWanted(request, _, need):
-                    question = self.waiting.open[request]
+                case RolloutsWanted(request, session, need):
+                    question = self.waiting.open[session, request]
                     asked_for = need in self._planning
                     self._planning.setdefault(need, []).append(question)
                     if not asked_for:

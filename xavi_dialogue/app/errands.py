@@ -9,6 +9,8 @@ from xavi_dialogue.explain.explanation import NeedRollout
 from xavi_dialogue.transports.bus import Call
 from xavi_dialogue.transports.messages import AskRequest
 
+Name: TypeAlias = tuple[str, str]  # session, request
+
 MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
 
 
@@ -21,6 +23,11 @@ class Question:
     came: float  # [s] on the shell's clock
     begun: bool = False  # the manager has it
     ready: bool = False  # it waits for its turn alone
+
+    @property
+    def name(self) -> Name:
+        """What it is known by: others may give their requests the same names."""
+        return self.asked.session, self.asked.request
 
     @property
     def deadline(self) -> float:

@@ -103,11 +103,11 @@ class Reception:
             Refusal: it is not taken up.
         """
         desk, asked = self._admitted(call, AskRequest)
-        if (known := desk.waiting.open.get(asked.request)) is not None:
+        if (known := desk.waiting.open.get((asked.session, asked.request))) is not None:
             if known.asked == asked:  # it came twice, and is answered once
                 call.drop()
                 return
-            raise Refusal("busy", "a request of this name is open")
+            raise Refusal("busy", "a request of this name is open in this session")
         if (said := self.repeat(asked)) is not None:
             call.reply(said)
             return

@@ -35,6 +35,7 @@ from xavi_dialogue.transports.bus import (
     vehicle_in,
 )
 from xavi_dialogue.transports.messages import (
+    CAR_MESSAGES,
     MESSAGES,
     AnyMessage,
     EventReport,
@@ -53,8 +54,10 @@ _LOG = logging.getLogger(__name__)
 IDLE = 0.5  # [s] between looks at whether to stop
 HURRY = 0.05  # [s] between looks at whether what is missing still comes
 MAX_INBOX = 20_000  # messages; beyond them reports are left out, and requests refused
-CAR_MESSAGES = (SceneReport, TraceReport, EventReport)  # the car tells their schemas
-COUNTERS = ("questions", "answered", "declined", "busy", "rejected", "foreign", "what_ifs")
+COUNTERS = (
+    *("questions", "answered", "declined", "busy", "rejected", "foreign"),
+    *("what_ifs", "faults"),
+)
 
 _Job: TypeAlias = Callable[[], None]
 _Heard: TypeAlias = type[TraceReport | EventReport | SceneReport]
@@ -88,21 +91,25 @@ class Service:
 
     def open(self) -> None:
         """Declare what is heard and what is answered."""
-        bus, key, desk = self._bus, EVERY_CAR.of, self.reception
+        bus, key, reception = self._bus, EVERY_CAR.of, self.reception
         bus.watch(key("alive/car"), lambda key, alive: self._post(self._on_car, key, alive))
         bus.subscribe(key("trace"), self._hearer(TraceReport), kept=True)
         bus.subscribe(key("event"), self._hearer(EventReport), kept=True)
         bus.subscribe(key("scene"), self._hearer(SceneReport))
-        requests = {"cancel": desk.cancel, "forget": desk.forget, "history": self._history}
+        requests = {
+            "cancel": reception.cancel,
+            "forget": reception.forget,
+            "history": self._history,
+        }
         for name, handle in requests.items():
             bus.serve(key(f"@rpc/{name}"), partial(self._take, handle))
         bus.serve(key("@rpc/ask"), self._take_question)
         for name, message in MESSAGES.items():
-            if message not in CAR_MESSAGES:
+            if name not in CAR_MESSAGES:
                 bus.serve(key(f"@schema/{name}"), partial(_tell_schema, message))
-        self.alive.gauge("cars", lambda: sum(d.car_alive for d in [*desk.desks.values()]))
-        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in [*desk.desks.values()]))
-        self.alive.gauge("waiting", lambda: self.reception.waiting())
+        self.alive.gauge("cars", lambda: sum(d.car_alive for d in [*reception.desks.values()]))
+        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in [*reception.desks.values()]))
+        self.alive.gauge("waiting", reception.waiting)
         bus.serve(key("alive/service"), self.alive.answer)
         self._show(DEFAULT_VEHICLE)
 
@@ -121,7 +128,7 @@ class Service:
         """
         with contextlib.suppress(queue.Empty):
             wait = self._patience(patience)
-            _do(self._inbox.get(wait > 0.0, wait))
+            self._do(self._inbox.get(wait > 0.0, wait))
         while not stopped():
             self._empty_inbox()
             for desk in [*self.reception.desks.values()]:
@@ -133,17 +140,27 @@ class Service:
         for desk in [*self.reception.desks.values()] if idle else ():
             self._run(desk, desk.foresee(time.monotonic()))
 
+    def _do(self, job: _Job) -> None:
+        """Do one thing; should it fail through a fault of ours, all others are served on."""
+        try:
+            job()
+        except BusError:
+            pass  # who asked is gone
+        except Exception:
+            self.alive.count("faults")
+            _LOG.exception("a fault of ours")
+
     def _settle(self, desk: Desk) -> None:
         """Have a desk answer one question, and learn how long that takes."""
         ready, began = desk.waiting.ready, time.monotonic()
-        self._run(desk, desk.settle(began))
+        self._do(lambda: self._run(desk, desk.settle(began)))
         if ready:
             self.reception.learn(time.monotonic() - began)
 
     def _empty_inbox(self) -> None:
         with contextlib.suppress(queue.Empty):
             for _ in range(MAX_INBOX):  # else a flood would keep anybody from being answered
-                _do(self._inbox.get_nowait())
+                self._do(self._inbox.get_nowait())
 
     def _patience(self, patience: float) -> float:
         """How long [s] nothing has to be done unless something comes in."""
@@ -161,7 +178,8 @@ class Service:
     def _take(self, handle: Callable[[Call], None], call: Call) -> None:
         """Have a request handled; on a thread of the bus."""
         if self._inbox.qsize() > MAX_INBOX:
-            _do(lambda: call.refuse(pack(Failure(reason="busy", detail="too much comes in"))))
+            with contextlib.suppress(BusError):  # who asked is gone
+                call.refuse(pack(Failure(reason="busy", detail="too much comes in")))
         else:
             self._post(self._handle, handle, call)
 
@@ -177,6 +195,11 @@ class Service:
             known = {"vehicle": vehicle_in(call.key), "reason": refusal.failure.reason}
             _LOG.info("a request was refused", extra=known)
             call.refuse(pack(refusal.failure))
+        except BusError:
+            raise
+        except Exception:
+            call.refuse(pack(Failure(reason="planner-failed", detail="a fault of the service")))
+            raise
 
     def _history(self, call: Call) -> None:
         self.reception.history(call, self._dispatch.next())
@@ -248,10 +271,6 @@ class Service:
         self._run(desk, desk.deliver(errand, result))
 
 
-def _do(job: _Job) -> None:
-    with contextlib.suppress(BusError):  # who asked is gone
-        job()
-
-
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:
-    _do(lambda: call.reply(msgspec.json.encode(schema_of(message, schema_name(message)))))
+    with contextlib.suppress(BusError):  # who asked is gone
+        call.reply(msgspec.json.encode(schema_of(message, schema_name(message))))

@@ -3,7 +3,7 @@
 import heapq
 from dataclasses import dataclass, field
 
-from xavi_dialogue.app.errands import Question
+from xavi_dialogue.app.errands import Name, Question
 from xavi_dialogue.app.fair import FairQueue
 
 SPENT = 200  # questions that are over and still in the heap, before it is made anew
@@ -11,16 +11,16 @@ SPENT = 200  # questions that are over and still in the heap, before it is made 
 
 @dataclass
 class Waiting:
-    """Open questions, by the names of their requests."""
+    """Open questions, by the sessions and names of their requests."""
 
-    open: dict[str, Question] = field(default_factory=dict)  # in the order in which they came
+    open: dict[Name, Question] = field(default_factory=dict)  # in the order in which they came
     _turns: FairQueue[Question] = field(default_factory=FairQueue)  # those that are ready
     _deadlines: list[tuple[float, int, Question]] = field(default_factory=list)  # a heap
     _taken: int = 0
 
     def take(self, question: Question) -> None:
         """Add a question, which waits for the record."""
-        self.open[question.asked.request] = question
+        self.open[question.name] = question
         if len(self._deadlines) > len(self.open) + SPENT:
             self._deadlines = [one for one in self._deadlines if self.has(one[2])]
             heapq.heapify(self._deadlines)
@@ -29,7 +29,7 @@ class Waiting:
 
     def has(self, question: Question) -> bool:
         """Whether it is still open."""
-        return self.open.get(question.asked.request) is question
+        return self.open.get(question.name) is question
 
     def of(self, session: str) -> list[Question]:
         """The open questions of a session, oldest first."""

@@ -285,6 +285,8 @@ def schema_name(kind: type[msgspec.Struct]) -> str:
     return str(fields["schema"])
 
 
+#: Of these, the car tells the schemas; of all others, the service.
+CAR_MESSAGES = ("scene", "trace", "event_report")
 #: Every message by its name under `@schema/`.
 MESSAGES: dict[str, type[AnyMessage]] = {
     schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME, Keys
-from xavi_dialogue.transports.messages import MESSAGES
+from xavi_dialogue.transports.messages import CAR_MESSAGES, MESSAGES
 
 Deed: TypeAlias = Literal[
     "publish",
@@ -24,7 +24,6 @@ Deed: TypeAlias = Literal[
 ]
 Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
 
-CAR_MESSAGES = ("scene", "trace", "event_report", "plan_trace")  # whose schemas the car tells
 DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel")
 TURNS = "dialogue/*/turn"
 ROADS = "@blob/network"
@@ -86,7 +85,7 @@ ROLES: Mapping[str, Role] = {
                     "serve",
                     (
                         *("@rpc/whatif", ROADS, "alive/car"),
-                        *(f"@schema/{name}" for name in CAR_MESSAGES),
+                        *(f"@schema/{name}" for name in (*CAR_MESSAGES, "plan_trace")),
                     ),
                     own=True,
                 ),
