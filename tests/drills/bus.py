@@ -5,7 +5,7 @@ import threading
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -22,6 +22,7 @@ from xavi_dialogue.transports.messages import (
     HistoryReply,
     HistoryRequest,
     Message,
+    MessageError,
     SceneReport,
     TraceReport,
     pack,
@@ -30,6 +31,7 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.zenoh_bus import join
 
 M = TypeVar("M", bound=Message)
+RECENT = 50  # scenes among which the latest is
 
 
 @contextmanager
@@ -129,21 +131,28 @@ class Ear:
         bus.subscribe(self._keys.of("event"), self._into(EventReport, self.events), kept=True)
 
     @property
+    def latest(self) -> SceneReport | None:
+        """The latest scene of the latest ride, whatever overtook it."""
+        heard = self.scenes[-RECENT:]
+        same = [scene for scene in heard if scene.ride == heard[-1].ride]
+        return max(same, key=lambda scene: scene.seq, default=None)
+
+    @property
     def now(self) -> float:
         """The moment [s] of the latest scene."""
-        return self.scenes[-1].sim_time if self.scenes else -1.0
+        return -1.0 if self.latest is None else self.latest.sim_time
 
     @property
     def state(self) -> str:
-        return self.scenes[-1].state if self.scenes else ""
+        return "" if self.latest is None else self.latest.state
 
     def halted(self, at: float) -> bool:
         """Whether the ride halts at a moment [s], or ends before, and all of it has been heard."""
         return until(lambda: self._halted(at) and self.whole())
 
     def whole(self) -> bool:
-        """Whether all that was reported has been heard, in order, each once by ride."""
-        scene = self.scenes[-1] if self.scenes else None
+        """Whether all that was reported of the ride has been heard, in order, each once."""
+        scene = self.latest
         return scene is not None and all(
             numbers(heard, scene.ride) == list(range(count))
             for heard, count in ((self.traces, scene.traces), (self.events, scene.events))
@@ -162,9 +171,8 @@ class Ear:
 
     def _into(self, kind: type[M], heard: list[M]) -> Callable[[str, bytes], None]:
         def hear(_: str, payload: bytes) -> None:
-            report = unpack(payload, kind)
-            with self._lock:
-                heard.append(report)
+            with suppress(MessageError), self._lock:  # there are those who send nonsense
+                heard.append(unpack(payload, kind))
 
         return hear
 

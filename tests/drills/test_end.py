@@ -1,0 +1,93 @@
+"""Everybody who is told to end does so within three seconds, whatever they are at."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from tests.drills.bus import Ear, on_bus
+from tests.drills.processes import ENDED, Crew, Process, free_endpoint, until
+from tests.drills.stage import HALT, WHERE, WHY, staged
+
+TERM, INT = signal.SIGTERM, signal.SIGINT
+CROWD = 300  # questions; none of them is answered before the signal comes
+
+
+def statuses(number: int) -> tuple[int, ...]:
+    """Of a command that is ended by a signal: what shells say of it, or what it did."""
+    return (128 + number, -number)
+
+
+@pytest.mark.parametrize(
+    ("state", "number"), [("idle", TERM), ("planning", INT), ("full", TERM), ("answering", INT)]
+)
+def test_a_service_ends_in_every_state(
+    crew: Crew, tmp_path: Path, state: str, number: signal.Signals
+) -> None:
+    serve = ("--store", str(tmp_path / "dialogue.sqlite3"))
+    with staged(crew, at=2.0 if state == "idle" else HALT, serve=serve) as stage:
+        if state == "planning":
+            assert stage.ready()
+            for planner in stage.planners():
+                os.kill(planner, signal.SIGSTOP)
+            stage.passenger("ada").begin(WHY, HALT)
+            assert until(lambda: stage.ear.fares()["workers_idle"] == 0.0)
+        elif state in ("full", "answering"):
+            count = CROWD if state == "full" else 1
+            for asker in range(count):
+                stage.passenger(f"p{asker}").begin(WHERE, HALT)
+        assert stage.service.end(number) == 0
+        for planner in stage.planners():
+            os.kill(planner, signal.SIGCONT)
+
+
+@pytest.mark.parametrize(("state", "number"), [("starting", TERM), ("thinking", INT)])
+def test_a_chat_ends_in_every_state(crew: Crew, state: str, number: signal.Signals) -> None:
+    chat = crew.xavi("chat", "--scenario", "s1")
+    if state == "thinking":
+        chat.order(f"@ {HALT}s", WHERE)
+        chat.hear(1)
+        chat.order(WHY, WHY, WHY)
+    else:
+        assert until(lambda: bool(crew.pids("xavi_dialogue serve")))
+    assert chat.end(number) in statuses(number), chat.said
+    assert until(lambda: not crew.there(), ENDED), crew.there()
+
+
+def test_one_who_rides_along_ends_and_leaves_the_others_alone(crew: Crew) -> None:
+    with staged(crew) as stage:
+        chat = crew.xavi("chat", "--connect", stage.endpoint)
+        chat.order(WHERE)
+        chat.hear(1)
+        assert chat.end(TERM) in statuses(TERM), chat.said
+        assert stage.passenger("ada").ask(WHERE, HALT).kind == "answer"
+
+
+@pytest.mark.parametrize("number", [TERM, INT])
+def test_recorder_and_player_end_with_all_in_the_file(
+    crew: Crew, tmp_path: Path, number: signal.Signals
+) -> None:
+    file = tmp_path / "ride.mcap"
+    with staged(crew, at=4.0) as stage:
+        recorder = crew.xavi("record", str(file), "--connect", stage.endpoint)
+        assert recorder.says("recording into")
+        assert until(lambda: stage.ear.fares("recorder")["messages"] >= len(stage.ear.traces) + 3)
+        assert recorder.end(number) == 0, recorder.said
+        decisions = [report.trace.trace_id for report in stage.ear.traces]
+        assert stage.car.end(number) == 128 + number
+    endpoint = free_endpoint()
+    crew.serve(endpoint, "--keep-days", "0")
+    player = play(crew, file, endpoint)
+    with on_bus(endpoint) as bus:
+        ear = Ear(bus)
+        assert until(lambda: ear.now >= 3.9 and ear.whole()), player.said
+        assert [report.trace.trace_id for report in ear.traces] == decisions
+        assert player.end(number) in (0, *statuses(number)), player.said
+    early = play(crew, file, free_endpoint())  # where nobody hosts a bus
+    assert until(lambda: "zenoh" in Path(f"/proc/{early.pid}/maps").read_text())
+    assert early.end(number) in (0, *statuses(number)), early.said
+
+
+def play(crew: Crew, file: Path, endpoint: str) -> Process:
+    return crew.xavi("replay", str(file), "--connect", endpoint, "--speed", "10")
