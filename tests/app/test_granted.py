@@ -22,7 +22,8 @@ from xavi_dialogue.app.service import Service
 from xavi_dialogue.transports.bus import EVERY_CAR, Bus, Keys, NoAnswer, call
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.mcap_file import McapWriter
-from xavi_dialogue.transports.roles import CAR_MESSAGES, ROLES
+from xavi_dialogue.transports.messages import CAR_MESSAGES
+from xavi_dialogue.transports.roles import ROLES
 from xavi_dialogue.transports.zenoh_bus import host, join
 
 DECLARES = {
@@ -100,7 +101,7 @@ def test_a_car_does_what_it_may_and_takes_no_orders(
     assert beyond("car", done) == []
     served = {key for deed, key in done if deed == "serve"}
     facts = {CAR.of("alive/car"), CAR.of("@blob/network")}
-    facts |= {CAR.of(f"@schema/{name}") for name in CAR_MESSAGES}
+    facts |= {CAR.of(f"@schema/{name}") for name in (*CAR_MESSAGES, "plan_trace")}
     assert served - facts == {CAR.of("@rpc/whatif")}
     assert {deed for deed, _ in done if deed.startswith("subscribe")} == set()
 
