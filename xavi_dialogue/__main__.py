@@ -128,7 +128,7 @@ def _note(text: str) -> None:
         from xavi_dialogue.transports.commands import wrapper
 
         line = wrapper(get_terminal_size().columns).fill(line)
-    print(line, file=sys.stderr, flush=True)
+    print(f"{line}\n", end="", file=sys.stderr, flush=True)  # in one piece, whatever else writes
 
 
 SHELL = Shell(_errors, _write, _note, _lines)

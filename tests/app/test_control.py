@@ -115,3 +115,22 @@ def test_listening_ends_with_the_stream(monkeypatch: pytest.MonkeyPatch) -> None
     orders: Orders = queue.SimpleQueue()
     control.listen(io.StringIO("pause\nnonsense\nspeed 3\n"), orders)
     assert [orders.get(timeout=2.0) for _ in range(3)] == [Pause(), Speed(3.0), Quit()]
+
+
+def test_lines_that_are_no_orders_are_told_to_who_wants_to_know(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from xavi_dialogue.app import control
+
+    monkeypatch.setattr(control, "PATIENCE", 3600.0)  # the thread would end this process
+    orders, refused = queue.SimpleQueue[Order](), list[str]()
+    lines = io.StringIO(f"bogus\nspeed -3\n\n{'x' * 1000}\n\x1b[2J\npause\n")
+    control.listen(lines, orders, refused.append)
+    assert [orders.get(timeout=2.0) for _ in range(2)] == [Pause(), Quit()]
+    such = "is no order, such as pause, resume or speed 2.0"
+    assert refused == [
+        f"'bogus' {such}",
+        "'-3' is no number from 0 on",
+        f"'{'x' * control.SHOWN}' {such}",
+        f"'\\x1b[2J' {such}",
+    ]

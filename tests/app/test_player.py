@@ -371,3 +371,16 @@ def test_a_passenger_who_is_taken_back_asks_about_that_moment(tape: Tape) -> Non
     assert client.now() == 6.0
     one.go_to(tape.index_at(2.0))
     assert client.now() == 2.0
+
+
+def test_where_a_recording_ends_is_told_to_who_wants_to_go_beyond(tmp_path: Path) -> None:
+    tape = recorded(tmp_path / "ride.mcap", iter(list(s1_moments())[:5]))
+    hub, notes = MemoryHub(), list[str]()
+    told: control.Orders = queue.SimpleQueue()
+    for order in (control.Seek(1.0), control.Seek(15.0), control.Until(2.0), control.Until(9.0)):
+        told.put(order)
+    told.put(control.Quit())
+    pace = Pace(0.0, running=False)
+    Player(tape, hub.connect(), KEYS, pace, note=notes.append).play(told, stays=True)
+    assert tape.times[-1] == 2.0
+    assert notes == ["the recording ends at 0:02"] * 2

@@ -186,3 +186,54 @@ def test_what_is_no_recording_is_told_in_one_line(
         hub.running.append(process)
     _, told = process.communicate(timeout=PATIENCE)
     assert (process.returncode, told) == (2, f"xavi: {path} is not an MCAP file\n")
+
+
+def asked(hub: Hub, root: Path, lines: str, *arguments: str) -> tuple[str, str]:
+    """What `xavi replay` answers through a pipe, and what it notes."""
+    command = [sys.executable, "-m", "xavi_dialogue", "replay", *arguments, "--keep-days", "0"]
+    process = subprocess.Popen(
+        command,
+        cwd=root,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    hub.running.append(process)
+    told = process.communicate(lines, timeout=2 * PATIENCE)
+    assert process.returncode == 0, told[1]
+    return told
+
+
+def test_past_its_end_a_recording_is_asked_about_its_last_moment(
+    hub: Hub, tmp_path: Path, root: Path
+) -> None:
+    path, whole = tmp_path / "ride.mcap", tmp_path / "whole.mcap"
+    recorded(path, iter(list(s1_moments())[:5]))
+    recorded(whole, s1_moments())
+    question = "What are you doing?\n"
+    said, notes = asked(hub, root, f"@ 2.0s\n{question}@ 15s\n{question}", str(path))
+    first, second = said.splitlines()
+    assert first.endswith("going straight on at 36 km/h.")
+    assert second.endswith("going straight on at 36 km/h.")
+    assert notes.count("the recording ends at 0:02") == 1
+    from_there, notes = asked(hub, root, question, str(path), "--from", "15")
+    assert from_there == f"{first}\n"
+    assert "the recording ends at 0:02" in notes
+    [over] = asked(hub, root, f"@ 99s\n{question}", str(whole))[0].splitlines()
+    assert "longer than I may keep you waiting" not in over
+
+
+def test_lines_that_are_no_orders_are_told(hub: Hub, tmp_path: Path) -> None:
+    path = tmp_path / "ride.mcap"
+    recorded(path, iter(list(s1_moments())[:5]))
+    player = hub.start("replay", str(path), "--log", "off")
+    _, told = player.communicate("bogus\nspeed -3\nseek 15\nquit\n", timeout=PATIENCE)
+    assert player.returncode == 0
+    lines = told.splitlines()
+    for line in (
+        "xavi: 'bogus' is no order, such as pause, resume or speed 2.0",
+        "xavi: '-3' is no number from 0 on",
+        "xavi: the recording ends at 0:02",
+    ):
+        assert lines.count(line) == 1

@@ -11,7 +11,7 @@ from xavi_dialogue.app.convoy import Company, Convoy, convoy, convoy_of, first_s
 from xavi_dialogue.app.identity import Passenger
 from xavi_dialogue.app.memory import Keeping
 from xavi_dialogue.app.minutes import Minutes
-from xavi_dialogue.app.piped import Piped, Write
+from xavi_dialogue.app.piped import Piped, Write, reached
 from xavi_dialogue.app.talking import Typed, Unasked, talk, warner
 from xavi_dialogue.transports.bus import Bus, Keys
 from xavi_dialogue.transports.commands import CommandError
@@ -63,6 +63,7 @@ def through_pipe(
         with suppress(CommandError):  # there is no car any more, which has been told
             scene = behind.drive(client, control.Until(ride.resume), halt=True)
         at = scene.sim_time if ride.resume is None else ride.resume
+        at = reached(scene, at) if behind.seeks else at
         note(f"asking at {at:.1f} s")
         minutes = Minutes(client, ride.passenger.session, ride.header)
         piped = Piped(behind, client, minutes, write, note, as_json, scene, at)

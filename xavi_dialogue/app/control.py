@@ -9,9 +9,11 @@ import os
 import queue
 import signal
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import IO, TypeAlias
 
+SHOWN = 40  # characters of a line that is no order
 PATIENCE = 5.0  # [s] that a process told to end may take before it is ended
 
 
@@ -93,21 +95,28 @@ def read(line: str) -> Order:
             return Until(_number(time))
         case ["seek", time]:
             return Seek(_number(time))
-    raise OrderError(f"{line.strip()!r} is no order")
+    raise OrderError(f"{line.strip()[:SHOWN]!r} is no order, such as pause, resume or speed 2.0")
 
 
-def listen(stream: IO[str], orders: Orders) -> None:
+def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None = None) -> None:
     """Put the orders that come in into a queue, from a thread; at the end of the stream, Quit.
 
     The process ends by force if it is still there some seconds after that.
+
+    Args:
+        stream: of lines.
+        orders: where they go.
+        refuse: gets what is wrong with a line that is none; a newer parent may know more
+            orders, so that what it says is left at that.
     """
 
     def follow() -> None:
         for line in stream:
             try:
                 orders.put(read(line))
-            except OrderError:
-                continue  # a newer parent may know more orders
+            except OrderError as error:
+                if refuse is not None and line.strip():
+                    refuse(str(error))
         orders.put(Quit())
         threading.Event().wait(PATIENCE)
         os._exit(os.EX_TEMPFAIL)
@@ -168,5 +177,5 @@ def _number(text: str) -> float:
     except ValueError:
         number = math.nan
     if not 0.0 <= number < math.inf:
-        raise OrderError(f"{text!r} is no number from 0 on")
+        raise OrderError(f"{text[:SHOWN]!r} is no number from 0 on")
     return number

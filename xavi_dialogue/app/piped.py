@@ -26,6 +26,15 @@ HELP = (
 )
 
 
+def reached(scene: SceneReport, wanted: float) -> float:
+    """The moment [s] that can be asked about in a recording that has gone there.
+
+    That is the moment that is wanted, unless the recording stops before it in mid-ride: what
+    comes then is known to nobody.
+    """
+    return min(wanted, scene.sim_time) if scene.state == "paused" else wanted
+
+
 @dataclass
 class Piped:
     """A conversation line by line, about a ride that halts between questions unless it is live."""
@@ -70,6 +79,7 @@ class Piped:
     def _move(self, at: float) -> None:
         if self.seeks:
             self.scene = self.behind.drive(self.client, control.Seek(at), halt=True)
+            at = reached(self.scene, at)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
         self.at = at  # not where the ride cannot go there: nothing could be said about it

@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from secrets import token_hex
 from typing import TypeAlias
@@ -24,6 +25,7 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.car import COUNTERS, SHOWN_EVERY, Pace, serve
 from xavi_dialogue.app.company import Dismissed, claim
+from xavi_dialogue.app.narration import clock
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.app.ride import Moment
@@ -57,6 +59,7 @@ class Player:
     keys: Keys
     pace: Pace
     record: Callable[[Moment], None] = lambda _: None  # gets every decision that is published
+    note: Note = lambda _: None  # takes what whoever gives orders should know
     alive: Alive = field(default_factory=lambda: Alive("car", COUNTERS))
     ride: str = field(default_factory=lambda: token_hex(4))
     index: int = 0  # of the scene that is shown
@@ -126,9 +129,18 @@ class Player:
             return
         self.pace.obey(order)
         index = self.index
-        if isinstance(order, control.Seek):
-            index = self.tape.index_at(order.time)
+        match order:
+            case control.Seek(time):
+                self.tell_end(time)
+                index = self.tape.index_at(time)
+            case control.Until(float(time)):
+                self.tell_end(time)
         self.go_to(index)
+
+    def tell_end(self, wanted: float) -> None:
+        """Tell where the recording ends, if a moment [s] lies beyond."""
+        if self.tape.ends_before(wanted):
+            self.note(f"the recording ends at {clock(self.tape.times[-1])}")
 
     def _publish_record(self) -> SceneReport:
         """Publish the decisions and events that were known when the scene was seen."""
@@ -235,14 +247,22 @@ def replay(show: Show, note: Note) -> None:
     alive = Alive("car", COUNTERS)
     with suppress(Dismissed), join(show.link, HUB_PATIENCE) as bus:
         claim(bus, keys, signals)
-        control.listen(sys.stdin, orders)
+        control.listen(sys.stdin, orders, None if show.controlled else note)
         with planning_for(tape, bus, keys, alive, note) as (planning, record):
             serve(bus, keys, planning, alive)
             if not show.controlled:
                 note(f"playing {tape.times[-1]:.1f} s of {tape.vehicle} as {keys.vehicle}")
             pace = Pace(show.speed, running=not show.controlled)
-            start = tape.index_at(show.start)
-            Player(tape, bus, keys, pace, record, alive, index=start).play(orders, stays=True)
+            tell = partial(_warn, note) if show.controlled else note
+            player = Player(tape, bus, keys, pace, record, tell, alive)
+            player.tell_end(show.start)
+            player.index = tape.index_at(show.start)
+            player.play(orders, stays=True)
+
+
+def _warn(note: Note, text: str) -> None:
+    """Tell whoever talks about a recording, over the process that plays it."""
+    note(f"warning: {text}")
 
 
 @contextmanager

@@ -199,6 +199,10 @@ class Tape:
         """The first scene from a moment [s] on; the last one where there is none."""
         return min(bisect_left(self.times, time - EPSILON), len(self.times) - 1)
 
+    def ends_before(self, time: float) -> bool:
+        """Whether a moment [s] lies beyond the last scene."""
+        return self.times[-1] < time - EPSILON
+
     @property
     def finished(self) -> bool:
         """Whether the ride was over when the recording ended."""
@@ -309,7 +313,7 @@ def _chosen(reading: _Reading, vehicle: str | None) -> str:
     if vehicle is None and len(names) > 1:
         raise NothingToPlay(f"it holds several cars; name one with --car: {listed}")
     if vehicle is not None and vehicle not in names:
-        raise NothingToPlay(f"it holds no car {vehicle}; there is: {listed}")
+        raise NothingToPlay(f"it holds no car {vehicle!r}; there is: {listed}")
     return vehicle or names[0]
 
 
