@@ -31,7 +31,7 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.transports.recording import Attached, Entry, tape_of
+from xavi_dialogue.transports.recording import OVERHEAD, Attached, Entry, tape_of
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
 
@@ -250,7 +250,7 @@ def test_nonsense_is_left_out_and_counted(studio: Studio) -> None:
 
 def test_a_flood_is_not_held_in_memory(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     studio.recorder.open()
-    monkeypatch.setattr(recording_app, "MAX_WAITING", 3 * len(turn(0)))
+    monkeypatch.setattr(recording_app, "MAX_WAITING", 3 * (len(turn(0)) + OVERHEAD))
     publisher = studio.hub.connect().publisher(Keys().of("dialogue/ada/turn"))
     for seq in range(5):
         publisher.put(turn(seq))
@@ -258,3 +258,39 @@ def test_a_flood_is_not_held_in_memory(studio: Studio, monkeypatch: pytest.Monke
     publisher.put(turn(5))
     assert [one.seq for one in studio.entries()] == [0, 1, 2, 5]
     assert studio.recorder.alive.counted("dropped") == 2
+
+
+def test_a_flood_keeps_nobody_from_stopping(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recording_app, "AT_ONCE", 10)
+    studio.recorder.open()
+    publisher = studio.hub.connect().publisher(Keys().of("dialogue/ada/turn"))
+    add, numbers = studio.file.add, iter(range(1, 1000))
+
+    def add_and_hear_more(entry: Entry) -> bool:
+        """For every message that is written another one comes."""
+        publisher.put(turn(next(numbers)))
+        return add(entry)
+
+    monkeypatch.setattr(studio.file, "add", add_and_hear_more)
+    publisher.put(turn(0))
+    studio.recorder.work()
+    assert studio.recorder.alive.counted("messages") == 10
+    studio.recorder.work()
+    assert studio.recorder.alive.counted("messages") == 20
+    studio.recorder.finish()
+    assert [one.seq for one in studio.entries()] == list(range(21))
+
+
+def test_messages_without_content_wait_in_no_greater_number(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recording_app, "MAX_WAITING", 3 * OVERHEAD)
+    studio.recorder.open()
+    publisher = studio.hub.connect().publisher(Keys().of("scene"))
+    for _ in range(5):
+        publisher.put(b"")
+    studio.recorder.finish()
+    counted = studio.recorder.alive.counted
+    assert (counted("dropped"), counted("rejected")) == (2, 3)

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -31,6 +32,7 @@ from xavi_dialogue.transports.messages import (
 from xavi_dialogue.transports.recording import (
     MAX_PACKED,
     MIB,
+    OVERHEAD,
     Entry,
     kind_of,
     network_name,
@@ -45,6 +47,7 @@ NETWORK_PATIENCE = 10.0  # [s] for a car to tell its roads
 FLUSHED_EVERY = 1.0  # [s]
 LOOK = 0.2  # [s] between looks at whether to stop
 MAX_WAITING = 64 * MIB  # bytes that wait to be written; beyond them messages are left out
+AT_ONCE = 500  # messages that are written before one looks whether to flush or to stop
 MAX_RIDES = 200  # that the file describes
 MAX_APART = 10_000  # numbers that are remembered of a ride because some before them are missing
 COUNTERS = ("messages", "bytes", "dropped", "rejected")
@@ -89,6 +92,7 @@ class Recorder:
         self._bus, self._keys, self._file, self._note = bus, keys, file, note
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
         self._waiting = 0  # bytes
+        self._over = False
         self._lock = threading.Lock()
         self._numbers: dict[tuple[str, str], Numbers] = {}  # of a key and a ride
         self._rides: set[tuple[str, str]] = set()
@@ -107,33 +111,45 @@ class Recorder:
         _LOG.info("recording", extra={"vehicle": self._keys.vehicle})
 
     def work(self, patience: float = 0.0) -> None:
-        """Write what came in, waiting up to `patience` [s] for it.
+        """Write some of what came in, waiting up to `patience` [s] for it.
 
         Raises:
             Unwritable: the file cannot be written any further.
         """
-        try:
+        with suppress(queue.Empty):
             self._inbox.get(patience > 0.0, patience)()
-            while True:
+            for _ in range(AT_ONCE - 1):
                 self._inbox.get_nowait()()
-        except queue.Empty:
-            pass
         if time.monotonic() >= self._flushed + FLUSHED_EVERY:
             self._file.flush()
             self._flushed = time.monotonic()
 
-    def _hear(self, key: str, payload: bytes) -> None:
+    def finish(self) -> None:
+        """Hear no more, and write all that waits.
+
+        Raises:
+            Unwritable: the file cannot be written any further.
+        """
         with self._lock:
-            full = self._waiting + len(payload) > MAX_WAITING
-            self._waiting += 0 if full else len(payload)
+            self._over = True
+        while not self._inbox.empty():
+            self.work()
+
+    def _hear(self, key: str, payload: bytes) -> None:
+        size = len(payload) + OVERHEAD
+        with self._lock:
+            if self._over:
+                return
+            full = self._waiting + size > MAX_WAITING
+            if not full:
+                self._waiting += size
+                self._inbox.put(partial(self._take, key, payload, time.time_ns()))
         if full:
             self.alive.count("dropped")
-        else:
-            self._inbox.put(partial(self._take, key, payload, time.time_ns()))
 
     def _take(self, key: str, payload: bytes, came: int) -> None:
         with self._lock:
-            self._waiting -= len(payload)
+            self._waiting -= len(payload) + OVERHEAD
         vehicle, kind = vehicle_in(key), kind_of(key)
         try:
             report = None if kind is None else unpack(payload, kind)
@@ -227,7 +243,7 @@ def record(task: Task, note: Note) -> None:
             note(f"recording into {task.path}; Ctrl-C ends it")
         while orders.empty() or not isinstance(orders.get(), control.Quit):
             recorder.work(LOOK)
-        recorder.work()
+        recorder.finish()
     note(f"{file.messages} messages are in {task.path}")
     dropped = recorder.alive.counted("dropped")
     if dropped:
