@@ -90,10 +90,10 @@ def test_who_is_there_in_place_of_the_car_is_named(town: Town) -> None:
     town.serve()
     assert "no car at all" in missing(town)
     town.drive("bus-7")
-    assert missing(town) == "there is no car car; there is bus-7"
+    assert missing(town) == "there is no car 'car'; there is bus-7"
     town.drive(*(f"taxi-{number:02d}" for number in range(30)), "evil\x1b[2Jname")
     assert missing(town) == (
-        "there is no car car; there are bus-7, "
+        "there is no car 'car'; there are bus-7, "
         + ", ".join(f"taxi-{number:02d}" for number in range(9))
         + " and 21 more"
     )
@@ -105,7 +105,7 @@ def test_a_car_that_says_nothing_is_told_from_one_that_is_not_there(
     town.serve()
     town.drive("car")
     monkeypatch.setattr(Town, "show", lambda _: None)
-    assert missing(town) == "the car car is there, but says nothing"
+    assert missing(town) == "the car 'car' is there, but says nothing"
 
 
 def test_cars_come_and_go() -> None:

@@ -28,6 +28,7 @@ class Ride:
     keeping: Keeping | None = None  # of what is said; None: it is not kept
     resume: float | None = None  # [s] how far to drive before anything is asked
     record: Path | None = None  # file that the ride is recorded in
+    overwrite: bool = False  # where that is there already
     played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording of it
 
     @property
@@ -56,7 +57,7 @@ def through_pipe(
         ServiceLost: a question was not answered.
     """
     note(f"playing {ride.name}" if ride.played else f"driving {ride.name}, seed {ride.seed}")
-    company = Company(ride.record, warner(note), note)
+    company = Company(ride.record, ride.overwrite, warner(note), note)
     with _behind(ride, speed, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys())
         scene = first_scene(behind, client)
@@ -86,7 +87,7 @@ def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None
         ChildFailed: a process did not start, or ended too often.
     """
     unasked = Unasked(note)
-    company = Company(ride.record, unasked.warn, unasked.tell)
+    company = Company(ride.record, ride.overwrite, unasked.warn, unasked.tell)
     first = speed if ride.resume is None else 0.0
     with _behind(ride, first, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys(), unasked.on_event)

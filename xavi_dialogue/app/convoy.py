@@ -116,6 +116,7 @@ class Company:
     """What else there is to a convoy besides its car."""
 
     record: Path | None = None  # file that the ride is recorded in
+    overwrite: bool = False  # where that is there already
     warn: Tell = lambda _: None  # gets the service's warnings, on a thread
     tell: Tell = lambda _: None  # gets what the passenger should know, on a thread
 
@@ -221,6 +222,7 @@ def _recorder(stack: ExitStack, company: Company, endpoint: str) -> Expendable |
     if company.record is None:
         return None
     record = ["record", str(company.record.absolute()), "--connect", endpoint]
+    record += ["--force"] if company.overwrite else []
     child = stack.enter_context(Child("the recorder", record, company.warn))
     return Expendable(child, company.tell)
 

@@ -157,10 +157,10 @@ def _wait_for(there: There, client: Client, cars: Cars, patience: float) -> None
     give_up = time.monotonic() + patience
     while there.vehicle not in cars.names:
         if time.monotonic() > give_up:
-            raise Missing(f"there is no car {there.vehicle}; {cars.told()}")
+            raise Missing(f"there is no car {there.vehicle!r}; {cars.told()}")
         time.sleep(POLL)
     if client.wait_for(lambda _: True, lambda: None, patience) is None:
-        raise Missing(f"the car {there.vehicle} is there, but says nothing")
+        raise Missing(f"the car {there.vehicle!r} is there, but says nothing")
 
 
 def through_pipe(

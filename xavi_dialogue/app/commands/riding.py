@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from secrets import token_hex
@@ -61,6 +62,9 @@ def _chat(shell: Shell) -> Callable[..., None]:
             Path | None,
             typer.Option(dir_okay=False, metavar="FILE", help="Record the ride (MCAP)."),
         ] = None,
+        force: Annotated[
+            bool, typer.Option("--force", help="Of --record: overwrite a file that is there.")
+        ] = False,
         store: StoreFile = None,
         keep_days: KeepDays = KEEP_DAYS,
     ) -> None:
@@ -69,14 +73,27 @@ def _chat(shell: Shell) -> Callable[..., None]:
             keeping = keeping_in(store, keep_days)
             there = _there(connect, zenoh, vehicle)
             if there is None:
-                if record is not None and record.exists():
-                    raise typer.BadParameter(f"{record} is there already; name another file")
-                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, record)
+                taped = None if record is None else _Tape(record, force)
+                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, taped)
                 return
-            _alone(scenario=scenario, seed=seed, speed=speed, record=record)
+            _alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
             _ride_along(shell, there, session, as_json, keeping, share)
 
     return chat
+
+
+class _Tape:
+    """Where a ride is recorded."""
+
+    def __init__(self, path: Path, overwrite: bool) -> None:
+        """Make sure that nothing is lost.
+
+        Raises:
+            BadParameter: the file is there already, and is not to be overwritten.
+        """
+        if path.exists() and not overwrite:
+            raise typer.BadParameter(f"{path} is there already; --force overwrites it")
+        self.path, self.overwrite = path, overwrite
 
 
 def _drive(
@@ -88,7 +105,7 @@ def _drive(
     as_json: bool,
     keeping: "Keeping | None",
     share: bool,
-    record: Path | None,
+    tape: _Tape | None,
 ) -> None:
     """Talk in a car of one's own."""
     from xavi_dialogue.app import going_on
@@ -100,9 +117,12 @@ def _drive(
     loaded = shell.load(going.place(scenario))
     seed = going.seed(seed, loaded)
     at = going.moment(loaded, seed)
-    shell.note(going.note(at, keeping))
+    if session is None or keeping is None or going.before is not None:
+        shell.note(going.note(at, keeping))
     passenger = _passenger(going.session, share, kept=keeping is not None)
-    ride = Ride(str(loaded.folder), loaded.name, seed, passenger, keeping, at, record)
+    ride = Ride(str(loaded.folder), loaded.name, seed, passenger, keeping, at)
+    if tape is not None:
+        ride = replace(ride, record=tape.path, overwrite=tape.overwrite)
     if _terminal(as_json):
         pace = 1.0 if speed is None else speed
         at_terminal(ride, typed_file(), shell.note, speed=pace)
