@@ -88,7 +88,7 @@ def company(
     """
     alive = Alive("car", COUNTERS)
     with ExitStack() as stack:
-        bus = _joined(link, signals)
+        bus = joined(link, signals)
         stack.callback(_leave, bus)
         claim(bus, keys, signals)
         outbox = Outbox(bus, alive)
@@ -146,7 +146,14 @@ class Attendance:
         self._lost = not there
 
 
-def _joined(link: Link, signals: Signals) -> ZenohBus:
+def joined(link: Link, signals: Signals) -> ZenohBus:
+    """Join the bus, waiting for its hub.
+
+    Raises:
+        HubUnreachable: there is no hub.
+        BadLink: the configuration of the link cannot be used.
+        Dismissed: told to quit meanwhile.
+    """
     give_up = time.monotonic() + HUB_PATIENCE
     while not signals.told:
         try:

@@ -24,7 +24,7 @@ from sim.scene import Scene
 from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.car import COUNTERS, SHOWN_EVERY, Pace, serve
-from xavi_dialogue.app.company import Dismissed, claim
+from xavi_dialogue.app.company import Dismissed, claim, joined
 from xavi_dialogue.app.narration import clock
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
@@ -42,9 +42,7 @@ from xavi_dialogue.transports.messages import (
     pack,
 )
 from xavi_dialogue.transports.recording import RecordingError, Tape, tape_of, unpacked
-from xavi_dialogue.transports.zenoh_bus import join
 
-HUB_PATIENCE = 10.0  # [s] for the hub to come up
 NO_ROADS = "the recording holds no roads to plan on"
 
 Note: TypeAlias = Callable[[str], None]
@@ -245,7 +243,7 @@ def replay(show: Show, note: Note) -> None:
     tape = load(show.path, show.car, note)
     keys = Keys(show.vehicle or tape.vehicle)
     alive = Alive("car", COUNTERS)
-    with suppress(Dismissed), join(show.link, HUB_PATIENCE) as bus:
+    with suppress(Dismissed), joined(show.link, signals) as bus:
         claim(bus, keys, signals)
         control.listen(sys.stdin, orders, None if show.controlled else note)
         with planning_for(tape, bus, keys, alive, note) as (planning, record):

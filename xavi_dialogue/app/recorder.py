@@ -18,6 +18,7 @@ from typing import TypeAlias
 from xavi_dialogue import __version__
 from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.company import Dismissed, joined
 from xavi_dialogue.app.roads import NETWORK
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, EVERY_CAR, Bus, Keys, Outcome, vehicle_in
 from xavi_dialogue.transports.link import Link
@@ -38,11 +39,9 @@ from xavi_dialogue.transports.recording import (
     network_name,
     unpacked,
 )
-from xavi_dialogue.transports.zenoh_bus import join
 
 _LOG = logging.getLogger(__name__)
 EVERY = "all"  # stands for the name of a car: all of them
-HUB_PATIENCE = 10.0  # [s] for the hub to come up
 NETWORK_PATIENCE = 10.0  # [s] for a car to tell its roads
 FLUSHED_EVERY = 1.0  # [s]
 LOOK = 0.2  # [s] between looks at whether to stop
@@ -229,12 +228,17 @@ def record(task: Task, note: Note) -> None:
         RecordingError: the file cannot be written, or is there already.
     """
     orders: control.Orders = queue.SimpleQueue()
-    control.quit_on_signals(orders)
+    signals = control.Signals()
+    signals.listen(orders)
     if task.controlled:
         control.listen(sys.stdin, orders)
     keys = EVERY_CAR if task.vehicle == EVERY else Keys(task.vehicle)
+    try:
+        connection = joined(task.link, signals)
+    except Dismissed:
+        return
     with (
-        join(task.link, HUB_PATIENCE) as bus,
+        connection as bus,
         McapWriter(task.path, __version__, overwrite=task.overwrite) as file,
     ):
         recorder = Recorder(bus, keys, file, note)

@@ -105,7 +105,8 @@ def work(network: Network, orders: "queue.SimpleQueue[bytes]", out: IO[bytes]) -
 def _listen(stream: IO[bytes], orders: "queue.SimpleQueue[bytes]") -> None:
     """Take down orders; the process ends with the stream, whatever it is doing."""
     for line in stream:
-        orders.put(line)
+        if line.endswith(b"\n"):  # else whoever wrote it died meanwhile
+            orders.put(line)
     os._exit(os.EX_OK)
 
 
