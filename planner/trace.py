@@ -12,9 +12,10 @@ from typing import Literal
 
 import msgspec
 
-from sim.scene import Point, VehicleState
+from sim.scene import EGO, Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/1"
+LARGEST = 1e6  # of a component, in its unit; nothing that a car does is beyond it
 MAX_BYTES = 256 * 1024
 IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
@@ -289,14 +290,19 @@ def decode(data: bytes) -> PlanTrace:
         raise TraceError(f"not a plan trace: {error}") from error
     if trace.schema != SCHEMA:
         raise TraceError(f"trace schema is {trace.schema!r}; this version reads {SCHEMA!r}")
-    fault = _fault(trace)
+    fault = fault_of(trace)
     if fault is not None:
         raise TraceError(f"not a plan trace: {fault}")
     return trace
 
 
-def _fault(trace: PlanTrace) -> str | None:
+def fault_of(trace: PlanTrace) -> str | None:
     """What in a trace does not fit together, if anything."""
+    if EGO not in trace.scene or EGO not in trace.history:
+        return "there is no ego"
+    numbers = (value for one in trace.rollouts for value in one.components.values())
+    if any(value is not None and abs(value) > LARGEST for value in numbers):
+        return f"a component beyond {LARGEST:g}"
     for vehicle, track in trace.history.items():
         if not len(track.position) == len(track.heading) == len(track.speed) > 0:
             return f"the history of vehicle {vehicle} has lists of different lengths, or is empty"

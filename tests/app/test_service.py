@@ -3,7 +3,7 @@
 import json
 import sqlite3
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 
@@ -13,6 +13,7 @@ import pytest
 from planner import trace as plan_trace
 from planner.events import Event
 from tests.fakes import again, s1_moments, scripted_mind
+from xavi_dialogue.app import memory
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.desk import MAX_PAST
 from xavi_dialogue.app.errands import Answer
@@ -49,7 +50,7 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.transports.store import DAY, NewTurn, RideName, Store
+from xavi_dialogue.transports.store import DAY, New, NewTurn, RideName, Store
 
 KEYS = Keys()
 ASK = KEYS.of("@rpc/ask")
@@ -144,7 +145,7 @@ def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
 
 
 def test_reports_may_come_in_any_order() -> None:
-    items: InOrder[str] = InOrder()
+    items: InOrder[str] = InOrder(9)
     assert items.add(1, "b") == []
     assert items.add(0, "a") == ["a", "b"]
     assert items.add(0, "a") == []
@@ -152,14 +153,14 @@ def test_reports_may_come_in_any_order() -> None:
 
 
 def test_who_joins_late_begins_with_what_is_still_kept() -> None:
-    items: InOrder[str] = InOrder()
+    items: InOrder[str] = InOrder(9)
     assert items.add(7, "h") == []
     assert items.begin(0) == []
     assert items.begin(6) == []  # the seventh may still come
     assert items.add(6, "g") == ["g", "h"]
     assert items.begin(5) == []
     assert items.add(8, "i") == ["i"]
-    late: InOrder[str] = InOrder()
+    late: InOrder[str] = InOrder(9)
     assert [late.add(3, "d"), late.add(4, "e")] == [[], []]
     assert late.begin(4) == ["d", "e"]  # a little more was kept than had to be
 
@@ -394,6 +395,56 @@ def test_a_client_without_a_service_is_told_so(bench: Bench) -> None:
     alone = Client(MemoryHub().connect(), KEYS, "ada")
     with pytest.raises(ServiceLost, match="does not answer"):
         alone.ask("why?")
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file that fails is tried again at once."""
+    monkeypatch.setattr(memory, "REST", 0.0)
+
+
+def test_a_file_that_holds_everybody_up_is_left_alone_for_a_while(
+    kept: Keeping, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Store(kept.path):
+        pass
+    other = sqlite3.connect(kept.path, isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    tries: list[int] = []
+    keep = Store.keep
+
+    def counted(store: Store, news: Iterable[New]) -> None:
+        tries.append(1)
+        keep(store, news)
+
+    monkeypatch.setattr(Store, "keep", counted)
+    bench = Bench(Memory(kept))
+    bench.drive()
+    monkeypatch.setattr(memory, "REST", 1e6)
+    assert [bench.ask("answer", request=f"r{k}").kind for k in range(5)] == ["answer"] * 5
+    assert len(tries) <= 1
+    other.execute("ROLLBACK")
+    other.close()
+
+
+def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Keeping) -> None:
+    """Nobody takes over what belongs to somebody else while the file cannot be read."""
+    victim, thief = "v" * 43, "t" * 43
+    first = Bench(Memory(kept))
+    first.drive()
+    first.ask("answer", token=victim)
+    first.service._memory.close()
+    hidden = kept.path.with_suffix(".hidden")
+    kept.path.rename(hidden)
+    kept.path.mkdir()
+    later = Bench(Memory(kept))
+    later.drive()
+    assert later.ask("refuse", token=thief).kind == "refusal"  # of a conversation of its own
+    kept.path.rmdir()
+    hidden.rename(kept.path)
+    [denied] = later.send("answer", request="q2", token=thief)
+    assert isinstance(denied, Refused)
+    assert texts(kept) == ["answer"]
 
 
 @pytest.fixture

@@ -587,7 +587,9 @@ def test_a_file_of_the_version_before_is_brought_to_this_one(path: Path) -> None
 def test_an_owner_is_forgotten_with_the_session_and_is_a_digest(path: Path) -> None:
     with Store(path) as store:
         store.keep([new(owner="0" * 64), new(session="bob", owner="1" * 64)])
-        store.keep([new(owner="2" * 64)])  # the first remains
+        for owner in ("2" * 64, None):
+            with pytest.raises(Unfit, match="somebody else"):
+                store.keep([new(owner=owner)])
         assert [store.owner(name) for name in ("ada", "bob", "cat")] == ["0" * 64, "1" * 64, None]
         store.forget("ada")
         assert [store.owner(name) for name in ("ada", "bob")] == [None, "1" * 64]

@@ -29,10 +29,14 @@ from xavi_dialogue.dialogue.events import (
 )
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.dialogue.states import IllegalEvent, Phase
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
+from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation, Reason
+from xavi_dialogue.explain.query import Query
+from xavi_dialogue.language.context import SpeechContext
+from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.transports.messages import (
     AskRequest,
     CancelRequest,
@@ -91,6 +95,10 @@ class Desk:
         self.waiting.take(question)
         self._look_at(question)
 
+    def is_early(self, asked: AskRequest) -> bool:
+        """Whether a question would have to wait for the record to get there."""
+        return asked.at is not None and self.ledger is not None and asked.at > self.ledger.reached
+
     def cancel(self, wanted: CancelRequest) -> Question | None:
         """Drop a question; None where there is no such question."""
         question = self.waiting.open.pop((wanted.session, wanted.request), None)
@@ -123,12 +131,11 @@ class Desk:
                 self._planning[errand.need] = later
                 errands.append(_plan_again(later[0], errand.need))
         for question in still:
-            request, session = question.asked.request, question.asked.session
+            session, request = question.name
             if isinstance(result, str):
-                errands += self._tell(RolloutsFailed(request, session, result))
+                errands += self._try(question, RolloutsFailed(request, session, result))
             else:
-                arrived = RolloutsArrived(request, session, result)
-                errands += self._try(arrived, RolloutsFailed(request, session, "planner-failed"))
+                errands += self._try(question, RolloutsArrived(request, session, result))
         return errands
 
     def settle(self, now: float) -> list[Errand]:
@@ -241,17 +248,19 @@ class Desk:
         self._go_on(question.asked.session)
         if self.ledger is not None and self.ledger.complete(at):
             question.begun = True
-            return self._try(asked, TurnedAway(asked, "planner-failed"))
-        return self._tell(TurnedAway(asked, "planner-unavailable"))
+            return self._try(question, asked)
+        return self._try(question, TurnedAway(asked, "planner-unavailable"))
 
     def _expire(self, question: Question) -> list[Errand]:
         """Give a question up; one that only its turn has not come for fell to too many others."""
         session = question.asked.session
         if question.begun:
-            return self._tell(RolloutsFailed(question.asked.request, session, "timed-out"))
+            failed = RolloutsFailed(question.asked.request, session, "timed-out")
+            return self._try(question, failed)
         self._go_on(session)
         asked = _asked(question.asked, self._moment(question))
-        return self._tell(TurnedAway(asked, "busy" if question.ready else "timed-out"))
+        why: Reason = "busy" if question.ready else "timed-out"
+        return self._try(question, TurnedAway(asked, why))
 
     def _go_on(self, session: str) -> None:
         """Resume a session that the manager has not heard of on this ride."""
@@ -267,7 +276,7 @@ class Desk:
                 self._tell(Forgotten(session))
                 return
 
-    def _try(self, event: Input, otherwise: Input) -> list[Errand]:
+    def _try(self, question: Question, event: Input) -> list[Errand]:
         """Tell the manager; should it fail through a fault of ours, one passenger is told so.
 
         All others are served on: the manager is pure, so nothing has changed.
@@ -275,8 +284,13 @@ class Desk:
         try:
             return self._tell(event)
         except Exception:
-            _LOG.exception("a question could not be answered")
-            return self._tell(otherwise)
+            _LOG.exception("a question could not be answered", extra={"vehicle": self.vehicle})
+        session, request = question.name
+        if self._is_engaged(session):
+            self._tell(Cancelled(request, session))
+        del self.waiting.open[question.name]
+        self._release(session)
+        return [Answer(question, sorry(question.asked, self._moment(question)), None)]
 
     def _tell(self, event: Input) -> list[Errand]:
         self.dialogue, outputs = advance(self.mind, self.dialogue, event)
@@ -302,6 +316,13 @@ class Desk:
 
 def _plan_again(question: Question, need: NeedRollout) -> PlanAgain:
     return PlanAgain(need, question.deadline, question.asked.request, question.asked.session)
+
+
+def sorry(asked: AskRequest, at: float) -> Reply:
+    """What is said where nothing else can be, for the record itself may be at fault."""
+    why = NoExplanation(reason="planner-failed")
+    said = refuse(Query(type="what"), why, SpeechContext(style=asked.style))
+    return Reply(text=said.text, kind="refusal", reason="planner-failed", sim_time=at)
 
 
 def _asked(request: AskRequest, at: float) -> Asked:

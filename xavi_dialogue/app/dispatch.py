@@ -19,6 +19,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import (
+    DEFAULT_VEHICLE,
     Bus,
     BusError,
     Keys,
@@ -161,10 +162,12 @@ def ride_of(desk: Desk) -> RideName | None:
     ledger = desk.ledger
     if ledger is None:
         return None
-    scene = ledger.scene
+    scene, name = ledger.scene, ledger.ride
+    if desk.vehicle != DEFAULT_VEHICLE:  # a car may say of its ride whatever it likes
+        name = f"{desk.vehicle}/{name}"
     if scene is None:
-        return RideName(ledger.ride)
-    return RideName(ledger.ride, scene.scenario, scene.seed)
+        return RideName(name)
+    return RideName(name, scene.scenario, scene.seed)
 
 
 def planned(outcome: Outcome) -> PlanTrace | Reason:

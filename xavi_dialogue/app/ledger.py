@@ -12,20 +12,20 @@ from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceRep
 Item = TypeVar("Item")
 
 PATIENCE = 1.0  # [s] for what is missing; the bus makes up for what it loses within half of it
-MAX_HELD = 2000  # items that may wait for an earlier one
 
 
 @dataclass
 class InOrder(Generic[Item]):
     """Hands numbered items on in the order of their numbers, each once."""
 
+    limit: int  # items that may wait for an earlier one
     next: int = 0  # number of the first item that has not been handed on
     held: dict[int, Item] = field(default_factory=dict)
     lost: int = 0  # that were given up
 
     def add(self, number: int, item: Item) -> list[Item]:
         """Take an item in; what can be handed on now."""
-        if number >= self.next and len(self.held) < MAX_HELD:
+        if number >= self.next and len(self.held) < self.limit:
             self.held.setdefault(number, item)
         return self._ready()
 
@@ -62,8 +62,8 @@ class Ledger:
     """The reports of one ride."""
 
     ride: str
-    traces: InOrder[TraceRecorded] = field(default_factory=InOrder)
-    events: InOrder[Event] = field(default_factory=InOrder)
+    traces: InOrder[TraceRecorded] = field(default_factory=lambda: InOrder(KEPT_TRACES))
+    events: InOrder[Event] = field(default_factory=lambda: InOrder(KEPT_EVENTS))
     scene: SceneReport | None = None  # the latest
     reached: float = 0.0  # [s] the latest moment of which a scene told
     over: bool = False

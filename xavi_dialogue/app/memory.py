@@ -5,19 +5,21 @@ same, and warned once; what was missed is made up for as soon as the file can be
 """
 
 import logging
-from collections.abc import Callable
-from contextlib import suppress
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from planner.events import Event
 from xavi_dialogue.app.desk import MAX_PAST
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.transports.database import Damaged, StoreError, Unfit, Unpurged
+from xavi_dialogue.transports.database import Damaged, StoreError, Unfit, Unpurged, Unwritable
 from xavi_dialogue.transports.store import New, NewEvent, NewTurn, RideName, Store, fits
 
 _LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # in place of the digest of an owner that cannot be read: no token has it
+REST = 10.0  # times as long as an attempt took to fail, there is no other
 PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
 EXPIRED_EVERY = 3600.0  # [s]
@@ -56,6 +58,7 @@ class Memory:
     _unpurged: bool = False  # something is erased, and still in the files
     _purged: float = 0.0  # [s] wall time when that was last tried to be mended
     _failing: bool = False
+    _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
     _expired: float = 0.0  # [s] wall time when what is too old was last erased
 
@@ -64,14 +67,10 @@ class Memory:
         if self.keeping is None or session in self._unforgotten:
             return ()
         try:
-            store = self._opened(self.keeping)
-        except StoreError as error:
-            self._fail(error)
-            return ()
-        try:
-            return store.turns(session, MAX_PAST)
-        except Damaged as error:  # others may be spoken with as ever
-            self.warn(f"what was said before is not known any more: {error}")
+            with self._using(self.keeping) as store:
+                return store.turns(session, MAX_PAST)
+        except Damaged as error:
+            self._regret("what was said before", error)
         except StoreError as error:
             self._fail(error)
         return ()
@@ -82,18 +81,14 @@ class Memory:
             return None
         missed = (n.owner for n in self._missed if isinstance(n, NewTurn) and n.session == session)
         try:
-            store = self._opened(self.keeping)
-        except StoreError as error:
-            self._fail(error)
-            return None
-        try:
-            return next(missed, None) or store.owner(session)
+            with self._using(self.keeping) as store:
+                return store.owner(session) or next(missed, None)
         except Damaged as error:
-            self.warn(f"whose conversation it was is not known any more: {error}")
-            return NOBODY
+            if self._regret("whose conversation it was", error):
+                return NOBODY
         except StoreError as error:
             self._fail(error)
-        return None
+        return next(missed, None)
 
     def answered(self, session: str, request: str) -> Turn | None:
         """The turn with which a request was answered not long ago; None where it was not."""
@@ -102,8 +97,8 @@ class Memory:
         for new in self._missed:
             if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
                 return new.turn
-        with suppress(StoreError):  # it is answered anew
-            return self._opened(self.keeping).answered(session, request)
+        with suppress(StoreError), self._using(self.keeping) as store:  # else it is answered anew
+            return store.answered(session, request)
         return None
 
     def keep(
@@ -143,16 +138,8 @@ class Memory:
         if self._missed:
             self._write(self.keeping)
         try:
-            if idle and self._unsynced:
-                self._unsynced = False
-                self._opened(self.keeping).sync()
-            if now >= self._expired + EXPIRED_EVERY:
-                self._expired = self._purged = now
-                self._opened(self.keeping).expire(self.keeping.days, now)
-            if idle and self._unpurged and now >= self._purged + PURGED_EVERY:
-                self._purged = now
-                self._opened(self.keeping).purge()
-                self._unpurged = False
+            with self._using(self.keeping) as store:
+                self._tidy(store, self.keeping.days, now, idle)
         except Unpurged:
             self._unpurged = True
         except StoreError as error:
@@ -167,11 +154,11 @@ class Memory:
             return 0
         self._unforgotten.add(session)
         try:
-            store = self._opened(self.keeping)
-            erased = self._erase(store)
-            if self._unpurged:
-                store.purge()
-                self._unpurged = False
+            with self._using(self.keeping) as store:
+                erased = self._erase(store)
+                if self._unpurged:
+                    store.purge()
+                    self._unpurged = False
         except Unpurged:
             return None
         except StoreError as error:
@@ -185,17 +172,53 @@ class Memory:
             self._store.close()
             self._store = None
 
-    def _opened(self, keeping: Keeping) -> Store:
+    def _tidy(self, store: Store, days: int, now: float, idle: bool) -> None:
+        if idle and self._unsynced:
+            self._unsynced = False
+            store.sync()
+        if now >= self._expired + EXPIRED_EVERY:
+            self._expired = self._purged = now
+            store.expire(days, now)
+        if idle and self._unpurged and now >= self._purged + PURGED_EVERY:
+            self._purged = now
+            store.purge()
+            self._unpurged = False
+
+    @contextmanager
+    def _using(self, keeping: Keeping) -> Iterator[Store]:
+        """The file; after an attempt that took long to fail, none for ten times as long.
+
+        Raises:
+            Unwritable: it cannot be used, or is not tried yet.
+        """
+        began = time.monotonic()
+        if began < self._again:
+            raise Unwritable(f"{keeping.path} is not tried again yet")
+        try:
+            if self._store is None:
+                self._store = Store(keeping.path, patience=PATIENCE)
+            yield self._store
+        except Unpurged:
+            raise  # it works
+        except Unwritable:
+            ended = time.monotonic()
+            self._again = ended + REST * (ended - began)
+            raise
+
+    def _regret(self, what: str, error: Damaged) -> bool:
+        """Tell of damage; whether it is to one session, while others may be spoken with as ever."""
         if self._store is None:
-            self._store = Store(keeping.path, patience=PATIENCE)
-        return self._store
+            self._fail(error)
+            return False
+        self.warn(f"{what} is not known any more: {error}")
+        return True
 
     def _write(self, keeping: Keeping) -> None:
         del self._missed[:-MAX_MISSED]
         try:
-            store = self._opened(keeping)
-            self._erase(store)
-            self._keep(store)
+            with self._using(keeping) as store:
+                self._erase(store)
+                self._keep(store)
         except StoreError as error:
             self._fail(error)
             return

@@ -5,7 +5,7 @@ Of a token only a digest is kept, in memory and on disk.
 
 import hashlib
 import hmac
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from dataclasses import dataclass, field
 
 MAX_OWNERS = 200_000  # that are known; more than there are sessions in memory, see reception.py
@@ -24,13 +24,20 @@ class Owners:
         given = None if token is None else digest(token)
         return owner is None or (given is not None and hmac.compare_digest(owner, given))
 
-    def claim(self, session: str, token: str | None) -> str | None:
-        """Let an open session belong to whoever has this token; the digest of its owner."""
-        if token is not None and self.of(session) is None:
-            if len(self.known) >= MAX_OWNERS:
-                del self.known[next(iter(self.known))]
-            self.known[session] = digest(token)
-        return self.of(session)
+    def claim(self, session: str, token: str | None, held: Callable[[], Set[str]]) -> None:
+        """Let an open session belong to whoever has this token.
+
+        Args:
+            session: that is begun.
+            token: of who begins it; None leaves it open.
+            held: the sessions of which anything is remembered; the owners of others may go.
+        """
+        if token is None or self.of(session) is not None:
+            return
+        if len(self.known) >= MAX_OWNERS:
+            remembered = held()
+            self.known = {name: one for name, one in self.known.items() if name in remembered}
+        self.known[session] = digest(token)
 
     def release(self, session: str) -> None:
         """A session that is forgotten belongs to nobody."""
@@ -38,7 +45,7 @@ class Owners:
 
     def of(self, session: str) -> str | None:
         """The digest of a session's owner; None: it is open."""
-        return self.known.get(session) or self.recall(session)
+        return self.recall(session) or self.known.get(session)
 
 
 def digest(token: str) -> str:

@@ -35,7 +35,7 @@ from xavi_dialogue.transports.messages import (
 _LOG = logging.getLogger(__name__)
 MAX_CARS = 64  # that are known of; of those that are gone, the one heard of first is dropped first
 MAX_OPEN = 4  # questions of a session
-MAX_WAITING = 4000  # questions in all
+MAX_EARLY = 500  # questions about one car that wait for the record: others need not wait for these
 HOPE = 0.7  # share of its deadline that a question may have to wait for its turn; see Reception.ask
 LEARNT = 0.1  # weight of the latest question in the pace
 MAX_TURNS = 100  # in a history, and fewer where they would be too large
@@ -65,6 +65,9 @@ class Reception:
     desks: dict[str, Desk] = field(default_factory=dict)  # by car
     pace: float = 0.0  # [s] that a question takes, on a running average
 
+    def __post_init__(self) -> None:
+        self.nowhere = Desk("nowhere", self.mind)  # of all cars that were never heard of
+
     def desk(self, vehicle: str) -> Desk:
         """The desk of a car.
 
@@ -77,13 +80,17 @@ class Reception:
             self.desks[vehicle] = Desk(vehicle, self.mind)
         return self.desks[vehicle]
 
+    def all_desks(self) -> list[Desk]:
+        """Those of cars, and that of all others."""
+        return [*self.desks.values(), self.nowhere]
+
     def waiting(self) -> int:
         """How many questions are open."""
-        return sum(len(desk.waiting.open) for desk in self.desks.values())
+        return sum(len(desk.waiting.open) for desk in self.all_desks())
 
     def ready(self) -> int:
         """How many questions wait for nothing but their turn."""
-        return sum(desk.waiting.ready for desk in self.desks.values())
+        return sum(desk.waiting.ready for desk in self.all_desks())
 
     def learn(self, taken: float) -> None:
         """Learn how long [s] a question took."""
@@ -112,11 +119,12 @@ class Reception:
             call.reply(said)
             return
         wait = self.pace * self.ready()
-        full = self.waiting() >= MAX_WAITING or wait > HOPE * asked.deadline_ms / 1000.0
-        if full or len(desk.waiting.of(asked.session)) >= MAX_OPEN:
+        early = len(desk.waiting.open) - desk.waiting.ready >= MAX_EARLY and desk.is_early(asked)
+        late = wait > HOPE * asked.deadline_ms / 1000.0
+        if early or late or len(desk.waiting.of(asked.session)) >= MAX_OPEN:
             raise Refusal("busy", "too many questions are waiting; ask again in a moment")
         self._know(desk, asked.session)
-        self.owners.claim(asked.session, asked.token)
+        self._claim(asked)
         desk.take(Question(call, asked, came))
 
     def cancel(self, call: Call) -> None:
@@ -139,7 +147,7 @@ class Reception:
         """
         _, wanted = self._admitted(call, ForgetRequest)
         known = 0
-        for desk in self.desks.values():  # it may have been about several cars
+        for desk in self.all_desks():  # it may have been about several cars
             turns, dropped = desk.forget(wanted.session)
             known += turns
             for question in dropped:
@@ -162,8 +170,8 @@ class Reception:
             Refusal: the request is not taken up.
         """
         desk, wanted = self._admitted(call, HistoryRequest)
-        self._know(desk, wanted.session)
-        turns = desk.past[wanted.session][-MAX_TURNS:]
+        past = desk.past.get(wanted.session)
+        turns = (self.memory.recall(wanted.session) if past is None else past)[-MAX_TURNS:]
         scene = None if desk.ledger is None else desk.ledger.scene
         reply = HistoryReply(
             session=wanted.session,
@@ -192,7 +200,13 @@ class Reception:
             self.alive.count("foreign")
             _LOG.warning("a wrong token", extra={"vehicle": vehicle, "session": wanted.session})
             raise Refusal("out-of-scope", FOREIGN)
-        return self.desk(vehicle), wanted
+        return self.desks.get(vehicle, self.nowhere), wanted
+
+    def _claim(self, asked: AskRequest) -> None:
+        """Let a session belong to whoever begins it; one that was begun as open remains so."""
+        session, desks = asked.session, self.all_desks()
+        if not any(desk.past.get(session) or desk.waiting.of(session) for desk in desks):
+            self.owners.claim(session, asked.token, lambda: {s for d in desks for s in d.past})
 
     def _know(self, desk: Desk, session: str) -> None:
         """Make sure that the desk knows what was said in a session before."""

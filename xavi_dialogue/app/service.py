@@ -8,6 +8,7 @@ never waited for.
 import contextlib
 import logging
 import queue
+import threading
 import time
 from collections.abc import Callable
 from functools import partial
@@ -54,6 +55,7 @@ _LOG = logging.getLogger(__name__)
 IDLE = 0.5  # [s] between looks at whether to stop
 HURRY = 0.05  # [s] between looks at whether what is missing still comes
 MAX_INBOX = 20_000  # messages; beyond them reports are left out, and requests refused
+MAX_BYTES = 128 * 1024 * 1024  # of reports
 COUNTERS = (
     *("questions", "answered", "declined", "busy", "rejected", "foreign"),
     *("what_ifs", "faults"),
@@ -83,6 +85,7 @@ class Service:
         )
         self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
+        self._held, self._room = 0, threading.Lock()  # bytes of the reports in it
         self._seen: dict[str, Presence] = {}  # our signs of life, by car
 
     def desk(self, vehicle: str = DEFAULT_VEHICLE) -> Desk:
@@ -107,8 +110,8 @@ class Service:
         for name, message in MESSAGES.items():
             if name not in CAR_MESSAGES:
                 bus.serve(key(f"@schema/{name}"), partial(_tell_schema, message))
-        self.alive.gauge("cars", lambda: sum(d.car_alive for d in [*reception.desks.values()]))
-        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in [*reception.desks.values()]))
+        self.alive.gauge("cars", lambda: sum(d.car_alive for d in reception.all_desks()))
+        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in reception.all_desks()))
         self.alive.gauge("waiting", reception.waiting)
         bus.serve(key("alive/service"), self.alive.answer)
         self._show(DEFAULT_VEHICLE)
@@ -131,13 +134,13 @@ class Service:
             self._do(self._inbox.get(wait > 0.0, wait))
         while not stopped():
             self._empty_inbox()
-            for desk in [*self.reception.desks.values()]:
+            for desk in self.reception.all_desks():
                 self._settle(desk)
             if self._inbox.empty() and not self.reception.ready():
                 break
         idle = not self.reception.waiting()
         self._memory.tidy(time.time(), idle=idle)
-        for desk in [*self.reception.desks.values()] if idle else ():
+        for desk in self.reception.all_desks() if idle else ():
             self._run(desk, desk.foresee(time.monotonic()))
 
     def _do(self, job: _Job) -> None:
@@ -164,7 +167,7 @@ class Service:
 
     def _patience(self, patience: float) -> float:
         """How long [s] nothing has to be done unless something comes in."""
-        for desk in self.reception.desks.values():
+        for desk in self.reception.all_desks():
             deadline = desk.waiting.next_deadline()
             if deadline is not None:
                 patience = min(patience, max(deadline - time.monotonic(), 0.0))
@@ -206,12 +209,19 @@ class Service:
 
     def _hearer(self, kind: _Heard) -> Callable[[str, bytes], None]:
         def hear(key: str, payload: bytes) -> None:
-            if self._inbox.qsize() <= MAX_INBOX:
+            with self._room:
+                fits = self._inbox.qsize() <= MAX_INBOX and self._held + len(payload) <= MAX_BYTES
+                self._held += len(payload) if fits else 0
+            if fits:
                 self._post(self._on_report, kind, key, payload)
+            else:
+                self.alive.count("rejected")
 
         return hear
 
     def _on_report(self, kind: _Heard, key: str, payload: bytes) -> None:
+        with self._room:
+            self._held -= len(payload)
         try:
             report = unpack(payload, kind)
             vehicle = vehicle_in(key)

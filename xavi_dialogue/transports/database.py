@@ -20,8 +20,7 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
-OPENING = 2.0  # [s] at least for trying to open what another process is just making ...
-PAUSE = 0.05  # [s] ... with so much time between attempts
+PAUSE = 0.05  # [s] between attempts to open what another process is just making
 PAGE = 4096  # bytes
 
 Row: TypeAlias = tuple[Any, ...]
@@ -211,7 +210,7 @@ class Database:
             raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
 
     def _open(self, steps: Mapping[int, str], version: int) -> None:
-        give_up = time.monotonic() + max(self._patience, OPENING)
+        give_up = time.monotonic() + 2.0 * self._patience
         while True:
             try:
                 self._version(version)  # before anything is changed in what may not be ours

@@ -14,17 +14,19 @@ from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
 import msgspec
 
 from planner.events import Event
-from planner.trace import MAX_BYTES, Action, PlanTrace
+from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
 from sim.scene import VehicleState
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.language.context import Style
 from xavi_dialogue.transports.text import clean, one_line
 
-Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$")]
+Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$(?!\n)")]
 # What every language reads exactly, and every file holds (RFC 8259, 6).
 Whole = Annotated[int, msgspec.Meta(ge=1 - 2**53, le=2**53 - 1)]
-Token = Annotated[str, msgspec.Meta(min_length=16, max_length=128, pattern=r"^[A-Za-z0-9_-]+$")]
+Token = Annotated[
+    str, msgspec.Meta(min_length=16, max_length=128, pattern=r"^[A-Za-z0-9_-]+$(?!\n)")
+]
 Count = Annotated[int, msgspec.Meta(ge=0, le=2**53 - 1)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
@@ -96,6 +98,11 @@ class TraceReport(Report, frozen=True, kw_only=True):
     schema: Literal["xavi.trace/1"] = "xavi.trace/1"
     trace: PlanTrace
     first: Name | None = None  # id of the ride's first: the same ride driven again has the same
+
+    def __post_init__(self) -> None:
+        fault = fault_of(self.trace)
+        if fault is not None:
+            raise ValueError(f"no plan trace: {fault}")
 
 
 class EventReport(Report, frozen=True, kw_only=True):

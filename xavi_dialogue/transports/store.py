@@ -261,6 +261,9 @@ class Store:
         if size > MAX_TURN:
             raise Unfit(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
         ride = None if new.ride is None else new.ride.id
+        found = file.execute("SELECT digest FROM owners WHERE session = ?", (new.session,))
+        if (owner := found.fetchone()) is not None and owner[0] != new.owner:
+            raise Unfit(f"a turn of session {new.session} that belongs to somebody else")
         if new.owner is not None:
             claim = "INSERT OR IGNORE INTO owners VALUES (?, ?)"
             file.execute(claim, (new.session, new.owner))
