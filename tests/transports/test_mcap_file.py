@@ -1,6 +1,7 @@
 """Recordings as files: what was written is read, also of files cut off or made to harm."""
 
 import json
+import os
 import re
 import resource
 import struct
@@ -407,7 +408,7 @@ def test_of_several_cars_one_is_named(path: Path) -> None:
     write(path, [*entries("a"), *entries("b")])
     with pytest.raises(NothingToPlay, match=r"several cars.*a, b"):
         tape_of(read(path))
-    with pytest.raises(NothingToPlay, match="no car c; there is: a, b"):
+    with pytest.raises(NothingToPlay, match="no car 'c'; there is: a, b"):
         tape_of(read(path), "c")
     assert tape_of(read(path), "b")[0].vehicle == "b"
 
@@ -483,3 +484,24 @@ def test_the_example_in_the_docs_reads_a_recording(
     told = [f"{trace.sim_time} {len(trace.rollouts)}" for trace in s1_ride().traces[:2]]
     lines = capsys.readouterr().out.splitlines()
     assert [line.rpartition(" ")[0] for line in lines] == told
+
+
+def test_what_is_no_file_is_not_written_to(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.mcap"
+    os.mkfifo(pipe)
+    for overwrite in (False, True):
+        with pytest.raises((Unwritable, FileThere)):
+            McapWriter(pipe, "1", overwrite=overwrite)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    with pytest.raises(Unwritable, match="no file"):
+        McapWriter(pipe, "1", overwrite=True)
+    os.close(reader)
+
+
+def test_a_file_that_is_written_over_is_its_owners_alone(tmp_path: Path) -> None:
+    path = tmp_path / "ride.mcap"
+    path.write_bytes(b"x" * 10_000)
+    path.chmod(0o644)
+    McapWriter(path, "1", overwrite=True).close()
+    assert path.stat().st_mode & 0o777 == 0o600
+    assert path.stat().st_size < 10_000

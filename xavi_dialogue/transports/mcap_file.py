@@ -5,7 +5,9 @@ index, which the next chunk overwrites. So a recorder that is killed leaves a fi
 opened. When it is closed the file gets its index.
 """
 
+import errno
 import os
+import stat
 import struct
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -94,9 +96,8 @@ class McapWriter:
         self.size = 0  # bytes of the file, its end aside
         self.messages = 0
         self._path = path
-        flags = os.O_CREAT | os.O_WRONLY | (os.O_TRUNC if overwrite else os.O_EXCL)
         try:
-            self._file = os.open(path, flags, 0o600)
+            self._file = _made(path, overwrite)
         except FileExistsError:
             raise FileThere(f"{path} is there already; --force overwrites it") from None
         except OSError as error:
@@ -203,6 +204,26 @@ class McapWriter:
 
 def _within(number: int, limit: int) -> int:
     return min(max(number, 0), limit)
+
+
+def _made(path: Path, overwrite: bool) -> int:
+    """An empty file, readable by its owner alone.
+
+    Raises:
+        OSError: there is one already, or it cannot be made.
+    """
+    # What is no file would have to be waited for, for a reader.
+    flags = os.O_CREAT | os.O_WRONLY | os.O_NONBLOCK | (0 if overwrite else os.O_EXCL)
+    file = os.open(path, flags, 0o600)
+    try:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            raise OSError(errno.EINVAL, "it is no file")
+        os.fchmod(file, 0o600)
+        os.ftruncate(file, 0)
+    except OSError:
+        os.close(file)
+        raise
+    return file
 
 
 def _write_at(file: int, place: int, data: bytes) -> None:
