@@ -1,5 +1,7 @@
 """Riding along with a car and a service that others have started, on a bus within one process."""
 
+from pathlib import Path
+
 import msgspec
 import pytest
 
@@ -84,6 +86,19 @@ def test_what_is_missing_is_named(town: Town) -> None:
     town.hub = None
     with pytest.raises(HubUnreachable), meet(THERE, ADA, 0.2):
         pytest.fail("there is no hub")
+
+
+def test_a_service_that_is_there_and_does_not_answer_is_not_said_to_be_missing(
+    town: Town, tmp_path: Path
+) -> None:
+    town.drive("car")
+    town.service.hub.connect().appear(Keys("bus-7").of("alive/service"))
+    assert missing(town) == "the dialogue service is there, but does not answer"
+    reply = ask_there(THERE, ADA, "One?", 2.0, "passenger")
+    assert "is there, but does not answer" in reply.text
+    keyed = There(Link.to_hub(config=tmp_path / "observer.json5"), "car")
+    reply = ask_there(keyed, ADA, "One?", 2.0, "passenger")
+    assert "but this key may not ask it; a passenger's may" in reply.text
 
 
 def test_who_is_there_in_place_of_the_car_is_named(town: Town) -> None:

@@ -14,7 +14,7 @@ from xavi_dialogue.app.piped import Piped, Write
 from xavi_dialogue.app.talking import Typed, Unasked, talk
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.language.context import Style
-from xavi_dialogue.transports.bus import EVERY_CAR, HubUnreachable, Keys, vehicle_in
+from xavi_dialogue.transports.bus import EVERY_CAR, HubUnreachable, Keys, NobodyThere, vehicle_in
 from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.messages import MAX_TEXT, SceneReport
@@ -134,26 +134,41 @@ def meet(
     with join(there.link, patience) as bus:
         cars = Cars()
         bus.watch(EVERY_CAR.of("alive/car"), cars.see)
+        services = Cars()
+        bus.watch(EVERY_CAR.of("alive/service"), services.see)
         token, share = passenger.token, passenger.share
         keys = Keys(there.vehicle)
         client = Client(bus, keys, passenger.session, on_event, token=token, share=share)
-        _wait_for(there, client, cars, patience)
+        _wait_for_service(there, client, services, patience)
+        _wait_for_car(there, client, cars, patience)
         yield Along(bus, there.vehicle, cars), client
 
 
-def _wait_for(there: There, client: Client, cars: Cars, patience: float) -> None:
+def _wait_for_service(there: There, client: Client, services: Cars, patience: float) -> None:
     give_up = time.monotonic() + patience
     while True:
         try:
             client.probe()
-            break
-        except ServiceLost:
+            return
+        except ServiceLost as error:
             if time.monotonic() > give_up:
-                raise Missing(
-                    "there is a hub, but no dialogue service that answers; start one with:"
-                    " xavi serve --connect ENDPOINT"
-                ) from None
+                raise Missing(_silent(there, error, seen=bool(services.names))) from None
         time.sleep(POLL)
+
+
+def _silent(there: There, error: ServiceLost, *, seen: bool) -> str:
+    """Why no service answers, as far as can be told: what is denied looks like nobody there."""
+    if not seen:
+        return (
+            "there is a hub, but no dialogue service that answers; start one with:"
+            " xavi serve --connect ENDPOINT"
+        )
+    if there.link.config is not None and isinstance(error.__cause__, NobodyThere):
+        return "the dialogue service is there, but this key may not ask it; a passenger's may"
+    return "the dialogue service is there, but does not answer"
+
+
+def _wait_for_car(there: There, client: Client, cars: Cars, patience: float) -> None:
     give_up = time.monotonic() + patience
     while there.vehicle not in cars.names:
         if time.monotonic() > give_up:

@@ -50,6 +50,7 @@ class Shown:
     """What a certificate says."""
 
     name: str  # common name
+    issuer: str  # common name
     begins: datetime  # UTC
     ends: datetime  # UTC
 
@@ -145,9 +146,8 @@ def read(certificate: bytes) -> Shown:
         found = x509.load_pem_x509_certificate(certificate)
     except ValueError as error:
         raise BadCertificate(f"no certificate: {error}") from error
-    names = found.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
-    name = str(names[0].value) if names else ""
-    return Shown(name, found.not_valid_before_utc, found.not_valid_after_utc)
+    name, issuer = _common_name(found.subject), _common_name(found.issuer)
+    return Shown(name, issuer, found.not_valid_before_utc, found.not_valid_after_utc)
 
 
 def utc_now() -> datetime:
@@ -172,6 +172,11 @@ def _draft(
         .not_valid_after(valid[1])
         .add_extension(identifier, critical=False)
     )
+
+
+def _common_name(name: x509.Name) -> str:
+    names = name.get_attributes_for_oid(NameOID.COMMON_NAME)
+    return str(names[0].value) if names else ""
 
 
 def _named(name: str) -> x509.Name:

@@ -10,6 +10,7 @@ import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from types import TracebackType
 from typing import Self
 
@@ -36,6 +37,7 @@ from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.timers import Timers
 
 JSON = "application/json"
+CERTIFICATE = "transport/link/tls/connect_certificate"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
 HEARTBEAT = 0.2  # [s] within which a lost last message is noticed
 MAX_MESSAGE = 4 * 1024 * 1024  # bytes; no message of ours is as large
@@ -271,18 +273,26 @@ def join(link: Link, patience: float = 5.0) -> ZenohBus:
             return ZenohBus(zenoh.open(config))
         except zenoh.ZError as error:
             if time.monotonic() >= give_up:
-                raise HubUnreachable(_unreachable(config, error)) from error
+                raise HubUnreachable(_unreachable(config)) from error
         time.sleep(RETRY)
 
 
-def _unreachable(config: zenoh.Config, error: zenoh.ZError) -> str:
+def _unreachable(config: zenoh.Config) -> str:
     places = _endpoints(config, "connect")
     if not places:
         return "there is no endpoint to connect to; name one with --connect"
     start = f"start one with: xavi serve --listen {places[0]}"
     if places[0].startswith(("tls/", "quic/")):
-        start = f"or it does not accept this certificate ({_reason(error)})"
+        given = json.loads(config.get_json(CERTIFICATE))
+        start = "or it does not accept the certificate that it was shown"
+        start = start if given else "or it asks for a certificate; name one with --zenoh FILE"
     return f"there is no hub at {' or '.join(places)}; {start}"
+
+
+def certificate_of(link: Link) -> Path | None:
+    """The file of the certificate that a link shows; BadLink as in `join`."""
+    named = json.loads(_config(link).get_json(CERTIFICATE))
+    return None if named is None else Path(named)
 
 
 def _config(link: Link) -> zenoh.Config:

@@ -8,6 +8,8 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from xavi_dialogue.app.commands.shell import Shell
+
 Form = Annotated[
     Literal["text", "json", "off"],
     typer.Option("--log", envvar="XAVI_LOG", help="Log to standard error: how."),
@@ -30,11 +32,30 @@ _OPTIONS: tuple[tuple[str, Any, object], ...] = (
 )
 
 
-def logged(component: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def own_name(shell: Shell) -> Callable[[dict[str, Any]], None]:
+    """Settles the name of a car on the bus; see badge.own_name."""
+
+    def settle(given: dict[str, Any]) -> None:
+        if given["zenoh"] is None:
+            return
+        from xavi_dialogue.app.badge import own_name
+        from xavi_dialogue.transports.link import Link
+
+        with shell.errors():
+            link = Link.to_hub(given["connect"], given["zenoh"])
+            given["vehicle"] = own_name(link, given["vehicle"])
+
+    return settle
+
+
+def logged(
+    component: str, settle: Callable[[dict[str, Any]], None] = lambda _: None
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command the options about its log, and begin to log before it runs.
 
     Args:
         component: as which it logs: car, service, recorder, ...
+        settle: completes what it was given, before anything is logged.
     """
 
     def give(command: Callable[..., None]) -> Callable[..., None]:
@@ -43,6 +64,7 @@ def logged(component: str) -> Callable[[Callable[..., None]], Callable[..., None
             from xavi_dialogue.app.logs import Telling, begin
 
             form, level, dialogue = (named.pop(name) for name, _, _ in _OPTIONS)
+            settle(named)
             vehicle = named.get("vehicle")
             begin(sys.stderr, Telling(form, level, component, vehicle, dialogue))
             command(*arguments, **named)

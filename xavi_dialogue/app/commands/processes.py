@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from xavi_dialogue.app.commands.logged import logged
+from xavi_dialogue.app.commands.logged import logged, own_name
 from xavi_dialogue.app.commands.sessions import keeping_in
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
@@ -14,12 +14,12 @@ from xavi_dialogue.app.commands.shell import (
     Connect,
     Control,
     KeepDays,
+    OwnVehicle,
     ScenarioName,
     Seed,
     Shell,
     SpeedFactor,
     StoreFile,
-    Vehicle,
     ZenohFile,
     to_json,
 )
@@ -32,7 +32,7 @@ def add(app: typer.Typer, shell: Shell) -> None:
 
 
 def _drive(shell: Shell) -> Callable[..., None]:
-    @logged("car")
+    @logged("car", own_name(shell))
     def drive(
         scenario: ScenarioName = "s1",
         seed: Seed = None,
@@ -42,7 +42,7 @@ def _drive(shell: Shell) -> Callable[..., None]:
         speed: SpeedFactor = 0.0,
         connect: Connect = None,
         zenoh: ZenohFile = None,
-        vehicle: Vehicle = "car",
+        vehicle: OwnVehicle = None,
         save: Annotated[
             Path | None,
             typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
@@ -61,13 +61,15 @@ def _drive(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.app.control import Signals
         from xavi_dialogue.app.drive import Manner, drive
         from xavi_dialogue.app.narration import story
+        from xavi_dialogue.transports.bus import DEFAULT_VEHICLE
         from xavi_dialogue.transports.link import Link
 
         with shell.errors():
             loaded = shell.load(scenario, told=control)
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
             staff, signals = Staff(workers, waiting), Signals()
-            manner = Manner(speed or 0.0, duration, link, vehicle, control, save, staff)
+            name = vehicle or DEFAULT_VEHICLE
+            manner = Manner(speed or 0.0, duration, link, name, control, save, staff)
             summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
         if not control:
             shell.write(to_json(summary) if as_json else story(summary.events))
@@ -102,12 +104,14 @@ def _serve(shell: Shell) -> Callable[..., None]:
         control: Control = False,
     ) -> None:
         """Run the dialogue service, and the hub that the others join."""
+        from xavi_dialogue.app.badge import check
         from xavi_dialogue.app.hub import serve
         from xavi_dialogue.app.memory import Memory
         from xavi_dialogue.transports.link import Link
 
         with shell.errors():
             link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
+            check(link, "answer passengers")
             memory = Memory(
                 keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
             )

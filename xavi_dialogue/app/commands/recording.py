@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from xavi_dialogue.app.commands.logged import logged
+from xavi_dialogue.app.commands.logged import logged, own_name
 from xavi_dialogue.app.commands.sessions import keeping_in, typed_file
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
@@ -18,6 +18,7 @@ from xavi_dialogue.app.commands.shell import (
     Connect,
     Control,
     KeepDays,
+    PlayedVehicle,
     SessionName,
     Shell,
     SpeedFactor,
@@ -44,7 +45,7 @@ From = Annotated[
 def add(app: typer.Typer, shell: Shell) -> None:
     """Add the commands."""
     app.command("record")(logged("recorder")(_record(shell)))
-    app.command("replay")(logged("car")(_replay(shell)))
+    app.command("replay")(logged("car", own_name(shell))(_replay(shell)))
 
 
 def _record(shell: Shell) -> Callable[..., None]:
@@ -59,11 +60,13 @@ def _record(shell: Shell) -> Callable[..., None]:
         control: Control = False,
     ) -> None:
         """Record what a car reports, and what passengers share; --vehicle all: every car."""
+        from xavi_dialogue.app.badge import check
         from xavi_dialogue.app.recorder import Task, record
         from xavi_dialogue.transports.link import Link
 
         with shell.errors():
             link = Link.to_hub(connect, zenoh)
+            check(link, "record")
             record(Task(file, link, vehicle, force, control), shell.note)
 
     return record
@@ -77,10 +80,7 @@ def _replay(shell: Shell) -> Callable[..., None]:
         car: Car = None,
         connect: Connect = None,
         zenoh: ZenohFile = None,
-        vehicle: Annotated[
-            str | None,
-            typer.Option(metavar="NAME", help="Name on the bus. Default: as recorded."),
-        ] = None,
+        vehicle: PlayedVehicle = None,
         session: SessionName = None,
         as_json: AsJson = False,
         store: StoreFile = None,

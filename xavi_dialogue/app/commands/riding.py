@@ -201,10 +201,13 @@ def _there(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | No
     """Whom to talk with; None: nobody is named."""
     if connect is None and zenoh is None:
         return None
+    from xavi_dialogue.app.badge import check
     from xavi_dialogue.app.remote import There
     from xavi_dialogue.transports.link import Link
 
-    return There(Link.to_hub(connect, zenoh), vehicle)
+    link = Link.to_hub(connect, zenoh)
+    check(link, "ask")
+    return There(link, vehicle)
 
 
 def _alone(**given: object) -> None:

@@ -87,6 +87,25 @@ Vehicle = Annotated[
         callback=_name, envvar="XAVI_VEHICLE", metavar="NAME", help="Name of the car on the bus."
     ),
 ]
+OwnVehicle = Annotated[
+    str | None,
+    typer.Option(
+        "--vehicle",
+        callback=_name,
+        envvar="XAVI_VEHICLE",
+        metavar="NAME",
+        help="Name of the car on the bus. Default: that in its key, else car.",
+    ),
+]
+PlayedVehicle = Annotated[
+    str | None,
+    typer.Option(
+        "--vehicle",
+        callback=_name,
+        metavar="NAME",
+        help="Name on the bus. Default: that in its key, else as recorded.",
+    ),
+]
 Connect = Annotated[
     str | None,
     typer.Option(
