@@ -16,8 +16,8 @@ from xavi_dialogue.app.fair import FairQueue
 from xavi_dialogue.app.ledger import PATIENCE, InOrder, Ledger
 from xavi_dialogue.app.memory import Keeping, Memory
 from xavi_dialogue.app.report import Reporter
-from xavi_dialogue.dialogue.events import TraceRecorded
-from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.events import RecordMissing, TraceRecorded
+from xavi_dialogue.dialogue.manager import advance, fold
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.explain.explanation import NeedRollout
@@ -433,7 +433,7 @@ def test_what_is_lost_for_good_is_given_up_and_the_record_goes_on() -> None:
 
 
 def test_the_last_that_is_lost_is_not_waited_for_without_end() -> None:
-    items: InOrder[str] = InOrder(9)
+    items: InOrder[str] = InOrder(9, len)
     items.add(0, "a")
     assert items.give_up(3) == []
     assert (items.next, items.lost) == (3, 2)
@@ -674,7 +674,7 @@ def test_what_comes_in_faster_than_it_is_read_is_bounded(
 
 
 def test_what_waits_for_an_earlier_one_is_bounded() -> None:
-    items: InOrder[str] = InOrder(2)
+    items: InOrder[str] = InOrder(2, len)
     for number in range(1, 9):
         assert items.add(number, "x") == []
     assert len(items.held) == 2
@@ -745,3 +745,37 @@ def test_a_name_is_a_plain_word(bench: Bench, name: str) -> None:
     came = ask(bench, "answer", session=name)
     bench.service.work()
     assert refused(came).reason == "not-understood"
+
+
+def test_what_is_missing_of_the_record_is_known_to_be() -> None:
+    """A denial needs the whole record: what is not in it may have been lost."""
+    ledger, told = Ledger(reports()[0].ride), []
+    for report in reports():
+        match report:
+            case SceneReport():
+                told += ledger.see(report)
+            case TraceReport():
+                told += ledger.trace(report)
+            case EventReport() if report.seq not in (1, 2):
+                told += ledger.event(report)
+    ledger.wait(100.0)
+    told += ledger.wait(100.0 + PATIENCE)
+    events = [r for r in reports() if isinstance(r, EventReport)]
+    [gap] = [one for one in told if isinstance(one, RecordMissing)]
+    assert gap.until == events[3].sim_time
+    assert gap.since <= gap.until
+    dialogue = fold(scripted_mind(), told)
+    assert dialogue.record(99.0).gaps == ((gap.since, gap.until),)
+    assert dialogue.record(gap.since - 0.1).gaps == ()
+
+
+def test_a_record_that_begins_late_has_no_gap() -> None:
+    ledger = Ledger(reports()[0].ride)
+    for report in reports():
+        if isinstance(report, SceneReport):
+            ledger.see(report)
+        elif isinstance(report, TraceReport) and report.seq >= 3:
+            ledger.trace(report)
+    ledger.wait(100.0)
+    told = ledger.wait(100.0 + PATIENCE)
+    assert not any(isinstance(one, RecordMissing) for one in told)

@@ -145,7 +145,7 @@ def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
 
 
 def test_reports_may_come_in_any_order() -> None:
-    items: InOrder[str] = InOrder(9)
+    items: InOrder[str] = InOrder(9, len)
     assert items.add(1, "b") == []
     assert items.add(0, "a") == ["a", "b"]
     assert items.add(0, "a") == []
@@ -153,14 +153,14 @@ def test_reports_may_come_in_any_order() -> None:
 
 
 def test_who_joins_late_begins_with_what_is_still_kept() -> None:
-    items: InOrder[str] = InOrder(9)
+    items: InOrder[str] = InOrder(9, len)
     assert items.add(7, "h") == []
     assert items.begin(0) == []
     assert items.begin(6) == []  # the seventh may still come
     assert items.add(6, "g") == ["g", "h"]
     assert items.begin(5) == []
     assert items.add(8, "i") == ["i"]
-    late: InOrder[str] = InOrder(9)
+    late: InOrder[str] = InOrder(9, len)
     assert [late.add(3, "d"), late.add(4, "e")] == [[], []]
     assert late.begin(4) == ["d", "e"]  # a little more was kept than had to be
 

@@ -1,11 +1,17 @@
 """What the service has heard of one ride, put in order: the record may arrive in any order."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
-from planner.events import Event
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
-from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.events import (
+    EventRecorded,
+    Input,
+    RecordMissing,
+    RideEnded,
+    TraceRecorded,
+)
 from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceReport
 
@@ -19,9 +25,13 @@ class InOrder(Generic[Item]):
     """Hands numbered items on in the order of their numbers, each once."""
 
     limit: int  # items that may wait for an earlier one
+    time_of: Callable[[Item], float]  # [s]
     next: int = 0  # number of the first item that has not been handed on
     held: dict[int, Item] = field(default_factory=dict)
     lost: int = 0  # that were given up
+    known: float | None = None  # [s] up to when all was handed on; None: it began later
+    gaps: list[tuple[float, float]] = field(default_factory=list)  # [s] not yet told, see `told`
+    _open: float | None = None  # [s] since when items are given up, until the next comes
 
     def add(self, number: int, item: Item) -> list[Item]:
         """Take an item in; what can be handed on now."""
@@ -36,7 +46,7 @@ class InOrder(Generic[Item]):
             oldest: number of the oldest item that may still come.
         """
         if self.next < oldest:
-            self.next = min([oldest, *self.held])
+            self._skip_to(min([oldest, *self.held]))
         return self._ready()
 
     def give_up(self, end: int) -> list[Item]:
@@ -45,14 +55,33 @@ class InOrder(Generic[Item]):
         while self.next < end:
             after = min([end, *self.held])
             self.lost += after - self.next
-            self.next = after
+            self._skip_to(after)
             ready += self._ready()
         return ready
+
+    def told(self, now: float) -> list[tuple[float, float]]:
+        """The gaps that were not told of before; one may still be open at a time [s]."""
+        if self._open is not None:
+            self.gaps.append((self._open, max(self._open, now)))
+            self._open = None
+        told, self.gaps = self.gaps, []
+        return told
+
+    def _skip_to(self, number: int) -> None:
+        if number > self.next and self._open is None:
+            self._open = self.known
+        self.next = number
 
     def _ready(self) -> list[Item]:
         ready = []
         while self.next in self.held:
-            ready.append(self.held.pop(self.next))
+            item = self.held.pop(self.next)
+            time = self.time_of(item)
+            if self._open is not None:
+                self.gaps.append((self._open, max(self._open, time)))
+                self._open = None
+            self.known = max(time, self.known or 0.0)
+            ready.append(item)
             self.next += 1
         return ready
 
@@ -62,8 +91,12 @@ class Ledger:
     """The reports of one ride."""
 
     ride: str
-    traces: InOrder[TraceRecorded] = field(default_factory=lambda: InOrder(KEPT_TRACES))
-    events: InOrder[Event] = field(default_factory=lambda: InOrder(KEPT_EVENTS))
+    traces: InOrder[TraceRecorded] = field(
+        default_factory=lambda: InOrder(KEPT_TRACES, lambda one: one.trace.sim_time)
+    )
+    events: InOrder[EventRecorded] = field(
+        default_factory=lambda: InOrder(KEPT_EVENTS, lambda one: one.event.sim_time)
+    )
     scene: SceneReport | None = None  # the latest
     reached: float = 0.0  # [s] the latest moment of which a scene told
     over: bool = False
@@ -73,12 +106,15 @@ class Ledger:
         """What there is to tell the manager after a trace report."""
         recorded = TraceRecorded(report.trace, report.first)
         ready = [] if self.over else self.traces.add(report.seq, recorded)
-        return [*ready, *self._end()]
+        if report.seq == 0 and self.events.known is None:
+            self.events.known = 0.0  # heard from the beginning
+        return [*self._gaps(), *ready, *self._end()]
 
     def event(self, report: EventReport) -> list[Input]:
         """What there is to tell the manager after an event report."""
-        ready = [] if self.over else self.events.add(report.seq, report.event)
-        return [*map(EventRecorded, ready), *self._end()]
+        recorded = EventRecorded(report.event)
+        ready = [] if self.over else self.events.add(report.seq, recorded)
+        return [*self._gaps(), *ready, *self._end()]
 
     def see(self, report: SceneReport) -> list[Input]:
         """What there is to tell the manager after a scene report.
@@ -94,7 +130,7 @@ class Ledger:
         # Who joins late is sent no more than what is kept for that.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
-        return [*traces, *map(EventRecorded, events), *self._end()]
+        return [*self._gaps(), *traces, *events, *self._end()]
 
     def complete(self, at: float) -> bool:
         """Whether all that was recorded up to a moment [s] has arrived."""
@@ -124,7 +160,12 @@ class Ledger:
         self.missing = None
         traces = self.traces.give_up(scene.traces)
         events = self.events.give_up(scene.events)
-        return [*traces, *map(EventRecorded, events), *self._end()]
+        return [*self._gaps(), *traces, *events, *self._end()]
+
+    def _gaps(self) -> list[Input]:
+        """What is to be told of that was given up."""
+        gaps = (*self.traces.told(self.reached), *self.events.told(self.reached))
+        return [RecordMissing(since, until) for since, until in gaps]
 
     @property
     def lost(self) -> int:

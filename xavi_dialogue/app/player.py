@@ -64,6 +64,7 @@ class Player:
     traces: int = 0  # published
     events: list[Event] = field(default_factory=list)  # published
     scenes: int = 0  # published
+    told: tuple[int, int] = (0, 0)  # traces and events that the car had reported so far
     due: float = 0.0  # [s] on the monotonic clock: when the next scene may come
     shown: float = 0.0  # [s] on the monotonic clock: when the last one came
 
@@ -71,6 +72,7 @@ class Player:
         self._scene = self.bus.publisher(self.keys.of("scene"))
         self._trace = self.bus.publisher(self.keys.of("trace"), keep=KEPT_TRACES)
         self._event = self.bus.publisher(self.keys.of("event"), keep=KEPT_EVENTS)
+        self._first = self.tape.first
 
     @property
     def at_end(self) -> bool:
@@ -146,10 +148,11 @@ class Player:
         traces, events = self.tape.known(scene)
         while self.traces < traces:
             self._publish_trace(scene)
+        numbers = self.tape.event_numbers
         for event in self.tape.events[len(self.events) : events]:
             report = EventReport(
                 ride=self.ride,
-                seq=len(self.events),
+                seq=numbers[len(self.events)] - numbers[0],  # what is missing remains so
                 sim_time=event.sim_time,
                 wall_time=time.time(),
                 event=event,
@@ -163,11 +166,11 @@ class Player:
         trace = self.tape.trace(self.traces)
         report = TraceReport(
             ride=self.ride,
-            seq=self.traces,
+            seq=self.tape.trace_numbers[self.traces] - self.tape.trace_numbers[0],
             sim_time=trace.sim_time,
             wall_time=time.time(),
             trace=trace,
-            first=self.tape.trace(0).trace_id,
+            first=self._first,
         )
         self.alive.count("decisions")
         self.record(Moment(Scene(scene.sim_time, scene.vehicles), scene.plan, trace))
@@ -177,15 +180,21 @@ class Player:
     def _show(self, *, always: bool = False) -> None:
         if not always and time.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
             return
+        scene = self.tape.scene(self.index)
+        # What is known is not unlearnt where the ride goes back; and what is missing, is.
+        self.told = (
+            max(self.told[0], scene.traces - min(self.tape.trace_numbers, default=0)),
+            max(self.told[1], scene.events - min(self.tape.event_numbers, default=0)),
+        )
         report = msgspec.structs.replace(
-            self.tape.scene(self.index),
+            scene,
             ride=self.ride,
             seq=self.scenes,
             wall_time=time.time(),
             state=self._state(),
             speed_factor=self.pace.speed,
-            traces=self.traces,
-            events=len(self.events),
+            traces=self.told[0],
+            events=self.told[1],
             orders=self.pace.obeyed,
         )
         self.alive.count("scenes")

@@ -27,6 +27,14 @@ class EventRecorded:
 
 
 @dataclass(frozen=True, slots=True)
+class RecordMissing:
+    """What was recorded between two moments did not all arrive, and will not any more."""
+
+    since: float  # [s]
+    until: float  # [s]
+
+
+@dataclass(frozen=True, slots=True)
 class RideEnded:
     """Nothing more will be recorded."""
 
@@ -104,6 +112,7 @@ class Forgotten:
 Input: TypeAlias = (
     TraceRecorded
     | EventRecorded
+    | RecordMissing
     | RideEnded
     | Asked
     | TurnedAway

@@ -21,6 +21,7 @@ from xavi_dialogue.dialogue.events import (
     Input,
     Output,
     PlannedAhead,
+    RecordMissing,
     Resumed,
     RideEnded,
     RolloutsArrived,
@@ -49,6 +50,7 @@ from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
 MAX_ROUNDS = 5  # of planning again for one question
 MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
 MAX_EVENTS = 2000
+MAX_GAPS = 100  # in the record
 MAX_PLANNED = 100  # decisions planned again
 MAX_TURNS = 400  # of a session
 
@@ -62,7 +64,7 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         IllegalEvent: the input has no place in the present state.
     """
     match event:
-        case TraceRecorded() | EventRecorded() | RideEnded():
+        case TraceRecorded() | EventRecorded() | RecordMissing() | RideEnded():
             return _record(dialogue, event), ()
         case Asked():
             return _ask(mind, dialogue, event)
@@ -92,7 +94,9 @@ def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) 
     return state
 
 
-def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded) -> Dialogue:
+def _record(
+    dialogue: Dialogue, event: TraceRecorded | EventRecorded | RecordMissing | RideEnded
+) -> Dialogue:
     move = RideMove.ENDED if isinstance(event, RideEnded) else RideMove.RECORDED
     phase = after(RIDE_PHASES, dialogue.ride, move)
     match event:
@@ -103,6 +107,8 @@ def _record(dialogue: Dialogue, event: TraceRecorded | EventRecorded | RideEnded
         case EventRecorded(happened):
             events = (*dialogue.events, happened)[-MAX_EVENTS:]
             return replace(dialogue, ride=phase, events=events)
+        case RecordMissing(since, until):
+            return replace(dialogue, gaps=(*dialogue.gaps, (since, until))[-MAX_GAPS:])
         case RideEnded(at):
             return replace(dialogue, ride=phase, ended_at=at)
 

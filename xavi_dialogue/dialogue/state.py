@@ -62,6 +62,7 @@ class Dialogue:
     traces: tuple[PlanTrace, ...] = ()
     events: tuple[Event, ...] = ()
     ended_at: float | None = None  # [s]
+    gaps: tuple[tuple[float, float], ...] = ()  # [s] of the record, from when to when
     sessions: Mapping[str, Session] = field(default_factory=dict)
     planned: Mapping[NeedRollout, PlanTrace] = field(default_factory=dict)  # planned again so far
 
@@ -84,7 +85,8 @@ class Dialogue:
         """
         ended = self.ended_at is not None and at >= self.ended_at - EPSILON
         now = self.ended_at if ended and self.ended_at is not None else at
-        whole = Record(now, self.traces, self.events, ended, extra, refused)
+        gaps = tuple(gap for gap in self.gaps if gap[0] <= now)
+        whole = Record(now, self.traces, self.events, ended, extra, refused, gaps=gaps)
         return up_to(whole, now)
 
 
@@ -95,5 +97,6 @@ def up_to(record: Record, time: float) -> Record:
         now=time,
         traces=tuple(t for t in record.traces if t.sim_time <= time + EPSILON),
         events=tuple(e for e in record.events if e.sim_time <= time + EPSILON),
+        gaps=tuple(gap for gap in record.gaps if gap[0] <= time),
         ended=record.ended and time >= record.now - EPSILON,
     )

@@ -18,4 +18,5 @@ class Record:
     ended: bool = False
     extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
     refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing
+    gaps: tuple[tuple[float, float], ...] = ()  # [s] from when to when some of it was lost
     focus: Focus | None = None  # the part of the ride that the question is about; None: not said

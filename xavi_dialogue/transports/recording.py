@@ -188,6 +188,14 @@ class Tape:
         """A decision."""
         return unpack(self.traces[index], TraceReport).trace
 
+    @property
+    def first(self) -> str | None:
+        """The id of the ride's first decision; None where there is none at all."""
+        if not self.traces:
+            return None
+        report = unpack(self.traces[0], TraceReport)
+        return report.first or report.trace.trace_id
+
     def known(self, scene: SceneReport) -> tuple[int, int]:
         """How many of the traces and events had been sent by the time of a scene."""
         return (
