@@ -25,7 +25,8 @@ def test_a_service_that_is_killed_and_comes_back_knows_ride_and_conversation(
     endpoint, store = free_endpoint(), tmp_path / "dialogue.sqlite3"
     serve = ("--store", str(store))
     service = crew.serve(endpoint, *serve)
-    car = crew.drive(endpoint, "--scenario", "s1", "--speed", str(SPEED))
+    car = crew.drive(endpoint, "--scenario", "s1", "--control")  # so that it stays at the end
+    car.order(f"speed {SPEED}", "resume")
     chat = crew.xavi("chat", "--connect", endpoint, "--session", "ada")
     with on_bus(endpoint) as bus:
         ear = Ear(bus)
