@@ -5,6 +5,7 @@ import json
 import time
 from collections.abc import Callable
 
+import msgspec
 import pytest
 
 from planner import trace as plan_trace
@@ -779,3 +780,28 @@ def test_a_record_that_begins_late_has_no_gap() -> None:
     ledger.wait(100.0)
     told = ledger.wait(100.0 + PATIENCE)
     assert not any(isinstance(one, RecordMissing) for one in told)
+
+
+def test_only_a_ride_that_is_seen_begins_another_record(bench: Bench) -> None:
+    drive(bench, "car", 6.0)
+    desk = bench.service.desk()
+    before = desk.dialogue.traces
+    for kind, name in ((TraceReport, "trace"), (EventReport, "event")):
+        [forged, *_] = [r for r in reports() if isinstance(r, kind)]
+        bench.car.publisher(Keys().of(name)).put(pack(forged))
+    bench.service.work()
+    assert desk.dialogue.traces is before
+    car = drive(bench, "car", 3.0)  # decisions are heard of before the first scene is
+    assert len(desk.dialogue.traces) < len(before)
+    assert desk.dialogue.ride_id == before[0].trace_id
+    late = msgspec.structs.replace(
+        next(r for r in reports() if isinstance(r, SceneReport)), ride="seen-before"
+    )
+    scene = car.publisher(Keys().of("scene"))
+    scene.put(pack(late))
+    bench.service.work()
+    scene.put(pack(msgspec.structs.replace(late, ride="newest")))
+    scene.put(pack(msgspec.structs.replace(late, seq=99)))  # of a ride that is past
+    bench.service.work()
+    assert desk.ledger is not None
+    assert desk.ledger.ride == "newest"

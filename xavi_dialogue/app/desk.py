@@ -7,12 +7,12 @@ import logging
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TypeAlias
 
 from planner.trace import PlanTrace
 from xavi_dialogue.app.errands import Answer, Errand, PlanAgain, Question
 from xavi_dialogue.app.foresight import AHEAD, Foreseen
-from xavi_dialogue.app.ledger import Ledger
+from xavi_dialogue.app.ledger import Heard, Ledger
+from xavi_dialogue.app.rides import Rides
 from xavi_dialogue.app.waiting import Waiting
 from xavi_dialogue.dialogue.events import (
     Answered,
@@ -40,16 +40,11 @@ from xavi_dialogue.language.refusals import refuse
 from xavi_dialogue.transports.messages import (
     AskRequest,
     CancelRequest,
-    EventReport,
-    SceneReport,
-    TraceReport,
 )
 
 _LOG = logging.getLogger(__name__)
 MAX_PAST = 200  # turns of a session that are known of
 MAX_SESSIONS = 2000  # that are known of; who has been silent for longest is forgotten first
-
-Heard: TypeAlias = SceneReport | TraceReport | EventReport
 
 
 @dataclass
@@ -59,12 +54,17 @@ class Desk:
     vehicle: str
     mind: Mind
     dialogue: Dialogue = field(default_factory=Dialogue)
-    ledger: Ledger | None = None
+    rides: Rides = field(default_factory=Rides)
     waiting: Waiting = field(default_factory=Waiting)
     past: dict[str, tuple[Turn, ...]] = field(default_factory=dict)  # by session, latest at the end
     car_alive: bool = False
     _planning: dict[NeedRollout, list[Question]] = field(default_factory=dict)  # who needs what
     _foreseen: Foreseen = field(default_factory=Foreseen)
+
+    @property
+    def ledger(self) -> Ledger | None:
+        """What was heard of the present ride; None: there is none."""
+        return self.rides.ledger
 
     def resume(self, session: str, turns: tuple[Turn, ...]) -> None:
         """Know what was said in a session before; to be told before its first question."""
@@ -74,20 +74,13 @@ class Desk:
             self._drop_oldest()
 
     def hear(self, report: Heard) -> None:
-        """Take down a report; the first of another ride begins a new record.
+        """Take down a report; the first scene of another ride begins a new record.
 
         What was said goes on: a session is resumed when its next question is begun.
         """
-        if self.ledger is None or self.ledger.ride != report.ride:
-            self._begin_anew(report.ride)
-        assert self.ledger is not None
-        match report:
-            case SceneReport():
-                inputs = self.ledger.see(report)
-            case TraceReport():
-                inputs = self.ledger.trace(report)
-            case EventReport():
-                inputs = self.ledger.event(report)
+        begun, inputs = self.rides.hear(report)
+        if begun:
+            self._begin_anew()
         self._record(inputs)
 
     def take(self, question: Question) -> None:
@@ -187,8 +180,8 @@ class Desk:
             and pending.need == need
         )
 
-    def _begin_anew(self, ride: str) -> None:
-        self.ledger, self.dialogue = Ledger(ride), Dialogue()
+    def _begin_anew(self) -> None:
+        self.dialogue = Dialogue()
         self._planning.clear()
         self.waiting.begin_anew()
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from typing import Generic, TypeAlias, TypeVar
 
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.dialogue.events import (
@@ -16,6 +16,7 @@ from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceReport
 
 Item = TypeVar("Item")
+Heard: TypeAlias = SceneReport | TraceReport | EventReport
 
 PATIENCE = 1.0  # [s] for what is missing; the bus makes up for what it loses within half of it
 
@@ -101,6 +102,16 @@ class Ledger:
     reached: float = 0.0  # [s] the latest moment of which a scene told
     over: bool = False
     missing: tuple[float, int, int] | None = None  # since when [s] something is, and what is next
+
+    def hear(self, report: Heard) -> list[Input]:
+        """What there is to tell the manager after a report of this ride."""
+        match report:
+            case SceneReport():
+                return self.see(report)
+            case TraceReport():
+                return self.trace(report)
+            case EventReport():
+                return self.event(report)
 
     def trace(self, report: TraceReport) -> list[Input]:
         """What there is to tell the manager after a trace report."""
