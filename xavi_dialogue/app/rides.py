@@ -33,9 +33,9 @@ class Rides:
         late of an earlier ride, or comes from who knows whom, ends no record.
         """
         if self.ledger is None:
-            self._begin(Ledger(report.ride))
-            assert self.ledger is not None
-            return True, self.ledger.hear(report)
+            first = Ledger(report.ride)
+            self._begin(first)
+            return True, first.hear(report)
         if self.ledger.ride == report.ride:
             return False, self.ledger.hear(report)
         if report.ride in self._names:
