@@ -80,6 +80,36 @@ def test_the_first_scene_in_which_anything_fits_decides() -> None:
     assert candidates("front", Scope((without,), None)) == ()
 
 
+def test_who_is_at_a_place_is_seen_in_the_scenes_of_that_moment_alone() -> None:
+    without = {name: state for name, state in SCENE.items() if name in (0, 4)}
+    now = Scope((without, SCENE), None, moments=(without,))
+    for place_ in ("front", "behind", "right", "from-right", "beside", "front-1"):
+        assert candidates(place_, now) == ()
+    assert candidates("oncoming", now) == (4,)
+    assert candidates("truck", now) == (2,)
+
+
+@pytest.mark.parametrize(
+    ("description", "other", "meant"),
+    [
+        ("front", at(30.0, 8.0, -math.pi / 2), (1,)),  # it crosses before us ...
+        ("front", at(30.0, 25.0, -math.pi / 2), ()),  # ... or is far to the side
+        ("front", at(30.0, 0.0, math.pi), (1,)),  # it stands in our way
+        ("front", at(30.0, 3.5, math.pi), ()),  # it passes us
+        ("behind", at(-30.0, 3.5, math.pi), ()),
+        ("left", at(30.0, 3.5, math.pi), (1,)),
+        ("right", at(30.0, 3.5, math.pi), ()),
+        ("beside", at(0.0, 3.5, math.pi), (1,)),
+        ("beside", at(9.0, 3.5, math.pi), ()),
+        ("parked", at(9.0, 3.5), ()),
+    ],
+)
+def test_nobody_is_at_a_place_only_where_that_is_true(
+    description: str, other: VehicleState, meant: tuple[int, ...]
+) -> None:
+    assert candidates(description, Scope(({0: EGO, 1: other},), None)) == meant
+
+
 def test_numbers_and_the_ego_are_no_descriptions() -> None:
     assert described("ego") is None
     assert described("vehicle:3") is None

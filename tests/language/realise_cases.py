@@ -253,7 +253,7 @@ _aspects = st.one_of(
         {
             "sight": st.builds(
                 Sight,
-                about=st.sampled_from(["speed", "distance", "place", "count"]),
+                about=st.sampled_from(["speed", "distance", "place", "count", "nobody"]),
                 vehicle=_numbers,
                 place=st.sampled_from(["ahead", "behind", "left", "ahead-right", "behind-left"]),
                 oncoming=st.booleans(),

@@ -61,6 +61,10 @@ def bare(**details) -> Explanation:
         ),
         (Sight("colour", 1, colour="blue"), "The car ahead (vehicle 1) is blue."),
         (Sight("count", 0), "I see no other vehicle now."),
+        (
+            Sight("nobody", 0, place="front"),
+            "I see nobody driving ahead of us and no other vehicle either.",
+        ),
         (Sight("count", 0, others=(1,)), "I see one other vehicle now: vehicle 1."),
         (
             Sight("count", 0, others=(1, 2, 3)),

@@ -2,7 +2,8 @@
 
 A question names a vehicle by its number, or describes it ("vehicle:front", "vehicle:truck",
 "vehicle:it"). Descriptions are resolved against the scenes that the question may be about, the
-likeliest first: the first scene in which anything fits decides.
+likeliest first: the first scene in which anything fits decides. Where somebody is ("in front")
+holds for a moment only, so that such a description counts in the scenes of that moment alone.
 """
 
 import tomllib
@@ -10,18 +11,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
-from xavi_dialogue.explain.bearings import (
-    Place,
-    Vehicles,
-    bearing,
-    nearest_at,
-    nearest_first,
-    place,
-)
+from xavi_dialogue.explain.bearings import Vehicles, nearest_first, place
+from xavi_dialogue.explain.whereabouts import is_place, who_is
 from xavi_dialogue.language.context import VehicleWords
 
 PREFIX = "vehicle:"
@@ -33,6 +28,7 @@ class Scope:
 
     scenes: tuple[Vehicles, ...]  # the likeliest first
     topic: int | None  # the vehicle that was spoken of last
+    moments: tuple[Vehicles, ...] | None = None  # the same of where somebody is; None: alike
 
 
 _Search: TypeAlias = Callable[[Vehicles, int | None], tuple[int, ...]]
@@ -50,18 +46,14 @@ def candidates(description: str, scope: Scope) -> tuple[int, ...] | None:
     Returns:
         None for what is no description of a vehicle in view, such as "unknown" or "both".
     """
-    search = _SEARCHES.get(description) or _related(description)
+    if is_place(description):
+        moments = scope.scenes if scope.moments is None else scope.moments
+        return next(filter(None, (who_is(description, scene) for scene in moments)), ())
+    search = _SEARCHES.get(description)
     if search is None:
         return None
-    for scene in scope.scenes:
-        found = search(scene, scope.topic)
-        if found:
-            return tuple(sorted(found))
-    return ()
-
-
-def _at(*places: Place) -> _Search:
-    return lambda scene, _: nearest_at(scene, places)
+    found = (search(scene, scope.topic) for scene in scope.scenes)
+    return tuple(sorted(next(filter(None, found), ())))
 
 
 def _of_kind(*kinds: str) -> _Search:
@@ -70,15 +62,6 @@ def _of_kind(*kinds: str) -> _Search:
 
 def _of_colour(*colours: str) -> _Search:
     return lambda scene, _: tuple(n for n, v in scene.items() if n != EGO and v.colour in colours)
-
-
-def _ahead(scene: Vehicles, _: int | None) -> tuple[int, ...]:
-    """On our line; failing that, what goes our way further to the side."""
-    return nearest_at(scene, ("ahead",)) or nearest_at(scene, ("ahead-left", "ahead-right"))
-
-
-def _behind(scene: Vehicles, _: int | None) -> tuple[int, ...]:
-    return nearest_at(scene, ("behind",)) or nearest_at(scene, ("behind-left", "behind-right"))
 
 
 def _topic(scene: Vehicles, topic: int | None) -> tuple[int, ...]:
@@ -92,48 +75,7 @@ def _others(scene: Vehicles, topic: int | None) -> tuple[int, ...]:
     return tuple(name for name in scene if name not in (EGO, topic))
 
 
-def _parked(scene: Vehicles, _: int | None) -> tuple[int, ...]:
-    return tuple(n for n, state in scene.items() if n != EGO and state.speed < 0.1)
-
-
-def _from(side: Literal["left", "right"]) -> _Search:
-    """What comes across our way from a side; failing that, what is on that side."""
-    crossing: Place = "crossing-left" if side == "left" else "crossing-right"
-    return lambda scene, _: nearest_at(scene, (crossing,)) or _SEARCHES[side](scene, None)
-
-
-def _related(description: str) -> _Search | None:
-    """What is next before or behind another vehicle: "front-1", "behind-1"; it may be our car."""
-    side, _, other = description.rpartition("-")
-    if side not in ("front", "behind") or not other.isdecimal():
-        return None
-    name, wanted = int(other), "ahead" if side == "front" else "behind"
-
-    def search(scene: Vehicles, _: int | None) -> tuple[int, ...]:
-        if name not in scene:
-            return ()
-        seen = ((n, bearing(scene[name], state)) for n, state in scene.items() if n != name)
-        fits = [(where.distance, n) for n, where in seen if place(where) == wanted]
-        return tuple(n for _, n in sorted(fits))[:1]
-
-    return search
-
-
-def _nearest(scene: Vehicles, _: int | None) -> tuple[int, ...]:
-    return tuple(name for name, _ in nearest_first(scene))[:1]
-
-
 _SEARCHES: Mapping[str, _Search] = {
-    "nearest": _nearest,
-    "from-left": _from("left"),
-    "from-right": _from("right"),
-    "front": _ahead,
-    "behind": _behind,
-    "left": _at("beside-left", "ahead-left", "behind-left", "crossing-left"),
-    "right": _at("beside-right", "ahead-right", "behind-right", "crossing-right"),
-    "beside": _at("beside-left", "beside-right"),
-    "oncoming": _at("oncoming"),
-    "parked": _parked,
     "it": _topic,
     "that": _topic,
     "other": _others,

@@ -9,13 +9,14 @@ from xavi_dialogue.dialogue.following import in_conversation
 from xavi_dialogue.dialogue.mind import Said, Situation, refuse, reply_of, speech
 from xavi_dialogue.dialogue.pointing import ask_back, refer, scenes_for
 from xavi_dialogue.dialogue.quiz import judged
-from xavi_dialogue.dialogue.referents import scenes_of
+from xavi_dialogue.dialogue.referents import described, scenes_of
 from xavi_dialogue.dialogue.state import Understood, up_to
 from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.explain.explanation import NoExplanation
 from xavi_dialogue.explain.focus import resolve, tensed
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.when import Focus, When
+from xavi_dialogue.explain.whereabouts import place_asked
 from xavi_dialogue.language.followup import AGAIN
 from xavi_dialogue.language.quizzing import realise_quiz
 from xavi_dialogue.language.times import when_said
@@ -58,14 +59,18 @@ def understand(now: Situation, before: Turn | None) -> Understood | Said:
     asked = in_conversation(now, parsed)
     if isinstance(asked, Said):
         return asked
-    meant = refer(now, asked)
+    then = _spoken_of(now, asked)
+    meant = refer(now, asked, then)
     if isinstance(meant, Said):
         return meant
     if parsed.event == AGAIN:  # that it is asked why is no wish to hear more from now on
         query = msgspec.structs.replace(meant.query, detail=None)
         meant = replace(meant, query=query, again=True, detail=meant.query.detail)
     behind = asked.actor not in (parsed.actor, "ego") and asked.type in ("why", "how")
-    return _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
+    timed = _timed(now, replace(meant, focus=_decision(now.memory.last) if behind else None))
+    if isinstance(timed, Understood) and timed.focus is None:
+        return replace(timed, focus=then)  # who was there counts then, and so does what it did
+    return timed
 
 
 def _is_fragment(text: str, query: Query) -> bool:
@@ -119,6 +124,22 @@ def _timed(now: Situation, meant: Understood) -> Understood | Said:
     if found is None:
         return meant
     return replace(meant, query=tensed(query, found), focus=found)
+
+
+def _spoken_of(now: Situation, query: Query) -> Focus | None:
+    """The part of the ride that a question with a described vehicle speaks of, if any.
+
+    Who was at a place, without a time, is asked of the time that was spoken of last.
+    """
+    if described(query.actor) is None and described(query.hypothesised_cause or "") is None:
+        return None
+    when = _when(now)
+    if when is None:
+        last = now.memory.last
+        leans = query.tense == "past" and place_asked(query) is not None
+        return last.focus if leans and last is not None else None
+    found = resolve(when, now.record, query)
+    return found if isinstance(found, Focus) else None
 
 
 def _turns_to_us(query: Query, last: Turn) -> bool:

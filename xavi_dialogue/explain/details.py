@@ -112,9 +112,9 @@ class Suspect(msgspec.Struct, frozen=True):
 class Sight(msgspec.Struct, frozen=True):
     """What the latest scene shows of a vehicle, or of all."""
 
-    about: Literal["speed", "distance", "place", "count", "colour"]
-    vehicle: int
-    place: str | None = None  # where it is seen from us; None: it is us
+    about: Literal["speed", "distance", "place", "count", "colour", "nobody"]
+    vehicle: int  # with nobody: the nearest to us
+    place: str | None = None  # where it is seen from us; None: it is us; with nobody: as described
     oncoming: bool = False  # it comes towards us
     distance: float | None = None  # [m] of the gap ahead or behind, else between the centres
     speed: float | None = None  # [m/s]

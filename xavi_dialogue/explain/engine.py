@@ -33,6 +33,7 @@ from xavi_dialogue.explain.premise import premise
 from xavi_dialogue.explain.query import Query, QueryType
 from xavi_dialogue.explain.record import Record
 from xavi_dialogue.explain.ride import Ride, Unanswered, decline
+from xavi_dialogue.explain.whereabouts import place_asked
 
 #: What is answered with the time that it is about.
 DATED = frozenset[QueryType](("why", "why_not", "what_if", "what", "where_goal"))
@@ -166,6 +167,8 @@ def _explainer(query: Query, ride: Ride) -> Explainer:
         raise decline("not-an-action")
     if query.type == "ambiguous":
         raise decline("ambiguous")
+    if place_asked(query) is not None:
+        return sights.nobody
     if collision.names_collision(query):
         return collision.collision
     if collision.tells_collision(query, ride):

@@ -151,7 +151,7 @@ class Explanation(msgspec.Struct, frozen=True, kw_only=True):
 
     By the aspect that a question has beside its type:
 
-    - How fast, how far, where, which colour, how many: `sight`.
+    - How fast, how far, where, which colour, how many, that nobody is at a place: `sight`.
     - What else, the second best, the worst: `choices`, with the one named as the counterfactual.
     - Did you have to: `need`, with the best alternative as the counterfactual, or the causes.
     - Why in this lane: `staying`, with what speaks against another as the counterfactual.
@@ -206,7 +206,8 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
       where `happened` is the same at another time than the one asked about; times, where it
       happened less often than the question says.
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
-    - unknown-vehicle: vehicle, known.
+    - unknown-vehicle: vehicle, known; where there is nobody at a place, that (as described), and
+      then (True where a time was named).
     - too-little-evidence: asked, distinct, needed, coverage, rollouts.
     - effect-too-small: asked, chosen (what was done or is planned instead), delta [s].
     - outside-record, trace-gap: vehicle, time [s]; since and until [s] when there is a record;

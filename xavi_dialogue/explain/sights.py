@@ -1,6 +1,5 @@
 """What the latest scene shows: how fast, how far, where, how many, which colour."""
 
-import math
 from contextlib import suppress
 from typing import Literal, cast
 
@@ -9,14 +8,13 @@ from msgspec.structs import replace
 from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.explain import vehicles
-from xavi_dialogue.explain.bearings import OPPOSITE, SAME_LANE, Bearing, bearing
+from xavi_dialogue.explain.bearings import OPPOSITE, Bearing, bearing, nearest_first
 from xavi_dialogue.explain.details import Sight
 from xavi_dialogue.explain.explanation import Evidence, Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.ride import ROUNDING, Ride, Unanswered, decline
 from xavi_dialogue.explain.vehicles import check_known, vehicle_of
-
-ABREAST = (math.radians(65.0), math.radians(115.0))  # bearings that are to one side
+from xavi_dialogue.explain.whereabouts import seen_at, side_of, who_is
 
 About = Literal["speed", "distance", "place", "count", "colour"]
 
@@ -48,6 +46,23 @@ def sight(query: Query, ride: Ride) -> Explanation:
     return found
 
 
+def nobody(query: Query, ride: Ride) -> Explanation:
+    """That there is nobody where it is asked who is there; and who is the nearest.
+
+    Raises:
+        Unanswered: somebody is, so that the question is about that vehicle.
+    """
+    description = query.actor.partition(":")[2]
+    moment = ride.now if ride.past is None else ride.past.moment
+    trace = seen_at(ride.traces, moment) or ride.latest
+    if who_is(description, trace.scene) != ():
+        raise decline("ambiguous", vehicle=query.actor)
+    others = tuple(n for n, _ in nearest_first(trace.scene) if n not in trace.unseen)
+    shown = Sight("nobody", others[0] if others else EGO, place=description, others=others)
+    found = _explanation(ride, trace, shown)
+    return found if ride.past is None else replace(found, moment=trace.sim_time)
+
+
 def _seen_in(ride: Ride, vehicle: int) -> PlanTrace:
     """The last decision at which a vehicle was in view; the last of all where it is hidden."""
     hidden = ride.latest.unseen.get(vehicle)
@@ -72,23 +87,12 @@ def _of(ride: Ride, trace: PlanTrace, vehicle: int, about: About) -> Sight:
         return shown
     where = bearing(trace.scene[EGO], state)
     oncoming = abs(where.turn) >= OPPOSITE and where.ahead > 0.0
-    return replace(shown, place=_place(where), oncoming=oncoming, distance=_distance(where))
-
-
-def _place(where: Bearing) -> str:
-    """On which side of us a vehicle is, whichever way it heads."""
-    if abs(where.left) <= SAME_LANE and abs(where.ahead) > where.clear:
-        return "ahead" if where.ahead > 0.0 else "behind"
-    side = "left" if where.left > 0.0 else "right"
-    angle = abs(math.atan2(where.left, where.ahead))
-    if angle > ABREAST[1]:
-        return f"behind-{side}"
-    return side if angle >= ABREAST[0] else f"ahead-{side}"
+    return replace(shown, place=side_of(where), oncoming=oncoming, distance=_distance(where))
 
 
 def _distance(where: Bearing) -> float:
     """How far [m] away a vehicle is: the gap on our line, else from centre to centre."""
-    if _place(where) in ("ahead", "behind"):
+    if side_of(where) in ("ahead", "behind"):
         return max(abs(where.ahead) - where.clear, 0.0)
     return where.distance
 

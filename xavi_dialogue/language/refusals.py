@@ -61,6 +61,8 @@ class Refusal:
     clause: str | None = None  # the planner's reason
     known: tuple[Vehicle, ...] = ()  # some of them, where they are many ...
     many: Quantity | None = None  # ... and then how many there are
+    nobody: str | None = None  # that nobody is at the place where the question has somebody, ...
+    then: bool = False  # ... or was, at the time it names
     seen: bool = True  # the decision reckoned with the vehicle
     close: bool = False  # the times of arrival that were compared are the same to half a second
     tried: float | None = None  # distinct situations behind the evidence there is ...
@@ -172,7 +174,7 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
     if refusal.reason == "too-little-evidence" and actor:
         asked = claimed  # what was tried too little is what we would do then
     instead = _actions(facts, "happened")
-    clause = _text(facts, "reason")
+    clause, place = _text(facts, "reason"), _text(facts, "place")
     did = facts.get("did") is True
     sideless = query.underspecified == "direction" and not did
     if sideless and refusal.reason == "did-not-happen":
@@ -202,6 +204,8 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
         beyond=facts.get("ahead") is True,
         clause=clause if clause is None or actor else rewrite(clause, "own"),
         known=_vehicles(facts),
+        nobody=None if place is None else lexicon().nobody_at(place),
+        then=facts.get("then") is True,
         seen=facts.get("seen") is not False,
         close=abs(_number_of(facts, "delta") or math.inf) < 0.5 or facts.get("delta") == 0.0,
         tried=_number_of(facts, "distinct"),

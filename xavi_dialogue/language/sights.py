@@ -8,6 +8,7 @@ from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.doings import doing, plain
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.quantities import KMH, Quantity, nearest
+from xavi_dialogue.language.wording import lexicon
 
 LISTED = 4  # vehicles that are named one by one
 
@@ -28,6 +29,8 @@ class SightPoint:
     place: str | None
     oncoming: bool
     colour: str | None
+    nobody: str | None  # that nobody is where it is asked who is there ...
+    then: bool  # ... or was, at an earlier time
     others: tuple[Vehicle, ...]  # where they are few enough to be listed
     many: Quantity  # how many there are
     forecast: Doing | None  # what is expected of it
@@ -61,6 +64,8 @@ def sight_point(query: Query, found: Explanation, sight: Sight) -> SightPoint:
         place=sight.place,
         oncoming=sight.oncoming,
         colour=sight.colour,
+        nobody=lexicon().nobody_at(sight.place or "") if sight.about == "nobody" else None,
+        then=found.then is not None,
         others=tuple(map(Vehicle, sight.others)) if len(sight.others) <= LISTED else (),
         many=Quantity(len(sight.others), "count"),
         forecast=doing(sight.vehicle, actions, "future"),

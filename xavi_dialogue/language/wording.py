@@ -38,6 +38,7 @@ class Lexicon:
     negligible: Mapping[str, float]  # in each component's unit
     verbs: Mapping[str, tuple[str, ...]]
     described: Mapping[str, str]  # vehicles by the tail of a described actor
+    nobody: Mapping[str, str]  # that there is none such, by the same
 
     def action(self, name: str, *variants: str) -> str:
         """The phrase for an action: of the first variant there is a phrase for."""
@@ -48,6 +49,10 @@ class Lexicon:
             if variant in phrases:
                 return phrases[variant]
         raise WordingError(f"lexicon.toml: [actions.{name}] needs a phrase 'say'")
+
+    def nobody_at(self, place: str) -> str:
+        """The phrase for that nobody is where a question describes somebody to be."""
+        return self.nobody.get(place, self.nobody["default"])
 
     def inflect(self, phrase: str, form: VerbForm) -> str:
         """The phrase with its verb, which comes first, in the given form."""
@@ -93,6 +98,7 @@ def lexicon() -> Lexicon:
         negligible={k: float(str(v)) for k, v in _table(data, "negligible", name).items()},
         verbs=forms,
         described={k: str(v) for k, v in _table(data, "described", name).items()},
+        nobody={k: str(v) for k, v in _table(data, "nobody", name).items()},
     )
 
 
