@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import typer
+from typer.core import TyperGroup
 
 from xavi_dialogue.app.bench.commands import Measure, commands
 from xavi_dialogue.app.commands import doctor, keys, looking, processes, recording, riding, sessions
@@ -19,8 +20,36 @@ from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
 from xavi_dialogue.app.reproduce.command import command as reproduce
 
+
+class _Commands(TyperGroup):
+    """The commands; what is wrong with a value from the file of settings is told with its place."""
+
+    def invoke(self, context: Any) -> Any:
+        try:
+            return super().invoke(context)
+        except typer.BadParameter as error:
+            _place(context, error)
+            raise
+
+
+def _place(context: Any, error: typer.BadParameter) -> None:
+    """Say where a value was set, if a file of settings did."""
+    from xavi_dialogue.app import settings
+
+    command, parameter = error.ctx, error.param
+    if command is None or parameter is None or parameter.name is None:
+        return
+    source = command.get_parameter_source(parameter.name)
+    if source is not None and source.name == "DEFAULT_MAP":
+        option = max(parameter.opts, key=len)
+        path = context.params.get("config") or settings.default_path()
+        where = settings.place_in(path, option.removeprefix("--"), str(command.info_name))
+        error.param_hint = f"'{option}' in {where}"
+
+
 app = typer.Typer(
     name="xavi",
+    cls=_Commands,
     help="A car that drives in SUMO and answers its passengers.",
     no_args_is_help=True,
     add_completion=False,

@@ -53,8 +53,9 @@ def test_a_file_may_be_named(served: list[Link], tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("lsten = 1", "lsten is no option"),
-        ("[serve]\nspeed = 1", "speed of [serve] is no option"),
+        ("lsten = 1", "lsten is no option; the nearest is listen, and xavi COMMAND --help lists"),
+        ("[serve]\nspeed = 1", "speed of [serve] is no option; xavi serve --help lists all"),
+        ("[serve]\nkeepdays = 1", "nearest is keep-days, and xavi serve --help lists all"),
         ("[srve]\nlisten = 'x'", "[srve] is no command; there are"),
         ("listen = 1979-05-27", "has to be a text"),
         ("listen =", "cannot be read"),
@@ -70,6 +71,28 @@ def test_a_file_that_cannot_be_used_is_told(
     assert str(file) in result.stderr
     assert problem in result.stderr
     assert served == []
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "told"),
+    [
+        ("[drive]\nspeed = 'fast'", ("drive",), "'--speed' in {file}, [drive]: "),
+        ("speed = 5000", ("drive",), "'--speed' in {file}: "),
+        ("vehicle = 'a/b'", ("drive",), "'--vehicle' in {file}: a name has"),
+        ("[drive]\nspeed = 1", ("drive", "--speed", "fast"), "'--speed': "),
+        ("[chat]\nspeed = 'fast'", ("drive", "--speed", "fast"), "'--speed': "),
+    ],
+)
+def test_a_value_that_cannot_be_used_is_told_with_the_file_that_sets_it(
+    tmp_path: Path, text: str, arguments: tuple[str, ...], told: str
+) -> None:
+    file = tmp_path / "config.toml"
+    file.write_text(text)
+    for given in (("--config", str(file)), ()):
+        named = {"XAVI_CONFIG": "" if given else str(file)}
+        result = xavi(*given, *arguments, **named)
+        assert result.exit_code == 2
+        assert f"Invalid value for {told.format(file=file)}" in result.stderr
 
 
 def test_a_file_that_is_named_has_to_be_there(tmp_path: Path) -> None:

@@ -53,21 +53,41 @@ def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
     _check(path, "", everywhere, known)
     found: dict[str, dict[str, Any]] = {}
     for command, of_command in options.items():
-        _check(path, f" of [{command}]", tables.get(command, {}), set(of_command))
+        _check(path, command, tables.get(command, {}), set(of_command))
         chosen = {name: value for name, value in everywhere.items() if name in of_command}
         chosen.update(tables.get(command, {}))
         found[command] = {of_command[name]: value for name, value in chosen.items()}
     return found
 
 
-def _check(path: Path, where: str, said: Mapping[str, Any], known: set[str]) -> None:
+def place_in(path: Path, name: str, command: str) -> str:
+    """Where a file sets an option of a command, in words."""
+    said = tomllib.loads(path.read_text(encoding="utf-8"))
+    return f"{path}, [{command}]" if name in said.get(command, {}) else str(path)
+
+
+def _check(path: Path, command: str, said: Mapping[str, Any], known: set[str]) -> None:
+    where = f" of [{command}]" if command else ""
     for name, value in said.items():
         if name not in known:
-            raise SettingsError(f"{path}: {name}{where} is no option; there are {_listed(known)}")
+            raise SettingsError(
+                f"{path}: {name}{where} is no option; {_nearest(name, known)}"
+                f"xavi {command or 'COMMAND'} --help lists all"
+            )
         if not isinstance(value, (str, int, float, list)):
             raise SettingsError(
                 f"{path}: {name}{where} has to be a text, a number, true, false or a list"
             )
+
+
+def _nearest(name: str, known: set[str]) -> str:
+    """The option that is written most alike, as a beginning of a sentence; empty: none is."""
+    # Deferred: few files have a mistake.
+    from rapidfuzz.distance import OSA
+
+    found = min(sorted(known), key=lambda one: OSA.distance(name, one))
+    alike = OSA.distance(name, found) <= len(name) // 2
+    return f"the nearest is {found}, and " if alike else ""
 
 
 def _listed(names: set[str] | Options) -> str:
