@@ -95,9 +95,18 @@ def explain_ride(query: Query, ride: Ride) -> Explanation | NoExplanation | Need
     try:
         return _dated(query, ride, _checked(query, ride, _explainer(query, ride)(query, ride)))
     except Unanswered as unanswered:
-        return unanswered.result
+        return _doubted(unanswered.result, ride)
     except CausalError:  # a record that contradicts itself explains nothing
         return NoExplanation(reason="trace-gap", facts={"time": ride.now})
+
+
+def _doubted(result: NoExplanation | NeedRollout, ride: Ride) -> NoExplanation | NeedRollout:
+    """The result, unless it denies what may have been in a part of the record that was lost."""
+    denial = isinstance(result, NoExplanation) and result.reason == "did-not-happen"
+    if not denial or not ride.gaps:
+        return result
+    since, until = ride.gaps[0][0], ride.gaps[-1][1]
+    return NoExplanation(reason="trace-gap", facts={"since": since, "until": until})
 
 
 def settled(query: Query, record: Record) -> Query:

@@ -89,6 +89,7 @@ class Ride:
         self.traces = tuple(t for t in record.traces if t.sim_time <= record.now + ROUNDING)
         self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
         self.ended = record.ended
+        self.gaps = record.gaps  # [s] from when to when some of it was lost
         self.arrived = any(event.kind == "arrived" for event in self.events)
         self._extra, self._refused = record.extra, record.refused
         self._models: dict[int, CausalModel] = {}
