@@ -1,8 +1,14 @@
+from types import SimpleNamespace
+from typing import Any
+
 import pytest
 
 from planner.events import Event
 from planner.trace import ACTIONS
+from sim.scene import VehicleState
+from xavi_dialogue.app.cabin import RemoteCabin
 from xavi_dialogue.app.narration import Teller, clock, narrate, plan_in_words, story
+from xavi_dialogue.transports.messages import SceneReport
 
 
 @pytest.mark.parametrize(
@@ -47,6 +53,30 @@ def test_every_action_has_words(action: str) -> None:
 def test_a_plan_is_a_row_of_actions() -> None:
     assert plan_in_words(("change-left", "continue")) == "change left, then go on"
     assert plan_in_words(()) == ""
+
+
+def cabin(state: Any) -> RemoteCabin:
+    report = SceneReport(
+        ride="r1",
+        seq=0,
+        sim_time=32.0,
+        wall_time=0.0,
+        vehicles={0: VehicleState((0.0, 0.0), 0.0, 50.0 / 3.6, 0.0, 4.5, 1.8)},
+        state=state,
+        speed_factor=1.0,
+        plan=("continue",),
+        traces=0,
+        events=0,
+    )
+    known: Any = SimpleNamespace(scene=report, trouble=lambda: None)
+    return RemoteCabin(known, known, known)
+
+
+def test_a_ride_that_is_over_has_neither_speed_nor_plan() -> None:
+    assert cabin("driving").status() == "0:32  ·  50 km/h  ·  go on"
+    assert cabin("driving").plan() == "I plan to go on."
+    assert cabin("ended").status() == "0:32  ·  the ride is over; ask on"
+    assert cabin("ended").plan() == "The ride is over."
 
 
 def test_clocks() -> None:

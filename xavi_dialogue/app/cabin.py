@@ -38,8 +38,9 @@ class RemoteCabin:
         scene = self._client.scene
         if scene is None:
             return "waiting for the car"
-        speed = f"{scene.vehicles[0].speed * KMH:.0f} km/h"
-        parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan)]
+        going = scene.state != "ended"
+        speed = f"{scene.vehicles[0].speed * KMH:.0f} km/h" if going else ""
+        parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan) if going else ""]
         parts.append(self._behind.trouble() or _state(scene))
         return "  ·  ".join(filter(None, parts))
 
@@ -146,6 +147,8 @@ def vehicles_in_words(scene: SceneReport | None) -> str:
 
 def plan_told(scene: SceneReport | None) -> str:
     """What the car is about to do."""
+    if scene is not None and scene.state == "ended":
+        return "The ride is over."
     if scene is None or not scene.plan:
         return "I have no plan yet."
     return f"I plan to {plan_in_words(scene.plan)}."

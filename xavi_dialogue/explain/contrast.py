@@ -160,6 +160,7 @@ def against_best(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Explanatio
     model, plan = ride.model(trace), planned(trace)
     here = factual(model, trace)
     others = alternatives(model, plan[len(node)], node) if len(plan) > len(node) else []
+    others = [pair for pair in others if not _coming(plan, pair[0])]
     if others:
         foil, there = next((pair for pair in others if _natural(plan, pair[0])), others[0])
         return explain_contrast(ride, model, here, there, foil)
@@ -173,6 +174,13 @@ def against_best(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Explanatio
         sim_time=trace.sim_time,
         arrival=arrival(trace, here),
     )
+
+
+def _coming(plan: Actions, foil: Actions) -> bool:
+    """Whether a foil is what the plan has next: driving on up to it is no choice against it."""
+    at = len(foil) - 1
+    later = next((action for action in plan[at:] if action != "continue"), None)
+    return plan[at] == "continue" and later is not None and same(foil[-1], later)
 
 
 def _natural(plan: Actions, foil: Actions) -> bool:

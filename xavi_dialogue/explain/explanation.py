@@ -204,7 +204,7 @@ class NoExplanation(msgspec.Struct, frozen=True, kw_only=True):
       happened and time [s] of what was done instead, planned (True where it is yet to come),
       what (crash, mishap, junction, roundabout, where that is what did not happen); elsewhere,
       where `happened` is the same at another time than the one asked about; times, where it
-      happened less often than the question says.
+      happened less often than the question says; coming, the turn up to which the ego drives on.
     - not-applicable: asked, reason (a clause in words), time [s] of the decision.
     - unknown-vehicle: vehicle, known; where there is nobody at a place, that (as described), and
       then (True where a time was named).

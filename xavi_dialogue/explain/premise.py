@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from planner.trace import PlanTrace
+from sim.scene import EGO
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.actions import STRAIGHT, means, same, to_macros
 from xavi_dialogue.explain.deeds import DRIVING, did_not_happen, happened, was_done
@@ -95,6 +96,7 @@ def _then(ride: Ride, focus: Focus) -> Premise:
 def _premise_of(ride: Ride, action: QueryAction, query: Query) -> Premise:
     deed = happened(ride, action)
     if query.tense != "past" and (deed is None or deed.ended is not None):
+        _check_straight(ride, action, query)
         ahead = _ahead(ride, action)
         if ahead is not None:
             return ahead
@@ -116,6 +118,17 @@ def _ahead(ride: Ride, action: QueryAction) -> Premise | None:
         if trace.under_way is None:
             return Premise(trace, None, planned(trace)[: depths[0]])
     return None
+
+
+def _check_straight(ride: Ride, action: QueryAction, query: Query) -> None:
+    """That who is said to go straight on now does not only drive up to the turn planned.
+
+    Raises:
+        Unanswered: the turn comes next.
+    """
+    plan = planned(ride.latest)
+    if query.tense == "present" and action in STRAIGHT and plan[:1] and plan[0] in TURNS:
+        raise decline("did-not-happen", vehicle=EGO, asked=(action,), did=False, coming=plan[:1])
 
 
 def _open(ride: Ride, trace: PlanTrace, foil: tuple[QueryAction, ...]) -> bool:

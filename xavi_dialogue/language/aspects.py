@@ -31,6 +31,7 @@ class _Aspect:
     finds: tuple[re.Pattern[str], ...]
     types: frozenset[str]  # empty: any
     actor: str  # whose aspect: named, vehicle, ego, ours or theirs
+    reason: str  # why it would be declined otherwise, if it would
 
 
 def aspects() -> frozenset[str]:
@@ -59,6 +60,7 @@ def _aspects() -> tuple[_Aspect, ...]:
             tuple(pattern(find) for find in one["find"]),
             frozenset(one.get("types", ())),
             one["actor"],
+            one.get("reason", "perception"),
         )
         for one in data["aspect"]
     )
@@ -95,7 +97,7 @@ def _fits(aspect: _Aspect, query: Query) -> bool:
     """Whether a query of that type, about that actor, may have an aspect."""
     if query.type in _TALK or (aspect.types and query.type not in aspect.types):
         return False
-    if query.type == "out_of_scope" and query.reason != "perception":
+    if query.type == "out_of_scope" and query.reason != aspect.reason:
         return False
     if aspect.actor == "theirs":
         return query.actor != "ego"

@@ -45,6 +45,7 @@ class Refusal:
     instead: Doing | None = None  # what happened in its place
     did: bool = False  # what was asked about is what was done
     undone: bool = False  # what was asked about is that it had not been done
+    coming: Doing | None = None  # up to what we drive on
     only: bool = False  # what happened in its place is all that happened so far
     planned: bool = False  # what was asked about is yet to come ...
     probability: float | None = None  # ... and how probably
@@ -190,6 +191,7 @@ def _content(query: Query, refusal: NoExplanation, suggestion: str | None) -> Re
         instead=doing(actor or EGO, instead, "past"),
         did=did,
         undone=facts.get("undone") is True,
+        coming=doing(EGO, _actions(facts, "coming"), "future"),
         only=instead == ("continue",) and "time" not in facts,
         planned=facts.get("planned") is True,
         probability=_number_of(facts, "probability"),
