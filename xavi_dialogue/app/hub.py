@@ -9,10 +9,11 @@ from xavi_dialogue.app import control
 from xavi_dialogue.app.local import make_mind
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.service import Service
-from xavi_dialogue.dialogue.events import Asked, TurnedAway
+from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.language.rules import load_all
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import host
 
@@ -55,6 +56,5 @@ def _told_to_quit(orders: control.Orders) -> bool:
 
 def _warm(mind: Mind) -> None:
     """Have parser and sentences read their grammars, so that the first passenger need not wait."""
-    asked = Asked("warm", "warm", "Hello!", 0.0)
-    advance(mind, Dialogue(), asked)
-    advance(mind, Dialogue(), TurnedAway(asked, "busy"))
+    load_all()
+    advance(mind, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))

@@ -191,6 +191,13 @@ def load_grammar(name: str) -> dict[str, Rule]:
     return read_grammar(path.read_text(encoding="utf-8"), path.name)
 
 
+def load_all() -> None:
+    """Read all answer grammars, so that no sentence has to wait for one."""
+    for path in files("grammars").iterdir():
+        if path.name.endswith(".rules"):
+            load_grammar(path.name.removesuffix(".rules"))
+
+
 def _check(rule: Rule, grammar: Grammar, name: str) -> None:
     paths: list[Path] = []
     for alternative in rule.alternatives:

@@ -1,7 +1,7 @@
 """`xavi bench dialogue`: how long answers take, of one passenger and of a thousand at once."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -34,6 +34,14 @@ QUESTIONS = (
     "Why did you not fly?",
     "Are you sure?",
     "Hello!",
+)
+STORIES = ("s1", "s2", "s3", "s4")
+SEEDS = range(4)  # of each story, for questions that may need planning again
+DEEPER = (
+    "Why did you do that?",
+    "What if vehicle 1 weren't there?",
+    "What will you do if vehicle 1 stops?",
+    "What would you have done without vehicle 2?",
 )
 MOMENTS = tuple(round(2.0 + 0.1 * k, 1) for k in range(40))  # [s] at which it is asked
 RATES = (20, 50, 100, 200)  # questions a second, of all passengers together
@@ -89,8 +97,17 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
             first_scene(behind, client)
             at = behind.drive(client, Until(None), halt=True).sim_time
             note("one passenger over the bus")
-            _over_the_bus(watch, behind, client, at)
+            for moment in (one for one in MOMENTS if one <= at):
+                _over_the_bus(watch, behind, client, moment, QUESTIONS)
             loads, memory = _crowded(behind, sessions, seconds, at, note)
+    for story in STORIES:
+        note(f"one passenger over the bus in {story}, seeds {SEEDS[0]} to {SEEDS[-1]}")
+        for seed in SEEDS:
+            with convoy(story, seed, 0.0) as behind:
+                client = Client(behind.bus, Keys(), "bench")
+                first_scene(behind, client)
+                at = behind.drive(client, Until(None), halt=True).sim_time
+                _over_the_bus(watch, behind, client, at, DEEPER)
     return Report("dialogue", watch.figures(), TARGETS, loads, *memory)
 
 
@@ -117,17 +134,18 @@ def _alone(watch: Watch, name: str) -> None:
         watch.taken.setdefault(f"{name} {kind}", []).append(taken)
 
 
-def _over_the_bus(watch: Watch, behind: Convoy, client: Client, until: float) -> None:
-    """From a passenger's process through the service's, kept on disk, about many moments."""
-    for at in (moment for moment in MOMENTS if moment <= until):
-        for question in QUESTIONS:
-            before = _counters(behind)["what_ifs"]
-            began = time.perf_counter()
-            client.ask(question, at)
-            taken = time.perf_counter() - began
-            again = _counters(behind)["what_ifs"] > before
-            kind = "planned again" if again else "from the record"
-            watch.taken.setdefault(f"over the bus {kind}", []).append(taken)
+def _over_the_bus(
+    watch: Watch, behind: Convoy, client: Client, at: float, questions: Sequence[str]
+) -> None:
+    """From a passenger's process through the service's, about a moment [s]."""
+    for question in questions:
+        before = _counters(behind)["what_ifs"]
+        began = time.perf_counter()
+        client.ask(question, at)
+        taken = time.perf_counter() - began
+        again = _counters(behind)["what_ifs"] > before
+        kind = "planned again" if again else "from the record"
+        watch.taken.setdefault(f"over the bus {kind}", []).append(taken)
 
 
 def _crowded(
