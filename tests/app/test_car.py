@@ -221,7 +221,8 @@ def test_a_hub_that_is_killed_and_comes_back_finds_all_that_was_reported(tmp_pat
                 assert [report.seq for report in reports] == list(range(len(reports)))
             assert ear.plans_again()
             fares = ear.fares().counters
-            assert (fares["what_ifs_planned"], fares["workers"]) == (1.0, 1.0)
+            assert fares["what_ifs_planned"] >= 1.0  # the service may have asked as well
+            assert fares["workers"] == 1.0
             assert fares["reports_dropped"] == 0.0
             assert until(lambda: "service back" in log.read_text())
     assert log.read_text().count("service lost") == 1

@@ -524,6 +524,34 @@ def test_who_missed_the_reply_may_ask_again(bench: Bench) -> None:
     assert [turn.text for turn in turns] == ["answer", "refuse"]
 
 
+def test_what_could_not_be_answered_may_be_asked_again(bench: Bench) -> None:
+    lost = ask(bench, "answer", request="1")
+    bench.service.work()
+    assert replied(lost).reason == "planner-unavailable"
+    drive(bench, "car", 3.0)
+    came = ask(bench, "answer", request="1")
+    bench.service.work()
+    assert replied(came).kind == "answer"
+
+
+def test_after_a_while_a_name_is_another_request(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    car = drive(bench, "car", 3.0)
+    before = ask(bench, "answer", request="1")
+    bench.service.work()
+    car.close()
+    drive(bench, "car", 6.0)
+    again = ask(bench, "answer", request="1")
+    bench.service.work()
+    assert again == before
+    now = time.monotonic() + 60.0
+    monkeypatch.setattr(time, "monotonic", lambda: now)
+    later = ask(bench, "answer", request="1")
+    bench.service.work()
+    assert [replied(one).sim_time for one in (before, later)] == [3.0, 6.0]
+
+
 def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) -> None:
     first, later = Bench(Memory(keeping)), Bench(Memory(keeping))
     for bench in (first, later):  # the first is killed before its reply arrives

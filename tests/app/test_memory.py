@@ -337,7 +337,7 @@ def test_a_conversation_goes_on_at_the_moment_of_its_last_question(
 ) -> None:
     store = tmp_path / "dialogue.sqlite3"
     for lines, noted in (
-        (["Hello!", "@ 2.0s", "Hello!"], "conversation is ada"),
+        (["Hello!", "@ 2.0s", "Hello!"], "driving s1"),
         (["Hello!"], "asking at 2.0 s"),
     ):
         chats.append(Chat(store, *RIDE, "--session", "ada"))

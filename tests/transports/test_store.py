@@ -578,10 +578,11 @@ def test_a_file_of_the_version_before_is_brought_to_this_one(path: Path) -> None
         store.keep([new("after", owner="0" * 64, request="q1")])
         assert [one.text for one in store.turns("ada", 9)] == ["before", "after"]
         assert store.owner("ada") == "0" * 64
-        found = store.answered("ada", "q1")
+        found = store.answered("ada", "q1", 0.0)
         assert found is not None
         assert found.text == "after"
-        assert store.answered("ada", "q2") is None
+        assert store.answered("ada", "q2", 0.0) is None
+        assert store.answered("ada", "q1", 1e9) is None
 
 
 def test_an_owner_is_forgotten_with_the_session_and_is_a_digest(path: Path) -> None:

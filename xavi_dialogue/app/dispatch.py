@@ -44,6 +44,9 @@ from xavi_dialogue.transports.store import RideName
 
 _LOG = logging.getLogger(__name__)
 MAX_SENT = 500  # replies that can be repeated
+AGAIN = 30.0  # [s] for which a request that comes again is the same one
+#: Reasons that may be gone when the same is asked again.
+PASSING = frozenset[Reason | None](("busy", "planner-failed", "planner-unavailable", "timed-out"))
 
 
 @dataclass
@@ -56,8 +59,8 @@ class Dispatch:
     alive: Alive
     replies: int = 0  # so far
     shared: int = 0  # turns
-    #: What was answered with what, by session and request.
-    sent: dict[tuple[str, str], tuple[AskRequest, bytes]] = field(default_factory=dict)
+    #: What was answered with what, and when [s], by session and request.
+    sent: dict[tuple[str, str], tuple[AskRequest, bytes, float]] = field(default_factory=dict)
 
     def next(self) -> int:
         """The sequence number of a reply."""
@@ -74,7 +77,8 @@ class Dispatch:
             )
         taken = round((time.monotonic() - question.came) * 1000.0, 3)
         payload = self._packed(asked, answer.reply, taken)
-        self.sent[asked.session, asked.request] = (asked, payload)
+        if answer.reply.reason not in PASSING:
+            self.sent[asked.session, asked.request] = (asked, payload, time.monotonic())
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
         with suppress(BusError):  # who asked is gone
@@ -90,9 +94,11 @@ class Dispatch:
         """
         before = self.sent.get((asked.session, asked.request))
         if before is not None:
-            return before[1] if before[0] == asked else None
-        turn = self.memory.answered(asked.session, asked.request)
-        if turn is None or turn.text != asked.text:
+            told, payload, at = before
+            fresh = time.monotonic() - at < AGAIN
+            return payload if told == asked and fresh else None
+        turn = self.memory.answered(asked.session, asked.request, time.time() - AGAIN)
+        if turn is None or turn.text != asked.text or turn.reply.reason in PASSING:
             return None
         if asked.at is not None and abs(turn.reply.sim_time - asked.at) > EPSILON:
             return None

@@ -90,15 +90,15 @@ class Memory:
             self._fail(error)
         return next(missed, None)
 
-    def answered(self, session: str, request: str) -> Turn | None:
-        """The turn with which a request was answered not long ago; None where it was not."""
+    def answered(self, session: str, request: str, since: float) -> Turn | None:
+        """The turn with which a request was answered since a wall time [s]; None: it was not."""
         if self.keeping is None or session in self._unforgotten:
             return None
         for new in self._missed:
             if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
                 return new.turn
         with suppress(StoreError), self._using(self.keeping) as store:  # else it is answered anew
-            return store.answered(session, request)
+            return store.answered(session, request, since)
         return None
 
     def keep(

@@ -15,7 +15,7 @@ import msgspec
 
 from planner.events import Event
 from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
-from sim.scene import VehicleState
+from sim.scene import EGO, VehicleState
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.language.context import Style
@@ -101,6 +101,8 @@ class TraceReport(Report, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         fault = fault_of(self.trace)
+        if EGO not in self.trace.scene or EGO not in self.trace.history:
+            fault = "there is no ego"
         if fault is not None:
             raise ValueError(f"no plan trace: {fault}")
 

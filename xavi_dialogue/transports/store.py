@@ -127,10 +127,19 @@ class Store:
         rows = self._file.rows("SELECT digest FROM owners WHERE session = ?", (session,))
         return decoded_owner(self.path, session, rows[0][0]) if rows else None
 
-    def answered(self, session: str, request: str) -> Turn | None:
-        """The turn, among the latest of a session, with which a request was answered."""
-        sql = "SELECT request, turn FROM turns WHERE session = ? ORDER BY number DESC LIMIT ?"
-        rows = self._file.rows(sql, (session, RECENT))
+    def answered(self, session: str, request: str, since: float) -> Turn | None:
+        """The turn, among the latest of a session, with which a request was answered.
+
+        Args:
+            session: that it is of.
+            request: its name.
+            since: [s] wall time; earlier turns answered another of that name.
+        """
+        sql = (
+            "SELECT request, turn FROM turns WHERE session = ? AND wall_time >= ?"
+            " ORDER BY number DESC LIMIT ?"
+        )
+        rows = self._file.rows(sql, (session, since, RECENT))
         found = (decoded(self.path, session, turn, Turn) for name, turn in rows if name == request)
         return next(found, None)
 
