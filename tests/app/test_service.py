@@ -447,6 +447,48 @@ def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Keeping) -> N
     assert texts(kept) == ["answer"]
 
 
+def test_as_long_as_it_cannot_be_read_whose_a_session_is_nobody_gets_it(kept: Keeping) -> None:
+    victim, thief = "v" * 43, "t" * 43
+    first = Bench(Memory(kept))
+    first.drive()
+    for name in ("r1", "r2"):
+        first.ask("answer", token=victim, request=name, session=name)
+    first.service._memory.close()
+    bench = Bench(Memory(kept))
+    bench.drive()
+    assert bench.ask("answer", token=victim, request="again", session="r1").kind == "answer"
+    store = bench.service._memory._store
+    assert store is not None
+    bench.service._memory._store = None
+    hidden = kept.path.with_suffix(".hidden")
+    kept.path.rename(hidden)
+    kept.path.mkdir()
+
+    def tried(kind: str, session: str) -> str:
+        make = {"history": HistoryRequest, "forget": ForgetRequest, "ask": AskRequest}[kind]
+        more = {
+            "history": {},
+            "forget": {"request": "f"},
+            "ask": {"request": "q9", "text": "answer"},
+        }
+        wanted = make(session=session, token=thief, **more[kind])  # type: ignore[arg-type]
+        came: list[object] = []
+        bench.passenger.request(KEYS.of(f"@rpc/{kind}"), pack(wanted), 1.0, came.append)
+        bench.service.work()
+        [outcome] = came
+        return unpack(outcome.payload, Failure).reason if isinstance(outcome, Refused) else "done"
+
+    assert [tried(kind, "r1") for kind in ("history", "ask", "forget")] == ["out-of-scope"] * 3
+    assert tried("forget", "r2") == "busy"  # what is on disk is not to be erased by whoever comes
+    assert tried("ask", "r2") == "done"  # a conversation of their own, of which nothing is kept
+    kept.path.rmdir()
+    hidden.rename(kept.path)
+    assert [tried(kind, "r2") for kind in ("history", "ask", "forget")] == ["out-of-scope"] * 3
+    assert bench.service.desk().past.get("r2") is None
+    store.close()
+    assert texts(kept, "r2") == ["answer"]
+
+
 @pytest.fixture
 def kept(tmp_path: Path) -> Keeping:
     return Keeping(tmp_path / "dialogue.sqlite3", 30)

@@ -71,33 +71,35 @@ class Dispatch:
         """Keep the turn, then send the reply, and share it where the passenger allows."""
         question, asked = answer.question, answer.question.asked
         if answer.turn is not None:
-            owner = self.owners.of(asked.session)
-            self.memory.keep(
-                asked.session, ride_of(desk), time.time(), answer.turn, owner, asked.request
-            )
+            owner = self.owners.known.get(asked.session)
+            name = named(desk.vehicle, asked.request)
+            self.memory.keep(asked.session, ride_of(desk), time.time(), answer.turn, owner, name)
         taken = round((time.monotonic() - question.came) * 1000.0, 3)
         payload = self._packed(asked, answer.reply, taken)
         if answer.reply.reason not in PASSING:
-            self.sent[asked.session, asked.request] = (asked, payload, time.monotonic())
+            key = (asked.session, named(desk.vehicle, asked.request))
+            self.sent[key] = (asked, payload, time.monotonic())
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
-        with suppress(BusError):  # who asked is gone
-            question.call.reply(payload)
+        for call in (question.call, *question.again):
+            with suppress(BusError):  # who asked is gone
+                call.reply(payload)
         self._count(answer, taken)
         if asked.share:
             self._share(answer)
 
-    def repeat(self, asked: AskRequest) -> bytes | None:
+    def repeat(self, vehicle: str, asked: AskRequest) -> bytes | None:
         """The reply to a request that was answered not long ago; None where it was not.
 
         Messages may come twice, and who missed a reply asks again under the same name.
         """
-        before = self.sent.get((asked.session, asked.request))
+        name = named(vehicle, asked.request)
+        before = self.sent.get((asked.session, name))
         if before is not None:
             told, payload, at = before
             fresh = time.monotonic() - at < AGAIN
             return payload if told == asked and fresh else None
-        turn = self.memory.answered(asked.session, asked.request, time.time() - AGAIN)
+        turn = self.memory.answered(asked.session, name, time.time() - AGAIN)
         if turn is None or turn.text != asked.text or turn.reply.reason in PASSING:
             return None
         if asked.at is not None and abs(turn.reply.sim_time - asked.at) > EPSILON:
@@ -163,14 +165,17 @@ class Dispatch:
         self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
 
 
+def named(vehicle: str, name: str) -> str:
+    """A name that is a car's own: others may use the same."""
+    return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"
+
+
 def ride_of(desk: Desk) -> RideName | None:
     """The ride that is heard of."""
     ledger = desk.ledger
     if ledger is None:
         return None
-    scene, name = ledger.scene, ledger.ride
-    if desk.vehicle != DEFAULT_VEHICLE:  # a car may say of its ride whatever it likes
-        name = f"{desk.vehicle}/{name}"
+    scene, name = ledger.scene, named(desk.vehicle, ledger.ride)
     if scene is None:
         return RideName(name)
     return RideName(name, scene.scenario, scene.seed)

@@ -1,6 +1,6 @@
 """Questions on a desk, and what a desk wants done: values, handed out and carried out elsewhere."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from xavi_dialogue.dialogue.reply import Reply
@@ -21,6 +21,7 @@ class Question:
     call: Call
     asked: AskRequest
     came: float  # [s] on the shell's clock
+    again: list[Call] = field(default_factory=list)  # the same request, come once more
     begun: bool = False  # the manager has it
     ready: bool = False  # it waits for its turn alone
 

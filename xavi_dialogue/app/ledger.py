@@ -30,7 +30,7 @@ class InOrder(Generic[Item]):
     next: int = 0  # number of the first item that has not been handed on
     held: dict[int, Item] = field(default_factory=dict)
     lost: int = 0  # that were given up
-    known: float | None = None  # [s] up to when all was handed on; None: it began later
+    known: float | None = None  # [s] up to when all was handed on; None: nothing was
     gaps: list[tuple[float, float]] = field(default_factory=list)  # [s] not yet told, see `told`
     _open: float | None = None  # [s] since when items are given up, until the next comes
 
@@ -70,7 +70,7 @@ class InOrder(Generic[Item]):
 
     def _skip_to(self, number: int) -> None:
         if number > self.next and self._open is None:
-            self._open = self.known
+            self._open = self.known or 0.0
         self.next = number
 
     def _ready(self) -> list[Item]:
@@ -117,8 +117,6 @@ class Ledger:
         """What there is to tell the manager after a trace report."""
         recorded = TraceRecorded(report.trace, report.first)
         ready = [] if self.over else self.traces.add(report.seq, recorded)
-        if report.seq == 0 and self.events.known is None:
-            self.events.known = 0.0  # heard from the beginning
         return [*self._gaps(), *ready, *self._end()]
 
     def event(self, report: EventReport) -> list[Input]:

@@ -67,7 +67,7 @@ class Memory:
         if self.keeping is None or session in self._unforgotten:
             return ()
         try:
-            with self._using(self.keeping) as store:
+            with self._reading(self.keeping) as store:
                 return store.turns(session, MAX_PAST)
         except Damaged as error:
             self._regret("what was said before", error)
@@ -76,19 +76,24 @@ class Memory:
         return ()
 
     def owner(self, session: str) -> str | None:
-        """The digest of whom a session belongs to; None where it is open to all."""
+        """The digest of whom a session belongs to; None where it is open to all.
+
+        Raises:
+            StoreError: that cannot be read.
+        """
         if self.keeping is None or session in self._unforgotten:
             return None
         missed = (n.owner for n in self._missed if isinstance(n, NewTurn) and n.session == session)
         try:
-            with self._using(self.keeping) as store:
+            with self._reading(self.keeping) as store:
                 return store.owner(session) or next(missed, None)
         except Damaged as error:
             if self._regret("whose conversation it was", error):
                 return NOBODY
+            raise
         except StoreError as error:
             self._fail(error)
-        return next(missed, None)
+            raise
 
     def answered(self, session: str, request: str, since: float) -> Turn | None:
         """The turn with which a request was answered since a wall time [s]; None: it was not."""
@@ -97,7 +102,7 @@ class Memory:
         for new in self._missed:
             if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
                 return new.turn
-        with suppress(StoreError), self._using(self.keeping) as store:  # else it is answered anew
+        with suppress(StoreError), self._reading(self.keeping) as store:  # else answered anew
             return store.answered(session, request, since)
         return None
 
@@ -183,6 +188,19 @@ class Memory:
             self._purged = now
             store.purge()
             self._unpurged = False
+
+    @contextmanager
+    def _reading(self, keeping: Keeping) -> Iterator[Store]:
+        """The file, to be read: others that write do not stop that, once it is open.
+
+        Raises:
+            Unwritable: it cannot be opened, or is not tried yet.
+        """
+        if self._store is not None:
+            yield self._store
+        else:
+            with self._using(keeping) as store:
+                yield store
 
     @contextmanager
     def _using(self, keeping: Keeping) -> Iterator[Store]:

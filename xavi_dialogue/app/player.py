@@ -152,7 +152,7 @@ class Player:
         for event in self.tape.events[len(self.events) : events]:
             report = EventReport(
                 ride=self.ride,
-                seq=numbers[len(self.events)] - numbers[0],  # what is missing remains so
+                seq=numbers[len(self.events)],  # what is missing remains so
                 sim_time=event.sim_time,
                 wall_time=time.time(),
                 event=event,
@@ -166,7 +166,7 @@ class Player:
         trace = self.tape.trace(self.traces)
         report = TraceReport(
             ride=self.ride,
-            seq=self.tape.trace_numbers[self.traces] - self.tape.trace_numbers[0],
+            seq=self.tape.trace_numbers[self.traces],
             sim_time=trace.sim_time,
             wall_time=time.time(),
             trace=trace,
@@ -183,8 +183,8 @@ class Player:
         scene = self.tape.scene(self.index)
         # What is known is not unlearnt where the ride goes back; and what is missing, is.
         self.told = (
-            max(self.told[0], scene.traces - min(self.tape.trace_numbers, default=0)),
-            max(self.told[1], scene.events - min(self.tape.event_numbers, default=0)),
+            max(self.told[0], scene.traces),
+            max(self.told[1], scene.events),
         )
         report = msgspec.structs.replace(
             scene,

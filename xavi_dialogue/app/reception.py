@@ -12,7 +12,7 @@ from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.desk import Desk
 from xavi_dialogue.app.errands import Question
 from xavi_dialogue.app.memory import Memory
-from xavi_dialogue.app.owners import Owners
+from xavi_dialogue.app.owners import UNKNOWN, Owners
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.explain.explanation import Reason
 from xavi_dialogue.transports.bus import Call, vehicle_in
@@ -34,11 +34,13 @@ from xavi_dialogue.transports.messages import (
 
 _LOG = logging.getLogger(__name__)
 MAX_CARS = 64  # that are known of; of those that are gone, the one heard of first is dropped first
+MAX_AGAIN = 8  # times that a request may come again while it is open
 MAX_OPEN = 4  # questions of a session
 MAX_EARLY = 500  # questions about one car that wait for the record: others need not wait for these
 HOPE = 0.7  # share of its deadline that a question may have to wait for its turn; see Reception.ask
 LEARNT = 0.1  # weight of the latest question in the pace
 MAX_TURNS = 100  # in a history, and fewer where they would be too large
+UNREADABLE = "whose conversation this is cannot be read at the moment; ask again soon"
 FOREIGN = "this conversation belongs to somebody else; begin another with --session NAME"
 
 Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequest)
@@ -60,7 +62,7 @@ class Reception:
     memory: Memory
     owners: Owners
     alive: Alive
-    repeat: Callable[[AskRequest], bytes | None]  # the reply to a request answered not long ago
+    repeat: Callable[[str, AskRequest], bytes | None]  # what was replied not long ago
     forgotten: Callable[[str], None]  # is told of a session that is no more
     desks: dict[str, Desk] = field(default_factory=dict)  # by car
     pace: float = 0.0  # [s] that a question takes, on a running average
@@ -111,11 +113,11 @@ class Reception:
         """
         desk, asked = self._admitted(call, AskRequest)
         if (known := desk.waiting.open.get((asked.session, asked.request))) is not None:
-            if known.asked == asked:  # it came twice, and is answered once
-                call.drop()
+            if known.asked == asked and len(known.again) < MAX_AGAIN:
+                known.again.append(call)  # it came twice, and is answered once
                 return
             raise Refusal("busy", "a request of this name is open in this session")
-        if (said := self.repeat(asked)) is not None:
+        if (said := self.repeat(desk.vehicle, asked)) is not None:
             call.reply(said)
             return
         wait = self.pace * self.ready()
@@ -145,7 +147,7 @@ class Reception:
         Raises:
             Refusal: the request is not taken up.
         """
-        _, wanted = self._admitted(call, ForgetRequest)
+        _, wanted = self._admitted(call, ForgetRequest, erasing=True)
         known = 0
         for desk in self.all_desks():  # it may have been about several cars
             turns, dropped = desk.forget(wanted.session)
@@ -162,6 +164,14 @@ class Reception:
             forgotten=erased is not None,
         )
         call.reply(pack(reply))
+
+    def put_away(self, session: str) -> None:
+        """Forget what is in memory of a session, for it is somebody else's on disk."""
+        for desk in self.all_desks():
+            _, dropped = desk.forget(session)
+            for question in dropped:
+                question.call.drop()
+        self.forgotten(session)
 
     def history(self, call: Call, seq: int) -> None:
         """Tell what was said in a session.
@@ -182,7 +192,9 @@ class Reception:
         )
         call.reply(pack(reply))
 
-    def _admitted(self, call: Call, kind: type[Wanted]) -> tuple[Desk, Wanted]:
+    def _admitted(
+        self, call: Call, kind: type[Wanted], *, erasing: bool = False
+    ) -> tuple[Desk, Wanted]:
         """The desk and the request, of somebody who may make it.
 
         Raises:
@@ -196,7 +208,10 @@ class Reception:
         except MessageError as error:
             self.alive.count("rejected")
             raise Refusal("not-understood", str(error)) from error
-        if not self.owners.admits(wanted.session, wanted.token):
+        begun = erasing or self._is_begun(wanted.session)
+        if not self.owners.admits(wanted.session, wanted.token, begun=begun):
+            if self.owners.of(wanted.session) == UNKNOWN:
+                raise Refusal("busy", UNREADABLE)
             self.alive.count("foreign")
             _LOG.warning("a wrong token", extra={"vehicle": vehicle, "session": wanted.session})
             raise Refusal("out-of-scope", FOREIGN)
@@ -204,9 +219,15 @@ class Reception:
 
     def _claim(self, asked: AskRequest) -> None:
         """Let a session belong to whoever begins it; one that was begun as open remains so."""
-        session, desks = asked.session, self.all_desks()
-        if not any(desk.past.get(session) or desk.waiting.of(session) for desk in desks):
-            self.owners.claim(session, asked.token, lambda: {s for d in desks for s in d.past})
+        if not self._is_begun(asked.session):
+            desks = self.all_desks()
+            held = lambda: {session for desk in desks for session in desk.past}  # noqa: E731
+            self.owners.claim(asked.session, asked.token, held)
+
+    def _is_begun(self, session: str) -> bool:
+        """Whether anything of a session is in memory."""
+        desks = self.all_desks()
+        return any(desk.past.get(session) or desk.waiting.of(session) for desk in desks)
 
     def _know(self, desk: Desk, session: str) -> None:
         """Make sure that the desk knows what was said in a session before."""

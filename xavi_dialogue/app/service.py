@@ -78,7 +78,7 @@ class Service:
         """
         self.alive = Alive("service", COUNTERS)
         self._memory = Memory() if memory is None else memory
-        owners = Owners(self._memory.owner)
+        owners = Owners(self._memory.owner, lambda session: self.reception.put_away(session))
         self._dispatch = Dispatch(bus, owners, self._memory, self.alive)
         self.reception = Reception(
             mind, self._memory, owners, self.alive, self._dispatch.repeat, self._dispatch.forget

@@ -39,6 +39,8 @@ from xavi_dialogue.explain.whereabouts import place_asked
 DATED = frozenset[QueryType](("why", "why_not", "what_if", "what", "where_goal"))
 #: What is answered from a decision that the question need not name, ...
 FOILS = frozenset[QueryType](("why_not", "what_if"))
+#: What is told of the moment at which it is asked.
+PRESENT = frozenset[QueryType](("what", "why", "where_goal", "when"))
 RECENT = 3.0  # [s] ... and with its time, where it is older than this
 
 Explainer: TypeAlias = Callable[[Query, Ride], Explanation]
@@ -92,6 +94,9 @@ def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedR
 
 def explain_ride(query: Query, ride: Ride) -> Explanation | NoExplanation | NeedRollout:
     """Answer a query from a record that was read before; see `explain`."""
+    now = next((gap for gap in ride.gaps if gap[0] < ride.now < gap[1]), None)
+    if now is not None and query.tense != "past" and query.type in PRESENT:
+        return NoExplanation(reason="trace-gap", facts={"since": now[0], "until": now[1]})
     try:
         return _dated(query, ride, _checked(query, ride, _explainer(query, ride)(query, ride)))
     except Unanswered as unanswered:

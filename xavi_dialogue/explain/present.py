@@ -62,7 +62,7 @@ def what(query: Query, ride: Ride) -> Explanation:
         return where(query, ride)
     if ride.ended:
         raise did_not_happen(ride, ())
-    plan: tuple[QueryAction, ...] = planned(trace)
+    plan: tuple[QueryAction, ...] = planned(trace) or ("continue",)
     under_way = ride.under_way
     if under_way is not None and under_way.action == plan[0]:
         begun = under_way.carried_out
