@@ -53,6 +53,7 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
+from xavi_dialogue.transports.store import Store
 
 ANN, BOB = "a" * 43, "b" * 43  # tokens
 _NAMES = itertools.count()
@@ -845,3 +846,25 @@ def test_only_a_ride_that_is_seen_begins_another_record(bench: Bench) -> None:
     bench.service.work()
     assert desk.ledger is not None
     assert desk.ledger.ride == "newest"
+
+
+def test_who_asked_twice_and_takes_it_back_is_left_waiting_nowhere(bench: Bench) -> None:
+    plans(bench, drive(bench, "car", 3.0))
+    came = [ask(bench, "lack", request="slow") for _ in range(2)]
+    bench.service.work()
+    wanted = pack(CancelRequest(request="slow", session="ann"))
+    bench.passenger.request(Keys().of("@rpc/cancel"), wanted, 1.0, lambda _: None)
+    bench.service.work()
+    assert [len(one) for one in came] == [1, 1]
+
+
+def test_an_event_is_kept_with_its_own_ride(keeping: Keeping) -> None:
+    bench = Bench(Memory(keeping))
+    drive(bench, "car", 3.0)
+    [stray, *_] = [report for report in reports() if isinstance(report, EventReport)]
+    bench.car.publisher(Keys().of("event")).put(pack(stray))
+    bench.service.work()
+    with Store(keeping.path) as store:
+        rides = {row[0] for row in store._file.rows("SELECT DISTINCT ride FROM events")}
+    assert stray.ride in rides
+    assert len(rides) == 2

@@ -181,7 +181,7 @@ class Desk:
         )
 
     def _begin_anew(self) -> None:
-        self.dialogue = Dialogue()
+        self.dialogue, self._foreseen = Dialogue(), Foreseen()
         self._planning.clear()
         self.waiting.begin_anew()
 

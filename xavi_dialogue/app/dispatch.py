@@ -81,7 +81,7 @@ class Dispatch:
             self.sent[key] = (asked, payload, time.monotonic())
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
-        for call in (question.call, *question.again):
+        for call in question.calls:
             with suppress(BusError):  # who asked is gone
                 call.reply(payload)
         self._count(answer, taken)

@@ -31,6 +31,16 @@ class Question:
         return self.asked.session, self.asked.request
 
     @property
+    def calls(self) -> tuple[Call, ...]:
+        """All that wait for the reply."""
+        return self.call, *self.again
+
+    def drop(self) -> None:
+        """Leave it without a reply."""
+        for call in self.calls:
+            call.drop()
+
+    @property
     def deadline(self) -> float:
         """When it is given up [s] on the shell's clock."""
         allowed = self.asked.deadline_ms / 1000.0

@@ -19,7 +19,7 @@ class Owners:
     """The owners of sessions: what is on disk counts; where that cannot be read, what is known."""
 
     recall: Callable[[str], str | None]  # the digest that is kept on disk; may raise StoreError
-    changed: Callable[[str], None]  # is told whose owner turned out to be somebody else
+    changed: Callable[[str], object]  # is told whose owner turned out to be somebody else
     known: dict[str, str | None] = field(default_factory=dict)  # digest by session; None: open
 
     def admits(self, session: str, token: str | None, *, begun: bool) -> bool:

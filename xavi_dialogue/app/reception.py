@@ -138,7 +138,7 @@ class Reception:
         desk, wanted = self._admitted(call, CancelRequest)
         dropped = desk.cancel(wanted)
         if dropped is not None:
-            dropped.call.drop()
+            dropped.drop()
         call.reply(pack(CancelReply(request=wanted.request, cancelled=dropped is not None)))
 
     def forget(self, call: Call) -> None:
@@ -148,15 +148,9 @@ class Reception:
             Refusal: the request is not taken up.
         """
         _, wanted = self._admitted(call, ForgetRequest, erasing=True)
-        known = 0
-        for desk in self.all_desks():  # it may have been about several cars
-            turns, dropped = desk.forget(wanted.session)
-            known += turns
-            for question in dropped:
-                question.call.drop()
+        known = self.put_away(wanted.session)
         erased = self.memory.forget(wanted.session)
         self.owners.release(wanted.session)
-        self.forgotten(wanted.session)
         reply = ForgetReply(
             request=wanted.request,
             session=wanted.session,
@@ -165,13 +159,16 @@ class Reception:
         )
         call.reply(pack(reply))
 
-    def put_away(self, session: str) -> None:
-        """Forget what is in memory of a session, for it is somebody else's on disk."""
-        for desk in self.all_desks():
-            _, dropped = desk.forget(session)
+    def put_away(self, session: str) -> int:
+        """Forget what is in memory of a session; how many turns of it were known."""
+        known = 0
+        for desk in self.all_desks():  # it may have been about several cars
+            turns, dropped = desk.forget(session)
+            known += turns
             for question in dropped:
-                question.call.drop()
+                question.drop()
         self.forgotten(session)
+        return known
 
     def history(self, call: Call, seq: int) -> None:
         """Tell what was said in a session.

@@ -18,7 +18,7 @@ import msgspec
 
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.desk import Desk
-from xavi_dialogue.app.dispatch import Dispatch, planned, ride_of
+from xavi_dialogue.app.dispatch import Dispatch, named, planned, ride_of
 from xavi_dialogue.app.errands import Answer, Errand, PlanAgain
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.owners import Owners
@@ -237,7 +237,10 @@ class Service:
         desk.hear(report)
         self.alive.at(report.sim_time)
         if isinstance(report, EventReport):
-            ride = ride_of(desk) or RideName(report.ride)
+            ride = ride_of(desk)
+            if desk.ledger is None or desk.ledger.ride != report.ride:  # it is not seen yet
+                ride = None
+            ride = ride or RideName(named(desk.vehicle, report.ride))
             self._memory.hear(ride, report.seq, time.time(), report.event)
 
     def _on_car(self, key: str, alive: bool) -> None:
