@@ -38,6 +38,7 @@ def test_what_is_said_while_the_disk_is_full_is_kept_later(crew: Crew, tmp_path:
             assert len(file.turns("ada", 100)) < 5
         fill_disk(service)
         assert ada.ask(questions[5]).reply is not None
+        assert service.says(MENDED)
     assert service.said.count(FULL) == service.said.count(MENDED) == 1
     assert service.end() == 0
     with Store(store) as file:

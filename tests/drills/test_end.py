@@ -71,7 +71,7 @@ def test_recorder_and_player_end_with_all_in_the_file(
     file = tmp_path / "ride.mcap"
     with staged(crew, at=4.0) as stage:
         recorder = crew.xavi("record", str(file), "--connect", stage.endpoint)
-        assert recorder.says("recording into")
+        assert until(lambda: "xavi/v1/car/alive/recorder" in stage.ear.alive), recorder.said
         assert until(lambda: stage.ear.fares("recorder")["messages"] >= len(stage.ear.traces) + 3)
         assert recorder.end(number) == 0, recorder.said
         decisions = [report.trace.trace_id for report in stage.ear.traces]

@@ -137,10 +137,10 @@ class Memory:
             now: wall time [s].
             idle: nobody waits for an answer, so that there is time for the disk.
         """
-        # A file that fails may take a while each time; the next turn tries again.
-        if self.keeping is None or self._failing:
+        # A file that fails may take a while each time, for which nobody is to wait.
+        if self.keeping is None or (self._failing and not idle):
             return
-        if self._missed:
+        if self._missed or self._failing:
             self._write(self.keeping)
         try:
             with self._using(self.keeping) as store:
