@@ -1,7 +1,7 @@
 #!/bin/sh
 # Set up .venv with pinned packages, and the system libraries that SUMO needs.
 #
-#     scripts/setup.sh runtime    what `make chat` needs
+#     scripts/setup.sh runtime    what `make chat` and `make dashboard` need
 #     scripts/setup.sh develop    that, netconvert and the tools of `make test`
 #
 # Quick when there is nothing to do. Safe to interrupt: the next run repairs what was half made.
@@ -77,8 +77,8 @@ install() {
     say "installing pinned packages (the first time about 1 GB on disk)"
     pip_install setuptools
     case $level in
-        runtime) pip_install --no-build-isolation --editable . ;;
-        develop) pip_install --no-build-isolation --editable '.[dashboard,dev,maps]' ;;
+        runtime) pip_install --no-build-isolation --editable '.[dashboard]' ;;
+        develop) pip_install --no-build-isolation --editable '.[browser,dashboard,dev,maps]' ;;
     esac
     rm "$venv/unfinished"
 }

@@ -1,0 +1,232 @@
+/**
+ * What the page knows, in one place: parts of the page read it, and are told when it changes.
+ *
+ * Messages come in through `take`; `documents.py` and `wire.py` beside these files say what is in
+ * them. The moment shown is either live (the latest scene) or held at an earlier time.
+ *
+ * Changes, each a plain Event of this name on the store:
+ *   ride         another ride: all that follows is empty again
+ *   roads        `roads` has come
+ *   scene        a live scene has come
+ *   decisions    there are more of them
+ *   events       there are more of them
+ *   turns        there are more of them, or another conversation
+ *   status       who is there; also when the connection to the dashboard's process is lost
+ *   suggestions  what could be asked
+ *   moment       another moment is shown (also with every live scene while live)
+ *   shown        another turn is shown on the map, or none; or its evidence has come
+ *   pointed      other vehicles are pointed at
+ */
+
+const MAX_SCENES = 18_000; // an hour at 5 Hz
+const SPACING = 0.19; // [s] between scenes that are kept
+
+/** Index of the last item whose time is at most `t`; -1: none. */
+export function lastUpTo(items, t, time = (item) => item.t) {
+  let low = 0;
+  let high = items.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (time(items[middle]) <= t + 1e-6) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/** A vehicle of a scene, from the array that it is on the wire. */
+export function vehicleOf([id, x, y, heading, speed, length, width, kind, colour, signals]) {
+  return { id, x, y, heading, speed, length, width, kind, colour, signals };
+}
+
+export class Store extends EventTarget {
+  /** @param {(path: string) => Promise<any>} fetchJson gets what a path of this server holds */
+  constructor(fetchJson) {
+    super();
+    this.fetchJson = fetchJson;
+    this.welcome = null; // {version, vehicle, session, max_text}
+    this.status = { connected: false, hub: "awaited", car: "awaited", service: "awaited", dropped: 0, browsers: 0 };
+    this.turns = [];
+    this.suggestions = { t: 0, questions: [] };
+    this.pointed = new Set(); // vehicles
+    this.begin(null);
+  }
+
+  /** Forget one ride for another: {ride, scenario, seed, roads} or null. */
+  begin(ride) {
+    this.ride = ride;
+    this.roads = null;
+    this.live = true;
+    this.held = 0; // [s] the moment shown where it is not live
+    this.latest = null; // scene: {t, state, speed, plan, vehicles: [...], wall, seq}
+    this.past = []; // scenes {t, vehicles}, in order
+    this.decisions = [];
+    this.events = [];
+    this.details = new Map(); // promises of decisions, by id
+    this.evidences = new Map(); // promises of evidence, by number of turn
+    this.turn = null; // number of the turn that is shown on the map
+    this.evidence = null; // its evidence, once it is there
+  }
+
+  /** [s] The moment that is shown. */
+  get at() {
+    return this.live ? this.latest?.t ?? 0 : this.held;
+  }
+
+  /** [s] from when to when there is anything to show. */
+  get span() {
+    const first = this.past[0]?.t ?? this.latest?.t ?? 0;
+    return [Math.min(first, this.decisions[0]?.t ?? first), this.latest?.t ?? first];
+  }
+
+  /** Take in a message of the server. */
+  take(message) {
+    const taker = TAKERS[message.type];
+    if (taker) taker(this, message);
+  }
+
+  /** Show an earlier moment, and stay there. */
+  seek(t) {
+    const [first, last] = this.span;
+    this.live = false;
+    this.held = Math.min(Math.max(t, first), last);
+    this.tell("moment");
+  }
+
+  /** Show what goes on now. */
+  goLive() {
+    this.live = true;
+    this.tell("moment");
+  }
+
+  /** The scene at a moment [s], or the last one before: {t, vehicles}. */
+  sceneAt(t) {
+    if (this.latest && t >= this.latest.t - 1e-6) return this.latest;
+    const index = lastUpTo(this.past, t);
+    return this.past[Math.max(index, 0)] ?? this.latest;
+  }
+
+  /** The decision in force at a moment [s]; null: there is none. */
+  decisionAt(t) {
+    return this.decisions[lastUpTo(this.decisions, t)] ?? null;
+  }
+
+  /** A decision, whole; see DecisionShown. */
+  detail(id) {
+    return this.fetched(this.details, id, `/api/decisions/${encodeURIComponent(id)}`);
+  }
+
+  /** What a turn rests on; see EvidenceShown. */
+  evidenceOf(n) {
+    return this.fetched(this.evidences, n, `/api/turns/${n}/evidence`);
+  }
+
+  /** Show on the map what a turn speaks of; null: nothing. */
+  async show(n) {
+    this.turn = n;
+    this.evidence = null;
+    this.tell("shown");
+    const turn = this.turns.find((one) => one.n === n);
+    if (!turn?.evidence) return;
+    const evidence = await this.evidenceOf(n).catch(() => null);
+    if (this.turn === n && evidence) {
+      this.evidence = evidence;
+      this.tell("shown");
+    }
+  }
+
+  /** Point at vehicles, on the map and wherever else they stand. */
+  point(vehicles) {
+    this.pointed = new Set(vehicles);
+    this.tell("pointed");
+  }
+
+  fetched(kept, key, path) {
+    if (!kept.has(key)) {
+      const promise = this.fetchJson(path);
+      promise.catch(() => kept.delete(key));
+      kept.set(key, promise);
+    }
+    return kept.get(key);
+  }
+
+  tell(name) {
+    this.dispatchEvent(new Event(name));
+  }
+
+  /** Add scenes of before those that are known. */
+  remember(scenes) {
+    const known = this.past[0]?.t ?? Infinity;
+    const older = scenes.filter(([t]) => t < known - SPACING / 2);
+    this.past = [...older.map(([t, vehicles]) => ({ t, vehicles: vehicles.map(vehicleOf) })), ...this.past];
+    this.tell("moment");
+  }
+
+  keep(scene) {
+    const last = this.past[this.past.length - 1];
+    if (last && scene.t < last.t) this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
+    else if (last && scene.t - last.t < SPACING) return;
+    this.past.push(scene);
+    if (this.past.length > MAX_SCENES) this.past.splice(0, 1000);
+  }
+}
+
+/** Put items in order, each once. */
+function merged(known, more, key, order = (item) => item.t) {
+  const all = new Map(known.map((item) => [key(item), item]));
+  for (const item of more) all.set(key(item), item);
+  return [...all.values()].sort((a, b) => order(a) - order(b));
+}
+
+async function fetchRoads(store, hash) {
+  const roads = await store.fetchJson(`/api/roads/${encodeURIComponent(hash)}`);
+  if (store.ride?.roads !== hash) return;
+  store.roads = roads;
+  store.tell("roads");
+}
+
+async function fetchPast(store, ride) {
+  const past = await store.fetchJson("/api/past");
+  if (store.ride?.ride === ride && past.ride === ride) store.remember(past.scenes);
+}
+
+const TAKERS = {
+  welcome(store, message) {
+    store.welcome = message;
+  },
+  ride(store, message) {
+    const same = store.ride?.ride === message.ride;
+    if (same && store.ride.roads === message.roads) return;
+    if (same) store.ride = message;
+    else store.begin(message);
+    store.tell(same ? "status" : "ride");
+    if (message.roads && !store.roads) fetchRoads(store, message.roads).catch(() => {});
+    if (!same) fetchPast(store, message.ride).catch(() => {});
+  },
+  scene(store, message) {
+    store.latest = { ...message, vehicles: message.vehicles.map(vehicleOf) };
+    store.keep(store.latest);
+    store.tell("scene");
+    if (store.live) store.tell("moment");
+  },
+  decisions(store, { decisions }) {
+    store.decisions = merged(store.decisions, decisions, (one) => one.id);
+    store.tell("decisions");
+  },
+  events(store, { events }) {
+    store.events = merged(store.events, events, (one) => `${one.t} ${one.kind} ${one.action} ${one.vehicle}`);
+    store.tell("events");
+  },
+  turns(store, { turns, reset }) {
+    const number = (one) => one.n;
+    store.turns = reset ? turns : merged(store.turns, turns, number, number);
+    store.tell("turns");
+  },
+  status(store, message) {
+    store.status = { ...message, connected: true };
+    store.tell("status");
+  },
+  suggestions(store, message) {
+    store.suggestions = message;
+    store.tell("suggestions");
+  },
+};
