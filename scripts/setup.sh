@@ -3,6 +3,8 @@
 #
 #     scripts/setup.sh runtime    what `make chat` and `make dashboard` need
 #     scripts/setup.sh develop    that, netconvert and the tools of `make test`
+#     scripts/setup.sh browser    that, and the Chromium of `make test-browser`; XAVI_CHROMIUM
+#                                 names another one
 #
 # Quick when there is nothing to do. Safe to interrupt: the next run repairs what was half made.
 # Standard input and output belong to the passenger, so all notes go to standard error.
@@ -13,6 +15,7 @@ cd "$(dirname "$0")/.."
 python=${PYTHON:-python3}
 venv=.venv
 level=${1:-runtime}
+browser=
 libraries="libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
 
 say() { echo "xavi: $*"; }
@@ -20,7 +23,8 @@ fail() { say "$*"; exit 1; }
 
 case $level in
     runtime | develop) ;;
-    *) fail "unknown level '$level': runtime or develop" ;;
+    browser) level=develop browser=wanted ;;
+    *) fail "unknown level '$level': runtime or develop or browser" ;;
 esac
 
 # What a finished environment was made of: where it lies, and every file that decides its content.
@@ -90,6 +94,21 @@ check_libsumo() {
     "$venv/bin/python" -c 'import libsumo' || fail "SUMO does not load; its message stands above"
 }
 
+find_browser() {
+    for name in ${XAVI_CHROMIUM:-chromium chromium-browser google-chrome}; do
+        command -v "$name" >/dev/null && return
+    done
+    return 1
+}
+
+check_browser() {
+    [ -n "$browser" ] || return 0
+    find_browser && return
+    [ -z "${XAVI_CHROMIUM:-}" ] || fail "XAVI_CHROMIUM names '$XAVI_CHROMIUM', which was not found"
+    system_install chromium
+    find_browser || fail "Chromium was installed, but there is no program 'chromium'"
+}
+
 # What the planner's compiled kernels were made of.
 kernels() { cat planner/kernels/*.py; }
 
@@ -102,7 +121,7 @@ warm() {
     kernels >"$venv/warm"
 }
 
-finish() { warm; exit; }
+finish() { check_browser; warm; exit; }
 
 ready && finish
 # One set-up at a time; the lock goes with the process, however that ends.
@@ -115,5 +134,6 @@ make_venv
 install
 check_libsumo
 recipe >"$venv/finished-$level"
+check_browser
 warm
 say "ready"

@@ -28,7 +28,7 @@ def committed(root: Path) -> list[Path]:
 
 def targets(root: Path) -> set[str]:
     makefile = (root / "Makefile").read_text(encoding="utf-8")
-    return set(re.findall(r"^([a-z]+):.*## ", makefile, flags=re.MULTILINE))
+    return set(re.findall(r"^([a-z-]+):.*## ", makefile, flags=re.MULTILINE))
 
 
 def code(page: str) -> str:
@@ -39,7 +39,7 @@ def code(page: str) -> str:
 @pytest.mark.parametrize("name", ["README.md", "ARCHITECTURE.md"])
 def test_commands_in_the_documents_exist(root: Path, name: str) -> None:
     shown = code((root / name).read_text(encoding="utf-8"))
-    assert set(re.findall(r"\bmake (?:-s )?([a-z]+)", shown)) <= targets(root)
+    assert set(re.findall(r"\bmake (?:-s )?([a-z-]+)", shown)) <= targets(root)
 
 
 def test_programs_in_the_readme_exist(root: Path) -> None:

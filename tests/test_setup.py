@@ -25,7 +25,7 @@ class Checkout:
     """A checkout with the script, and programs that shadow the system's."""
 
     def __init__(self, root: Path, folder: Path) -> None:
-        self.folder = folder
+        self.folder, self.system = folder, Path("/usr/bin")
         (folder / "scripts").mkdir()
         shutil.copy(root / "scripts" / "setup.sh", folder / "scripts")
         for name in ("pyproject.toml", "constraints.txt"):
@@ -46,12 +46,26 @@ class Checkout:
         path.chmod(0o755)
         return path
 
-    def setup(self, level: str = "runtime", python: str = "") -> subprocess.CompletedProcess[str]:
+    def hide_browsers(self) -> None:
+        """Let the system's programs be found, but for browsers."""
+        self.system = self.folder / "system"
+        self.system.mkdir()
+        for program in Path("/usr/bin").iterdir():
+            if not program.name.startswith(("chrom", "google")):
+                (self.system / program.name).symlink_to(program)
+
+    def setup(
+        self, level: str = "runtime", python: str = "", chromium: str = ""
+    ) -> subprocess.CompletedProcess[str]:
         (self.folder / "log").write_text("")
         done = subprocess.run(
-            ["sh", str(self.folder / "scripts" / "setup.sh"), level],
+            ["/bin/sh", str(self.folder / "scripts" / "setup.sh"), level],
             cwd="/",
-            env={"PATH": f"{self.folder}/bin:/usr/bin:/bin", "PYTHON": python or str(self.python)},
+            env={
+                "PATH": f"{self.folder}/bin:{self.system}",
+                "PYTHON": python or str(self.python),
+                "XAVI_CHROMIUM": chromium,
+            },
             input="a question that belongs to the passenger\n",
             capture_output=True,
             text=True,
@@ -181,4 +195,35 @@ def test_a_python_that_is_not_there(checkout: Checkout) -> None:
 def test_an_unknown_level(checkout: Checkout) -> None:
     done = checkout.setup("everything")
     assert done.returncode == 1
-    assert "runtime or develop" in done.stderr
+    assert "runtime or develop or browser" in done.stderr
+
+
+def test_a_browser_is_installed_where_there_is_none(checkout: Checkout) -> None:
+    checkout.hide_browsers()
+    checkout.program("id", "#!/bin/sh\necho 0\n")
+    checkout.program(
+        "apt-get",
+        '#!/bin/sh\necho "apt-get $*" >>log\n[ $1 = update ] || cp bin/id bin/chromium\n',
+    )
+    assert checkout.setup("develop").returncode == 0
+    assert "apt-get" not in checkout.log
+    assert checkout.setup("browser").returncode == 0
+    assert "apt-get install -y --no-install-recommends chromium" in checkout.log
+    assert checkout.setup("browser").returncode == 0
+    assert checkout.log == ""
+
+
+def test_a_browser_that_cannot_be_had(checkout: Checkout) -> None:
+    checkout.hide_browsers()
+    done = checkout.setup("browser")
+    assert done.returncode == 1
+    assert "sudo apt-get install -y --no-install-recommends chromium" in done.stderr
+
+
+def test_a_browser_of_one_s_own(checkout: Checkout) -> None:
+    checkout.hide_browsers()
+    own = checkout.program("my-browser", "#!/bin/sh\n")
+    assert checkout.setup("browser", chromium=str(own)).returncode == 0
+    done = checkout.setup("browser", chromium="/nowhere/browser")
+    assert done.returncode == 1
+    assert "XAVI_CHROMIUM names '/nowhere/browser', which was not found" in done.stderr
