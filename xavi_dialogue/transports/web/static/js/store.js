@@ -16,10 +16,13 @@
  *   moment       another moment is shown (also with every live scene while live)
  *   shown        another turn is shown on the map, or none; or its evidence has come
  *   pointed      other vehicles are pointed at
+ *   preview      `preview`: a line to be looked at beside the ego's own, {line: Drive, words} such
+ *                as an alternative of the decision in force has; or null. Set by whoever shows it
  */
 
 const MAX_SCENES = 18_000; // an hour at 5 Hz
 const SPACING = 0.19; // [s] between scenes that are kept
+const MAX_FETCHED = 40; // decisions that are kept whole, and evidences: up to 200 kB each
 
 /** Index of the last item whose time is at most `t`; -1: none. */
 export function lastUpTo(items, t, time = (item) => item.t) {
@@ -48,6 +51,7 @@ export class Store extends EventTarget {
     this.turns = [];
     this.suggestions = { t: 0, questions: [] };
     this.pointed = new Set(); // vehicles
+    this.preview = null; // {line, words}
     this.begin(null);
   }
 
@@ -65,6 +69,7 @@ export class Store extends EventTarget {
     this.evidences = new Map(); // promises of evidence, by number of turn
     this.turn = null; // number of the turn that is shown on the map
     this.evidence = null; // its evidence, once it is there
+    this.preview = null;
   }
 
   /** [s] The moment that is shown. */
@@ -145,6 +150,7 @@ export class Store extends EventTarget {
       const promise = this.fetchJson(path);
       promise.catch(() => kept.delete(key));
       kept.set(key, promise);
+      if (kept.size > MAX_FETCHED) kept.delete(kept.keys().next().value); // the oldest
     }
     return kept.get(key);
   }
