@@ -34,6 +34,7 @@ class Welcome(Outgoing, frozen=True, kw_only=True, tag="welcome"):
     version: str  # of the program; a page of another one reloads itself
     vehicle: str  # name of the car on the bus
     session: str  # the conversation that is talked in
+    recording: bool = False  # whether the car is a recorded ride that is played
     max_text: int = MAX_TEXT  # characters of a question
 
 

@@ -159,11 +159,15 @@ export class Store extends EventTarget {
     this.dispatchEvent(new Event(name));
   }
 
-  /** Add scenes of before those that are known. */
+  /** Add scenes of before those that are known, and of the gaps between them. */
   remember(scenes) {
-    const known = this.past[0]?.t ?? Infinity;
-    const older = scenes.filter(([t]) => t < known - SPACING / 2);
-    this.past = [...older.map(([t, vehicles]) => ({ t, vehicles: vehicles.map(vehicleOf) })), ...this.past];
+    const missed = scenes.filter(([t]) => {
+      const index = lastUpTo(this.past, t);
+      const near = [this.past[index], this.past[index + 1]];
+      return !near.some((one) => one && Math.abs(one.t - t) < SPACING / 2);
+    });
+    const more = missed.map(([t, vehicles]) => ({ t, vehicles: vehicles.map(vehicleOf) }));
+    this.past = [...more, ...this.past].sort((a, b) => a.t - b.t);
     this.tell("moment");
   }
 
@@ -201,12 +205,12 @@ const TAKERS = {
   },
   ride(store, message) {
     const same = store.ride?.ride === message.ride;
-    if (same && store.ride.roads === message.roads) return;
+    const known = same && store.ride.roads === message.roads; // connected anew
     if (same) store.ride = message;
     else store.begin(message);
-    store.tell(same ? "status" : "ride");
+    if (!known) store.tell(same ? "status" : "ride");
     if (message.roads && !store.roads) fetchRoads(store, message.roads).catch(() => {});
-    if (!same) fetchPast(store, message.ride).catch(() => {});
+    if (!same || known) fetchPast(store, message.ride).catch(() => {});
   },
   scene(store, message) {
     store.latest = { ...message, vehicles: message.vehicles.map(vehicleOf) };
