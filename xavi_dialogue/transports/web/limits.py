@@ -1,0 +1,58 @@
+"""How often somebody may do something: token buckets. The clock is an argument."""
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """How often something may be done."""
+
+    every_second: float  # in the long run
+    burst: int  # at once
+
+
+class Bucket:
+    """Holds tokens: `burst` of them at first, and `every_second` more each second, up to that."""
+
+    def __init__(self, rate: Rate, now: float) -> None:
+        self._rate, self._tokens, self._filled = rate, float(rate.burst), now
+
+    def take(self, now: float) -> bool:
+        """Take a token at a time [s, monotonic]; whether there was one."""
+        if self.full(now):
+            self._tokens = float(self._rate.burst)
+        else:
+            self._tokens += max(now - self._filled, 0.0) * self._rate.every_second
+        self._filled = now
+        if self._tokens < 1.0:
+            return False
+        self._tokens -= 1.0
+        return True
+
+    def full(self, now: float) -> bool:
+        """Whether it is as one that was never used."""
+        grown = self._tokens + max(now - self._filled, 0.0) * self._rate.every_second
+        return grown >= self._rate.burst
+
+
+class Buckets:
+    """A bucket for each of many, such as addresses; no more of them than `most`."""
+
+    def __init__(self, rate: Rate, most: int = 1000) -> None:
+        self._rate, self._most = rate, most
+        self._buckets: dict[Hashable, Bucket] = {}
+
+    def take(self, whose: Hashable, now: float) -> bool:
+        """Take a token of somebody's; see `Bucket.take`.
+
+        Of more than `most` who come at once, those that are not known yet get none.
+        """
+        bucket = self._buckets.get(whose)
+        if bucket is None:
+            if len(self._buckets) >= self._most:
+                self._buckets = {k: b for k, b in self._buckets.items() if not b.full(now)}
+            if len(self._buckets) >= self._most:
+                return False
+            bucket = self._buckets[whose] = Bucket(self._rate, now)
+        return bucket.take(now)
