@@ -26,6 +26,7 @@ GATES = {  # each outside world enters through one file
     "cryptography": "xavi_dialogue/transports/certificates.py",
     "libsumo": "sim/sumo.py",
     "mcap": "xavi_dialogue/transports/mcap_file.py",
+    "playwright": "xavi_dialogue/app/bench/browser.py",
     "sqlite3": "xavi_dialogue/transports/database.py",
     "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
     "zstandard": "xavi_dialogue/transports/mcap_file.py",

@@ -6,6 +6,7 @@ from planner.driver import DriverError
 from planner.trace import TraceError
 from sim.scenario import ScenarioError
 from sim.sumo import SimulationError
+from xavi_dialogue.app.bench.browser import NoBrowser
 from xavi_dialogue.app.bench.fuzz import FaultFound
 from xavi_dialogue.app.bench.questions import QuestionFileError
 from xavi_dialogue.app.children import ChildFailed
@@ -47,7 +48,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(FaultFound, StoreError, KeysError, IdentityError, RecordingError),
+            *(FaultFound, NoBrowser, StoreError, KeysError, IdentityError, RecordingError),
         ),
         ExitStatus.FAILED,
     ),

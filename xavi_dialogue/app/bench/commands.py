@@ -115,6 +115,17 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
         """How long answers take, to one passenger and to many at once."""
         show(lambda note: dialogue(sessions, seconds, note), as_json)
 
+    @group.command("dashboard")
+    def _dashboard(
+        seconds: Annotated[
+            float, typer.Option(min=1.0, help="With each number of vehicles.")
+        ] = 20.0,
+        minutes: Annotated[float, typer.Option(min=0.1, help="For the memory.")] = 10.0,
+        as_json: AsJson = False,
+    ) -> None:
+        """From a scene on the bus to pixels in a browser; frames, and memory over some time."""
+        show(lambda note: dashboard(seconds, minutes, note), as_json)
+
 
 def _of_parsing(group: typer.Typer, show: Show) -> None:
     """Add the commands that judge what is understood."""
@@ -211,6 +222,13 @@ def dialogue(sessions: int, seconds: float, note: Callable[[str], None]) -> "Rep
     from xavi_dialogue.app.bench.dialogue import measure
 
     return measure(sessions, seconds, note)
+
+
+def dashboard(seconds: float, minutes: float, note: Callable[[str], None]) -> "Report":
+    """Measure the dashboard."""
+    from xavi_dialogue.app.bench.dashboard import measure
+
+    return measure(seconds, minutes, note)
 
 
 def parse(questions: Path, note: Callable[[str], None]) -> "Report":
