@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -20,9 +21,9 @@ from xavi_dialogue.app.recorder import Recorder
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.service import Service
 from xavi_dialogue.transports.bus import EVERY_CAR, Bus, Keys, NoAnswer, call
+from xavi_dialogue.transports.catalogue import CAR_MESSAGES
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.mcap_file import McapWriter
-from xavi_dialogue.transports.messages import CAR_MESSAGES
 from xavi_dialogue.transports.roles import ROLES
 from xavi_dialogue.transports.zenoh_bus import host, join
 
@@ -116,12 +117,14 @@ def test_the_service_does_what_it_may(tmp_path: Path) -> None:
 def test_a_passenger_does_what_they_may(tmp_path: Path) -> None:
     with on_a_bus_with_keys(tmp_path / "keys", "passenger") as bus:
         client = Client(bus, CAR, "ada", lambda _: None)  # type: ignore[arg-type]
-        for wanted in (client.probe, client.history, client.forget, lambda: client.ask("why?")):
+        evidence = partial(client.evidence, "7a4060ed094b8bf3")
+        why = partial(client.ask, "why?")
+        for wanted in (client.probe, client.history, client.forget, evidence, why):
             with pytest.raises(ServiceLost):
                 wanted()
         client.cancel("q1")
         assert {key for deed, key in bus.done if deed == "ask"} >= {
-            CAR.of(f"@rpc/{name}") for name in ("ask", "history", "forget", "cancel")
+            CAR.of(f"@rpc/{name}") for name in ("ask", "history", "forget", "cancel", "evidence")
         }
         assert beyond("passenger", bus.done) == []
 

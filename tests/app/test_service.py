@@ -33,9 +33,9 @@ from xavi_dialogue.transports.bus import (
     Refused,
     call,
 )
+from xavi_dialogue.transports.catalogue import MESSAGES
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import (
-    MESSAGES,
     AskReply,
     AskRequest,
     CancelReply,

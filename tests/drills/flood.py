@@ -16,14 +16,20 @@ import msgspec
 
 from xavi_dialogue.transports.bus import Bus, BusError, Keys
 from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.messages import AskRequest, ForgetRequest, HistoryRequest, pack
+from xavi_dialogue.transports.messages import (
+    AskRequest,
+    EvidenceRequest,
+    ForgetRequest,
+    HistoryRequest,
+    pack,
+)
 from xavi_dialogue.transports.zenoh_bus import join
 
 READY = "ready"
 PERIOD = 0.004  # [s] between messages
 VICTIM = "ada"
 HEARD = ("trace", "event", "scene", "dialogue/ada/turn")
-SERVED = ("ask", "history", "cancel", "forget", "whatif")
+SERVED = ("ask", "history", "cancel", "forget", "evidence", "whatif")
 ESCAPES = "\x1b[2J\x1b]0;owned\x07\r\n\x9b31m\u202e"
 DEEP = b"[" * 10_000 + b"]" * 10_000
 LARGE = b'{"schema":"xavi.trace/1","ride":"' + b"a" * 5_000_000 + b'"}'
@@ -31,7 +37,7 @@ LARGE = b'{"schema":"xavi.trace/1","ride":"' + b"a" * 5_000_000 + b'"}'
 
 def payloads(dice: random.Random) -> Iterator[bytes]:
     """Nonsense of all kinds, over and over."""
-    kinds = ("trace", "event_report", "scene", "ask", "history", "forget", "cancel", "whatif")
+    kinds = ("trace", "event_report", "scene", *SERVED)
     while True:
         kind = dice.choice(kinds)
         yield from (
@@ -63,6 +69,7 @@ def requests(number: int) -> Iterator[tuple[str, bytes]]:
         yield "ask", pack(AskRequest(request=asked, session=name, text=text, deadline_ms=50.0))
     yield "ask", pack(AskRequest(request=f"q{number}", session=VICTIM, text=text, token="x" * 32))
     yield "forget", pack(ForgetRequest(request=f"f{number}", session=VICTIM))
+    yield "evidence", pack(EvidenceRequest(request=f"e{number}", trace_id=f"{number:016x}"))
     yield "history", pack(HistoryRequest(session=VICTIM, token="y" * 32))
 
 

@@ -7,16 +7,19 @@ from planner.events import Event
 from tests.fakes import EGO
 from tests.traces import s1_ride
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.catalogue import MESSAGES
 from xavi_dialogue.transports.messages import (
     MAX_TEXT,
-    MESSAGES,
+    MAX_TURNS,
     AskReply,
     AskRequest,
     CancelRequest,
     EventReport,
+    EvidenceRequest,
     Failure,
     ForgetReply,
     ForgetRequest,
+    HistoryRequest,
     Malformed,
     MessageError,
     SceneReport,
@@ -45,6 +48,8 @@ EXAMPLES = (
     Failure(reason="busy"),
     ForgetRequest(request="q1", session="ada"),
     ForgetReply(request="q1", session="ada", turns=2, forgotten=True),
+    EvidenceRequest(request="q1", trace_id=TRACE.trace_id),
+    HistoryRequest(session="ada", turns=3),
     WhatIfRequest(
         request="q2", trace_id="t", vehicle=1, goal="exit-right", vehicle_actions=("exit-right",)
     ),
@@ -96,6 +101,14 @@ def test_a_wrong_message_gets_its_error(
 ) -> None:
     with pytest.raises(error):
         unpack(json.dumps({**ASK, **change}).encode(), AskRequest)
+
+
+def test_a_history_is_of_all_that_is_told_unless_it_says_otherwise() -> None:
+    plain = {"schema": "xavi.history/1", "session": "ada"}
+    assert unpack(json.dumps(plain).encode(), HistoryRequest).turns == MAX_TURNS
+    for turns in (0, -1, MAX_TURNS + 1, 1.5, "all", None):
+        with pytest.raises(Malformed, match="turns"):
+            unpack(json.dumps({**plain, "turns": turns}).encode(), HistoryRequest)
 
 
 @pytest.mark.parametrize(

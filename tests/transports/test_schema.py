@@ -8,7 +8,8 @@ import msgspec
 import pytest
 
 from planner import trace
-from xavi_dialogue.transports.messages import KIB, MESSAGES, schema_name, unpack
+from xavi_dialogue.transports.catalogue import MESSAGES
+from xavi_dialogue.transports.messages import KIB, schema_name, unpack
 from xavi_dialogue.transports.roles import ROLES
 from xavi_dialogue.transports.schema import documents, schema_of, write
 

@@ -5,8 +5,11 @@ import secrets
 import threading
 import time
 from collections.abc import Callable
-from typing import TypeAlias
+from functools import partial
+from typing import TypeAlias, TypeVar
 
+from planner import trace as plan_trace
+from planner.trace import PlanTrace, TraceError
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
@@ -14,16 +17,18 @@ from xavi_dialogue.language.context import SpeechContext, Style
 from xavi_dialogue.transports.bus import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
 from xavi_dialogue.transports.messages import (
     MAX_TEXT,
+    MAX_TURNS,
     AskReply,
     AskRequest,
     CancelRequest,
     EventReport,
+    EvidenceRequest,
     Failure,
     ForgetReply,
     ForgetRequest,
     HistoryReply,
     HistoryRequest,
-    M,
+    Message,
     MessageError,
     PastTurn,
     SceneReport,
@@ -39,6 +44,7 @@ NONSENSE = "the dialogue service sent nonsense"
 REFUSED = "the dialogue service refused"
 POLL = 0.1  # [s] between looks at whether waiting still makes sense
 
+T = TypeVar("T")
 OnEvent: TypeAlias = Callable[[EventReport], None]
 
 
@@ -155,14 +161,27 @@ class Client:
         except NoAnswer as error:
             raise _lost(error) from error
 
-    def history(self) -> tuple[PastTurn, ...]:
+    def history(self, turns: int = MAX_TURNS) -> tuple[PastTurn, ...]:
         """The latest turns of the session, oldest first; waits for them.
+
+        Args:
+            turns: how many at most, 1 to 100.
 
         Raises:
             ServiceLost: they cannot be had.
         """
-        wanted = pack(HistoryRequest(session=self._session, token=self._token))
-        return self._call("@rpc/history", wanted, HistoryReply).turns
+        wanted = HistoryRequest(session=self._session, token=self._token, turns=turns)
+        read = partial(unpack, kind=HistoryReply)
+        return self._call("@rpc/history", wanted, read).turns
+
+    def evidence(self, trace_id: str) -> PlanTrace:
+        """A decision of the present ride, or one planned again, by its id; waits for it.
+
+        Raises:
+            ServiceLost: it cannot be had, or is not in the record any more.
+        """
+        wanted = EvidenceRequest(request=new_request(), trace_id=trace_id)
+        return self._call("@rpc/evidence", wanted, plan_trace.decode)
 
     def forget(self) -> ForgetReply:
         """Have the session forgotten; waits for what comes of it.
@@ -171,12 +190,12 @@ class Client:
             ServiceLost: the service does not answer, or refuses.
         """
         wanted = ForgetRequest(request=new_request(), session=self._session, token=self._token)
-        return self._call("@rpc/forget", pack(wanted), ForgetReply)
+        return self._call("@rpc/forget", wanted, partial(unpack, kind=ForgetReply))
 
-    def _call(self, tail: str, wanted: bytes, kind: type[M]) -> M:
+    def _call(self, tail: str, wanted: Message, read: Callable[[bytes], T]) -> T:
         try:
-            return unpack(call(self._bus, self._keys.of(tail), wanted, PATIENCE), kind)
-        except MessageError as error:
+            return read(call(self._bus, self._keys.of(tail), pack(wanted), PATIENCE))
+        except (MessageError, TraceError) as error:
             raise ServiceLost(f"{NONSENSE}: {error}") from error
         except NoAnswer as error:
             raise _lost(error) from error

@@ -37,10 +37,7 @@ from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation, Reason
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.language.context import SpeechContext
 from xavi_dialogue.language.refusals import refuse
-from xavi_dialogue.transports.messages import (
-    AskRequest,
-    CancelRequest,
-)
+from xavi_dialogue.transports.messages import AskRequest, CancelRequest
 
 _LOG = logging.getLogger(__name__)
 MAX_PAST = 200  # turns of a session that are known of
@@ -109,6 +106,12 @@ class Desk:
             del self.waiting.open[question.name]
         self._tell(Forgotten(session))
         return len(self.past.pop(session, ())), dropped
+
+    def decision(self, trace_id: str) -> PlanTrace | None:
+        """A decision of the present ride, or one planned again; None where it is not known."""
+        known = (*self.dialogue.traces, *self.dialogue.planned.values())
+        # From the end, for the names of old ones may not have been worked out yet.
+        return next((trace for trace in reversed(known) if trace.trace_id == trace_id), None)
 
     def deliver(self, errand: PlanAgain, result: PlanTrace | Reason) -> list[Errand]:
         """Go on with the questions for which the planner planned again, or did not."""

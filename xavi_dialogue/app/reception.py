@@ -8,6 +8,7 @@ from typing import TypeVar
 
 import msgspec
 
+from planner import trace as plan_trace
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.desk import Desk
 from xavi_dialogue.app.errands import Question
@@ -21,6 +22,7 @@ from xavi_dialogue.transports.messages import (
     AskRequest,
     CancelReply,
     CancelRequest,
+    EvidenceRequest,
     Failure,
     ForgetReply,
     ForgetRequest,
@@ -39,10 +41,11 @@ MAX_OPEN = 4  # questions of a session
 MAX_EARLY = 500  # questions about one car that wait for the record: others need not wait for these
 HOPE = 0.7  # share of its deadline that a question may have to wait for its turn; see Reception.ask
 LEARNT = 0.1  # weight of the latest question in the pace
-MAX_TURNS = 100  # in a history, and fewer where they would be too large
 UNREADABLE = "whose conversation this is cannot be read at the moment; ask again soon"
+UNHEARD = "no decision of this ride that is still remembered has this id"
 FOREIGN = "this conversation belongs to somebody else; begin another with --session NAME"
 
+Told = TypeVar("Told", AskRequest, HistoryRequest, ForgetRequest, CancelRequest, EvidenceRequest)
 Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequest)
 
 
@@ -178,7 +181,7 @@ class Reception:
         """
         desk, wanted = self._admitted(call, HistoryRequest)
         past = desk.past.get(wanted.session)
-        turns = (self.memory.recall(wanted.session) if past is None else past)[-MAX_TURNS:]
+        turns = (self.memory.recall(wanted.session) if past is None else past)[-wanted.turns :]
         scene = None if desk.ledger is None else desk.ledger.scene
         reply = HistoryReply(
             session=wanted.session,
@@ -189,6 +192,18 @@ class Reception:
         )
         call.reply(pack(reply))
 
+    def evidence(self, call: Call) -> None:
+        """Tell a decision of the present ride, or what was planned from one again.
+
+        Raises:
+            Refusal: the request is not taken up, or there is no such decision.
+        """
+        vehicle, wanted = self._read(call, EvidenceRequest)
+        found = self.desks.get(vehicle, self.nowhere).decision(wanted.trace_id)
+        if found is None:
+            raise Refusal("outside-record", UNHEARD)
+        call.reply(plan_trace.encode(found))
+
     def _admitted(
         self, call: Call, kind: type[Wanted], *, erasing: bool = False
     ) -> tuple[Desk, Wanted]:
@@ -197,14 +212,7 @@ class Reception:
         Raises:
             Refusal: it cannot be read, or the session belongs to somebody else.
         """
-        vehicle = vehicle_in(call.key)
-        if vehicle is None:
-            raise Refusal("not-understood", "name one car in the key")
-        try:
-            wanted = unpack(call.payload, kind)
-        except MessageError as error:
-            self.alive.count("rejected")
-            raise Refusal("not-understood", str(error)) from error
+        vehicle, wanted = self._read(call, kind)
         begun = erasing or self._is_begun(wanted.session)
         if not self.owners.admits(wanted.session, wanted.token, begun=begun):
             if self.owners.of(wanted.session) == UNKNOWN:
@@ -213,6 +221,21 @@ class Reception:
             _LOG.warning("a wrong token", extra={"vehicle": vehicle, "session": wanted.session})
             raise Refusal("out-of-scope", FOREIGN)
         return self.desks.get(vehicle, self.nowhere), wanted
+
+    def _read(self, call: Call, kind: type[Told]) -> tuple[str, Told]:
+        """The car that a request is about, and the request.
+
+        Raises:
+            Refusal: it cannot be read.
+        """
+        vehicle = vehicle_in(call.key)
+        if vehicle is None:
+            raise Refusal("not-understood", "name one car in the key")
+        try:
+            return vehicle, unpack(call.payload, kind)
+        except MessageError as error:
+            self.alive.count("rejected")
+            raise Refusal("not-understood", str(error)) from error
 
     def _claim(self, asked: AskRequest) -> None:
         """Let a session belong to whoever begins it; one that was begun as open remains so."""

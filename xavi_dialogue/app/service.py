@@ -35,9 +35,8 @@ from xavi_dialogue.transports.bus import (
     Presence,
     vehicle_in,
 )
+from xavi_dialogue.transports.catalogue import CAR_MESSAGES, MESSAGES
 from xavi_dialogue.transports.messages import (
-    CAR_MESSAGES,
-    MESSAGES,
     AnyMessage,
     EventReport,
     Failure,
@@ -101,6 +100,7 @@ class Service:
         bus.subscribe(key("scene"), self._hearer(SceneReport))
         requests = {
             "cancel": reception.cancel,
+            "evidence": reception.evidence,
             "forget": reception.forget,
             "history": self._history,
         }

@@ -37,6 +37,7 @@ CarState = Literal["driving", "paused", "ended"]
 
 KIB = 1024
 MAX_TEXT = 4096  # characters of a question
+MAX_TURNS = 100  # of a session, in a history
 MAX_CHARACTER = 12  # bytes of one in JSON: two escapes such as \ud83d\ude00
 
 
@@ -163,6 +164,7 @@ class HistoryRequest(Message, frozen=True, kw_only=True):
     schema: Literal["xavi.history/1"] = "xavi.history/1"
     session: Name
     token: Token | None = None
+    turns: Annotated[int, msgspec.Meta(ge=1, le=MAX_TURNS)] = MAX_TURNS  # the latest ones alone
 
 
 class PastTurn(msgspec.Struct, frozen=True):
@@ -242,6 +244,16 @@ class CancelReply(Message, frozen=True, kw_only=True):
     cancelled: bool
 
 
+class EvidenceRequest(Message, frozen=True, kw_only=True):
+    """Asks for a decision that an answer names as evidence; the reply is a PlanTrace."""
+
+    LIMIT = 4 * KIB
+
+    schema: Literal["xavi.evidence/1"] = "xavi.evidence/1"
+    request: Name
+    trace_id: Name
+
+
 class WhatIfRequest(Message, frozen=True, kw_only=True):
     """Plan again from a recorded decision; the reply is a PlanTrace."""
 
@@ -292,19 +304,6 @@ def schema_name(kind: type[msgspec.Struct]) -> str:
     """What the field `schema` of a message says, such as `xavi.ask/1`."""
     fields = {field.name: field.default for field in msgspec.structs.fields(kind)}
     return str(fields["schema"])
-
-
-#: Of these, the car tells the schemas; of all others, the service.
-CAR_MESSAGES = ("scene", "trace", "event_report")
-#: Every message by its name under `@schema/`.
-MESSAGES: dict[str, type[AnyMessage]] = {
-    schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind
-    for kind in (
-        *(SceneReport, TraceReport, EventReport, AskRequest, AskReply, HistoryRequest),
-        *(HistoryReply, TurnReport, ForgetRequest, ForgetReply, CancelRequest, CancelReply),
-        *(WhatIfRequest, AliveReport, Failure),
-    )
-}
 
 
 class _Label(msgspec.Struct):

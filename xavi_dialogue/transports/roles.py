@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME, Keys
-from xavi_dialogue.transports.messages import CAR_MESSAGES, MESSAGES
+from xavi_dialogue.transports.catalogue import CAR_MESSAGES, MESSAGES
 
 Deed: TypeAlias = Literal[
     "publish",
@@ -24,7 +24,7 @@ Deed: TypeAlias = Literal[
 ]
 Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
 
-DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel")
+DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel", "@rpc/evidence")
 TURNS = "dialogue/*/turn"
 ROADS = "@blob/network"
 LONGEST = 64  # characters of a common name (RFC 5280, A.1)

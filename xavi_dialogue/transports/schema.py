@@ -13,7 +13,8 @@ from typing import Any
 import msgspec
 
 from planner import trace
-from xavi_dialogue.transports.messages import MESSAGES, schema_name
+from xavi_dialogue.transports.catalogue import MESSAGES
+from xavi_dialogue.transports.messages import schema_name
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 POINTER = "#/$defs/"
