@@ -28,6 +28,9 @@ GATES = {  # each outside world enters through one file
     "mcap": "xavi_dialogue/transports/mcap_file.py",
     "playwright": "xavi_dialogue/app/bench/browser.py",
     "sqlite3": "xavi_dialogue/transports/database.py",
+    "starlette": "xavi_dialogue/transports/web/site.py",
+    "uvicorn": "xavi_dialogue/transports/web/server.py",
+    "websockets": "xavi_dialogue/transports/web/server.py",
     "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
     "zstandard": "xavi_dialogue/transports/mcap_file.py",
 }

@@ -36,6 +36,7 @@ MAX_REASON = 123  # bytes (RFC 6455, 5.5.1)
 
 GOING_AWAY = 1001  # the dashboard ends
 UNREADABLE = 1003  # binary
+BROKEN = 1011  # a fault of ours
 AGAIN_LATER = 1013  # too slow for what it is told, or too many browsers
 NO_TOKEN = 4401
 TOO_OFTEN = 4429
@@ -90,6 +91,7 @@ class Viewer:
         self.leave: Leave | None = None  # set: it is to be sent away, and told nothing more
         self.changed: Callable[[], None] = lambda: None  # called when there may be more to send
         self._browsers = browsers
+        self._greeted = False
         self._row: deque[Packed] = deque()
         self._waiting, self._limit = 0, MAX_WAITING  # bytes
         self._scene: Packed | None = None
@@ -108,6 +110,7 @@ class Viewer:
     def greet(self, messages: tuple[Outgoing, ...]) -> None:
         """Tell it all that a new one is told; that alone is never too much."""
         packed = [pack(message) for message in messages]
+        self._greeted = True
         self._limit = MAX_WAITING + sum(one.size for one in packed)
         for one in packed:
             self.put(one)
@@ -117,8 +120,11 @@ class Viewer:
         self.put(pack(message))
 
     def put(self, packed: Packed) -> None:
-        """Have a message sent; where too much waits already, the browser is sent away."""
-        if self.leave is not None:
+        """Have a message sent; where too much waits already, the browser is sent away.
+
+        What all are told before it is greeted is part of the greeting.
+        """
+        if self.leave is not None or not self._greeted:
             return
         message = packed.message
         if isinstance(message, SceneShown):

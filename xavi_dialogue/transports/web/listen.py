@@ -1,0 +1,142 @@
+"""Where the dashboard listens, and under which names it is opened there."""
+
+import ipaddress
+import re
+import secrets
+from dataclasses import dataclass
+from typing import Self
+
+DEFAULT_HOST = "127.0.0.1"
+DEFAULT_PORT = 8480
+LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
+MEND = "write it as 127.0.0.1:8480, :8480 or [::1]:8480; port 0 is any that is free"
+
+_NAME = re.compile(r"(?=.{1,253}$)[a-z0-9_]([a-z0-9_-]{0,62})(\.[a-z0-9_]([a-z0-9_-]{0,62}))*")
+_TOKEN = re.compile(r"[A-Za-z0-9_-]{16,128}")
+
+
+class ListenError(Exception):
+    """It cannot be listened there; says how to mend that."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listen:
+    """Where to listen, and who may come."""
+
+    host: str = DEFAULT_HOST  # an address, that of IPv6 without brackets, or a name
+    port: int = DEFAULT_PORT  # 0: any that is free
+    token: str | None = None  # that browsers must bring; None: none is asked for
+    names: tuple[str, ...] = ()  # other names that the page is opened under, in small letters
+
+    @classmethod
+    def read(
+        cls, text: str | None = None, *, token: str | None = None, names: tuple[str, ...] = ()
+    ) -> Self:
+        """Make sense of what was typed.
+
+        Args:
+            text: such as 127.0.0.1:8480, :8480, [::1]:8480 or 0.0.0.0:8480; None: the default.
+            token: chosen; None: none on loopback, and elsewhere a random one.
+            names: that the page is opened under, besides the address that is listened at.
+
+        Raises:
+            ListenError: one of them makes no sense.
+        """
+        host, port = _place(text or "")
+        if token is not None and not _TOKEN.fullmatch(token):
+            raise ListenError("a token has 16 to 128 letters, digits, _ or -; leave it out for one")
+        for name in names:
+            if name_of(name) != name.lower().rstrip("."):
+                raise ListenError(f"{name[:64]!r} is no name of a host; write it without a port")
+        if token is None and not is_loopback(host):
+            token = secrets.token_urlsafe(24)
+        return cls(host, port, token, tuple(name.lower().rstrip(".") for name in names))
+
+    @property
+    def loopback(self) -> bool:
+        """Whether only this machine can reach it."""
+        return is_loopback(self.host)
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether it stands for all addresses of the machine."""
+        return self.host in {"0.0.0.0", "::"}
+
+    @property
+    def place(self) -> str:
+        """As it is typed."""
+        return f"{bracketed(self.host)}:{self.port}"
+
+    def address(self, port: int) -> str:
+        """What to open in a browser, without the token.
+
+        Args:
+            port: that is listened at, once it is known.
+        """
+        host = DEFAULT_HOST if self.everywhere else bracketed(self.host)
+        return f"http://{self.names[0] if self.names else host}:{port}/"
+
+    def serves(self, host: str) -> bool:
+        """Whether the page may be opened under what a Host header says.
+
+        On loopback these are its usual names, with any port: ports are forwarded, by ssh for
+        instance, and the names alone keep out a stranger's name that was made to lead here (DNS
+        rebinding). Who listens at all addresses is served under any of them that is a number,
+        since no name leads there by that; elsewhere it is the one that is listened at.
+        """
+        name = name_of(host, ported=True)
+        if name is None:
+            return False
+        if name in {*self.names, bracketed(self.host).lower()}:
+            return True
+        if self.loopback:
+            return name in LOCAL_NAMES
+        return self.everywhere and (name == "localhost" or _address(name) is not None)
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach a host, an address or a name."""
+    address = _address(host)
+    return host.lower() == "localhost" if address is None else address.is_loopback
+
+
+def bracketed(host: str) -> str:
+    """A host as it stands in an address."""
+    return f"[{host}]" if ":" in host else host
+
+
+def name_of(host: str, *, ported: bool = False) -> str | None:
+    """The name in a Host header, in small letters; None: there is none that makes sense.
+
+    Args:
+        host: a name, an address of IPv4, or one of IPv6 in brackets.
+        ported: whether a port may follow.
+    """
+    found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]*)(:[0-9]{1,5})?", host)
+    if found is None or (found[2] and not ported):
+        return None
+    name = found[1].lower().removesuffix(".")
+    if name.startswith("["):
+        return None if _address(name) is None else name
+    return name if _NAME.fullmatch(name) else None
+
+
+def _place(text: str) -> tuple[str, int]:
+    if re.fullmatch(r"[0-9]{1,5}", text):  # a port alone
+        text = f":{text}"
+    found = re.fullmatch(r"(\[[^\]\[]*\]|[^:\[\]]*)(?::([0-9]{1,5}))?", text)
+    if found is None:
+        raise ListenError(f"{text[:64]!r} is no place to listen at; {MEND}")
+    host, port = found[1] or DEFAULT_HOST, int(found[2] or DEFAULT_PORT)
+    if port > 65535:
+        raise ListenError(f"{port} is no port; they go up to 65535")
+    if name_of(host) is None:
+        raise ListenError(f"{host[:64]!r} is no host; {MEND}")
+    return host.strip("[]"), port
+
+
+def _address(host: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    try:
+        return ipaddress.ip_address(host.strip("[]"))
+    except ValueError:
+        return None
