@@ -1,0 +1,46 @@
+/** Keeps our car in view: it stays where it is on the map, and the world moves by. */
+
+const AHEAD = 0.16; // of the shorter side of the map that is seen more in front than behind
+const SETTLE = 260; // [ms] in which a new lead is taken on, for the most part
+
+export class Following {
+  constructor(view) {
+    this.view = view;
+    this.on = true;
+    this.lead = null; // [m] from the car to the centre of the view; null: none taken yet
+    this.then = 0; // [ms] of the frame before
+    this.settled = true;
+  }
+
+  /** Switch it on or off; switched on, the view moves over to the car smoothly. */
+  set(on, ego) {
+    if (on && !this.on && ego) this.lead = [this.view.x - ego.x, this.view.y - ego.y];
+    this.on = on;
+    this.settled = false;
+  }
+
+  /** Forget where the car was. */
+  reset() {
+    this.lead = null;
+  }
+
+  /** The scale changes by a factor: the car keeps its place on the canvas. */
+  zoomed(factor) {
+    if (this.lead) this.lead = [this.lead[0] / factor, this.lead[1] / factor];
+  }
+
+  /** Move the view with the car. */
+  step(ego, now) {
+    const passed = Math.min(now - this.then, 100);
+    this.then = now;
+    if (!this.on || !ego) return void (this.settled = true);
+    const { view } = this;
+    const far = (AHEAD * Math.min(view.width, view.height)) / view.scale;
+    const aim = [far * Math.cos(ego.heading), far * Math.sin(ego.heading)];
+    const part = this.lead && !view.still.matches ? 1 - Math.exp(-passed / SETTLE) : 1;
+    this.lead ??= aim;
+    this.lead = this.lead.map((from, i) => from + (aim[i] - from) * part);
+    this.settled = Math.hypot(aim[0] - this.lead[0], aim[1] - this.lead[1]) * view.scale < 0.5;
+    [view.x, view.y] = [ego.x + this.lead[0], ego.y + this.lead[1]];
+  }
+}

@@ -1,0 +1,129 @@
+/** What a turn speaks of: what was done, and, as a ghost beside it, what was asked about. */
+
+import { count, boundsOf, headingAt, pathOf, pointAt } from "./lines.js";
+import { arrowHead, crash } from "./marks.js";
+import { drawGhost } from "./bodies.js";
+
+const REST = 1.2; // [s] at the end before the loop begins anew
+const SIDES = {
+  fact: { colour: "accent", dash: [], words: () => "what I did" },
+  ghost: { colour: "foil", dash: [9, 6], words: (side) => `what you asked about: ${side.words}` },
+  preview: { colour: "foil", dash: [3, 5], words: (side) => side.words },
+};
+
+/** Lines of evidence that are on the map: {fact, ghost}, each a list of Drives. */
+export function linesOf(evidence) {
+  const usable = (side) => (side?.lines ?? []).filter((line) => count(line.path) > 1);
+  return { fact: usable(evidence?.factual), ghost: usable(evidence?.counterfactual) };
+}
+
+/** [left, bottom, right, top] of what is compared; null where there is nothing. */
+export function boundsOfEvidence(evidence) {
+  const { fact, ghost } = linesOf(evidence);
+  return boundsOf([...fact.slice(0, 1), ...ghost.slice(0, 1)].map((line) => line.path), 8);
+}
+
+/**
+ * Draw the lines of a turn, and ghost cars on them.
+ * @param evidence see documents.py: EvidenceShown
+ * @param {number|null} elapsed [s] since the loop began; null: nothing is to move
+ * @param pen {context, view, colours, labels}
+ * @param size {length, width} [m] of our car
+ * @returns {{fact: number, ghost: number, kinds: Set<string>}}
+ */
+export function drawEvidence(evidence, elapsed, pen, size) {
+  const lines = linesOf(evidence);
+  const kinds = new Set();
+  const longest = Math.max(0, ...[lines.fact[0], lines.ghost[0]].filter(Boolean).map(duration));
+  const since = elapsed === null ? null : elapsed % (longest + REST);
+  for (const name of ["fact", "ghost"]) {
+    const own = lines[name];
+    own.slice().reverse().forEach((line, i) => {
+      const main = i === own.length - 1;
+      drawLine(line, SIDES[name], pen, main ? 1 : 0.3 * line.probability + 0.1, main);
+    });
+    if (!own.length) continue;
+    kinds.add(name);
+    ghostCars(own[0], SIDES[name], since, pen, size, name === "ghost");
+  }
+  label("fact", evidence.factual, lines, pen);
+  label("ghost", evidence.counterfactual, lines, pen);
+  return { fact: lines.fact.length, ghost: lines.ghost.length, kinds };
+}
+
+/** Draw a line that somebody looks at: {line: Drive, words}; returns whether there was one. */
+export function drawPreview(preview, pen) {
+  if (!preview?.line || count(preview.line.path) < 2) return false;
+  drawLine(preview.line, SIDES.preview, pen, 0.9, true);
+  label("preview", preview, { preview: [preview.line], fact: [] }, pen);
+  return true;
+}
+
+function duration(line) {
+  return (count(line.path) - 1) * line.dt;
+}
+
+function drawLine(line, side, { context, view, colours }, alpha, main) {
+  view.world(context);
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  const path = pathOf(line.path);
+  if (main) {
+    context.strokeStyle = colours.get("card", 0.6);
+    context.lineWidth = 7 / view.scale;
+    context.stroke(path);
+  }
+  context.setLineDash(side.dash.map((length) => length / view.scale));
+  context.strokeStyle = colours.get(side.colour, alpha);
+  context.lineWidth = (main ? 3.5 : 2) / view.scale;
+  context.stroke(path);
+  context.setLineDash([]);
+  if (!main) return;
+  view.screen(context);
+  const end = pointAt(line.path, count(line.path) - 1);
+  if (line.outcome === "collision") crash(context, view, end, colours);
+  else arrowHead(context, view, end, colours.get(side.colour));
+}
+
+/** Where the car would be at each whole second, and where it is in the loop. */
+function ghostCars(line, side, since, { context, view, colours }, size, each) {
+  const at = (seconds) => {
+    const index = Math.min(line.dt > 0 ? seconds / line.dt : 0, count(line.path) - 1);
+    const { x, y } = pointAt(line.path, index);
+    return { ...size, x, y, heading: headingAt(line.path, Math.floor(index)) };
+  };
+  let last = null;
+  for (let second = 0; each && second <= duration(line); second += 1) {
+    const car = at(second);
+    if (last && Math.hypot(car.x - last.x, car.y - last.y) * view.scale < Math.max(size.length * view.scale, 11) * 1.15) continue;
+    drawGhost(context, view, car, colours, { colour: side.colour, fill: 0.12, line: 0.45 });
+    last = car;
+  }
+  if (since !== null) drawGhost(context, view, at(since), colours, { colour: side.colour, fill: 0.55, line: 1 });
+}
+
+/** Say which line it is, at a point in view that is as far from the other line as can be. */
+function label(name, side, lines, { view, colours, labels }) {
+  const line = lines[name]?.[0];
+  if (!line) return;
+  const other = name === "fact" ? lines.ghost[0] : lines.fact[0];
+  const last = count(line.path) - 1;
+  let best = null;
+  for (const part of [1, 0.85, 0.7, 0.55, 0.4, 0.25, 0.1, 0]) {
+    const point = pointAt(line.path, part * last);
+    const [x, y] = view.toScreen(point.x, point.y);
+    if (x < 30 || y < 30 || x > view.width - 30 || y > view.height - 30) continue;
+    const away = other ? apart(point, other.path) * view.scale : 0;
+    if (!best || Math.min(away, 60) > Math.min(best.away, 60) + 4) best = { x, y, away };
+  }
+  if (!best) return;
+  const { colour, words } = SIDES[name];
+  const look = { ink: colours.get("card"), ground: colours.get(colour), strong: true };
+  labels.add({ key: name, text: words(side), x: best.x, y: best.y, reach: 12, weight: 90, ...look });
+}
+
+function apart(point, path) {
+  let least = Infinity;
+  for (let i = 0; i < path.length; i += 2) least = Math.min(least, Math.hypot(path[i] - point.x, path[i + 1] - point.y));
+  return least;
+}

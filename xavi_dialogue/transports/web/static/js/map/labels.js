@@ -1,0 +1,130 @@
+/** Labels that neither overlap each other nor leave the view; who has no room goes without. */
+
+const HEIGHT = 18; // [px]
+const PAD = 6; // [px] left and right of the text
+const CELL = 64; // [px] of the grid by which neighbours are found
+const LONGEST = 64; // characters
+
+/** Places of a label around what it names, the best first: x, y from -1 to 1. */
+const SIDES = [[0, -1], [1, 0], [-1, 0], [0, 1], [1, -1], [-1, -1], [1, 1], [-1, 1]];
+
+export class Labels {
+  constructor() {
+    this.widths = new Map();
+    this.sides = new Map(); // where each label was, so that it does not hop about
+    this.font = "";
+  }
+
+  /** Begin a frame; `taken` are rectangles [left, top, right, bottom] of the canvas to be left free. */
+  begin(view, font, taken) {
+    if (font !== this.font) this.widths.clear();
+    Object.assign(this, { view, font, wanted: [], cells: new Map() });
+    for (const box of taken) this.occupy(box);
+  }
+
+  /** Keep labels of lesser weight off a rectangle. */
+  occupy(box) {
+    this.each(box, (cell) => cell.push(box));
+  }
+
+  /**
+   * Wish for a label.
+   * @param {{key: string, text: string, x: number, y: number, reach: number, weight: number,
+   *   ink: string, ground: string, edge?: string, strong?: boolean}} label x, y [px] of what is
+   *   named, `reach` [px] to be kept from it; the heaviest are placed first
+   */
+  add(label) {
+    if (label.x < -40 || label.y < -40 || label.x > this.view.width + 40 || label.y > this.view.height + 40) return;
+    const text = label.text.length > LONGEST ? `${label.text.slice(0, LONGEST - 1)}…` : label.text;
+    this.wanted.push({ ...label, text });
+  }
+
+  /** Draw all that find room; returns their texts. */
+  draw(context) {
+    this.view.screen(context);
+    context.textBaseline = "middle";
+    context.textAlign = "center";
+    this.wanted.sort((a, b) => b.weight - a.weight || (a.key < b.key ? -1 : 1));
+    const placed = [];
+    for (const label of this.wanted) {
+      const box = this.placed(context, label);
+      if (box) placed.push([label, box]);
+    }
+    for (const [label, box] of placed) paint(context, label, box, this.fontOf(label));
+    const kept = new Set(this.wanted.map((label) => label.key));
+    for (const key of this.sides.keys()) if (!kept.has(key)) this.sides.delete(key);
+    return placed.map(([label]) => label.text);
+  }
+
+  placed(context, label) {
+    const width = this.widthOf(context, label) + 2 * PAD;
+    const before = this.sides.get(label.key);
+    const order = before === undefined ? SIDES.keys() : [before, ...SIDES.keys()];
+    for (const side of order) {
+      const box = this.boxAt(label, width, SIDES[side]);
+      if (!this.free(box)) continue;
+      this.sides.set(label.key, side);
+      this.occupy(box);
+      return box;
+    }
+    return null;
+  }
+
+  boxAt(label, width, [dx, dy]) {
+    const across = dx ? label.reach * (dy ? 0.75 : 1) : 0;
+    const down = dy ? label.reach * (dx ? 0.75 : 1) : 0;
+    const x = label.x + dx * (across + width / 2) - width / 2;
+    const y = label.y + dy * (down + HEIGHT / 2) - HEIGHT / 2;
+    return [x, y, x + width, y + HEIGHT];
+  }
+
+  free(box) {
+    if (box[0] < 2 || box[1] < 2 || box[2] > this.view.width - 2 || box[3] > this.view.height - 2) return false;
+    let free = true;
+    this.each(box, (cell) => {
+      if (free) free = !cell.some((one) => one[0] < box[2] && one[2] > box[0] && one[1] < box[3] && one[3] > box[1]);
+    });
+    return free;
+  }
+
+  each([left, top, right, bottom], visit) {
+    for (let i = Math.floor(left / CELL); i <= Math.floor(right / CELL); i += 1) {
+      for (let j = Math.floor(top / CELL); j <= Math.floor(bottom / CELL); j += 1) {
+        const key = i * 4096 + j;
+        if (!this.cells.has(key)) this.cells.set(key, []);
+        visit(this.cells.get(key));
+      }
+    }
+  }
+
+  fontOf(label) {
+    return `${label.strong ? 600 : 500} 12px ${this.font}`;
+  }
+
+  widthOf(context, label) {
+    const key = `${label.strong ? "!" : ""}${label.text}`;
+    let width = this.widths.get(key);
+    if (width === undefined) {
+      if (this.widths.size > 2000) this.widths.clear();
+      context.font = this.fontOf(label);
+      width = context.measureText(label.text).width;
+      this.widths.set(key, width);
+    }
+    return width;
+  }
+}
+
+function paint(context, label, [left, top, right, bottom], font) {
+  context.beginPath();
+  context.roundRect(left, top, right - left, bottom - top, HEIGHT / 2);
+  context.fillStyle = label.ground;
+  context.fill();
+  if (label.edge) {
+    context.strokeStyle = label.edge;
+    context.lineWidth = 1;
+    context.stroke();
+  }
+  context.fillStyle = label.ink;
+  context.font = font;
+  context.fillText(label.text, (left + right) / 2, (top + bottom) / 2 + 0.5);
+}

@@ -1,0 +1,108 @@
+/**
+ * Where vehicles are at a moment, between the scenes that were told.
+ *
+ * Live, what is drawn trails the latest scene: it gets there when the next one is due. So motion is
+ * smooth whatever the speed of the simulation, and nothing has to be guessed.
+ */
+
+import { lastUpTo } from "../store.js";
+
+const KEPT = 6; // scenes
+const FAR = 3; // mean pauses between scenes; who is farther behind leaps
+
+export class Motion {
+  constructor() {
+    this.reset();
+  }
+
+  /** Forget all scenes. */
+  reset() {
+    this.scenes = [];
+    this.pause = 100; // [ms] between scenes, smoothed
+    this.heard = null; // [ms] when the latest came
+    this.start = 0; // [s] what was shown when it came
+    this.still = true; // the latest is no other than the one before
+  }
+
+  /** A live scene came at `now` [ms]. */
+  arrive(scene, now) {
+    const last = this.scenes.at(-1);
+    const shown = last ? this.time(now) : scene.t;
+    if (last && scene.t < last.t) this.scenes = [];
+    if (this.heard !== null) this.pause += 0.2 * (Math.min(Math.max(now - this.heard, 30), 500) - this.pause);
+    this.still = last !== undefined && alike(last, scene);
+    const step = last ? scene.t - last.t : 0;
+    this.start = !last || scene.t <= shown || scene.t - shown > FAR * Math.max(step, 0.05) ? scene.t : shown;
+    this.scenes.push(scene);
+    if (this.scenes.length > KEPT) this.scenes.shift();
+    this.heard = now;
+  }
+
+  /** [s] The simulation time that is drawn at `now` [ms]. */
+  time(now) {
+    const last = this.scenes.at(-1);
+    const part = Math.min(Math.max((now - this.heard) / this.pause, 0), 1);
+    return this.start + (last.t - this.start) * part;
+  }
+
+  /** Whether the picture changes by itself. */
+  moving(now) {
+    return this.scenes.length > 0 && !this.still && now - this.heard < this.pause;
+  }
+
+  /** What is drawn live: {t, vehicles}. */
+  live(now) {
+    return this.scenes.length ? sceneAt(this.scenes, this.time(now)) : null;
+  }
+}
+
+/** The scene at a moment, between those of a list in order of time: {t, vehicles}. */
+export function sceneAt(scenes, t) {
+  const index = Math.max(lastUpTo(scenes, t), 0);
+  const [before, after] = [scenes[index], scenes[index + 1]];
+  if (!before) return null;
+  const step = after ? after.t - before.t : 0;
+  if (!after || t <= before.t || step <= 0) return { t, vehicles: before.vehicles };
+  const next = new Map(after.vehicles.map((vehicle) => [vehicle.id, vehicle]));
+  const part = (t - before.t) / step;
+  return { t, vehicles: before.vehicles.map((vehicle) => between(vehicle, next.get(vehicle.id), part, step)) };
+}
+
+/** A vehicle on its way from one scene to the next: a cubic that keeps its speed at both. */
+function between(a, b, part, step) {
+  if (!b) return a;
+  const gone = Math.hypot(b.x - a.x, b.y - a.y);
+  const could = Math.max(a.speed, b.speed) * step;
+  if (gone > 2 * could + 8) return part < 0.5 ? a : b; // put elsewhere
+  const [h00, h10, h01, h11] = hermite(part);
+  // No faster than what carries it there: a stop amid a long step must not make it overshoot.
+  const out = Math.min(a.speed * step, 1.5 * gone);
+  const into = Math.min(b.speed * step, 1.5 * gone);
+  return {
+    ...b,
+    x: h00 * a.x + h01 * b.x + h10 * out * Math.cos(a.heading) + h11 * into * Math.cos(b.heading),
+    y: h00 * a.y + h01 * b.y + h10 * out * Math.sin(a.heading) + h11 * into * Math.sin(b.heading),
+    heading: a.heading + turned(a.heading, b.heading) * part,
+    speed: a.speed + (b.speed - a.speed) * part,
+  };
+}
+
+function hermite(u) {
+  const [u2, u3] = [u * u, u * u * u];
+  return [2 * u3 - 3 * u2 + 1, u3 - 2 * u2 + u, 3 * u2 - 2 * u3, u3 - u2];
+}
+
+/** [rad] The shorter way round from one heading to another. */
+function turned(from, to) {
+  const turn = (to - from) % (2 * Math.PI);
+  return turn > Math.PI ? turn - 2 * Math.PI : turn < -Math.PI ? turn + 2 * Math.PI : turn;
+}
+
+function alike(a, b) {
+  if (a.vehicles.length !== b.vehicles.length) return false;
+  return a.vehicles.every((one, i) => {
+    const other = b.vehicles[i];
+    return one.id === other.id && Math.abs(one.x - other.x) < 1e-3 && Math.abs(one.y - other.y) < 1e-3
+      && Math.abs(one.heading - other.heading) < 1e-3 && one.signals.join() === other.signals.join();
+  });
+}

@@ -1,0 +1,106 @@
+/** One frame: everything that moves, drawn over the backdrop. */
+
+import { drawRing, drawVehicle, middleOf, radiusOf } from "./bodies.js";
+import { drawEvidence, drawPreview } from "./ghosts.js";
+import { meet } from "./lines.js";
+import { drawDecision } from "./plans.js";
+import { nameOf } from "./words.js";
+
+const LONG_NAMES = 3; // [px/m] from which on vehicles are called by their whole name
+const CROWD = 40; // vehicles in view from which on they are not
+const OURS = { length: 4.8, width: 1.8 }; // [m] where our car is not in the scene
+
+/**
+ * Draw a frame.
+ * @param scene {t, vehicles, detail, evidence, preview, elapsed [s] of the loop or null,
+ *   causes, pointed: Sets of vehicles, chosen: the one whose card is shown, or null}
+ * @param pen {context, view, colours, labels, roads}
+ * @returns what was drawn: see `shown` of createMap, and `kinds` for the legend
+ */
+export function drawPicture(scene, pen) {
+  const ego = scene.vehicles.find((vehicle) => vehicle.id === 0);
+  const chosen = new Set([...scene.pointed, ...scene.causes]);
+  if (scene.chosen !== null) chosen.add(scene.chosen);
+  const quiet = Boolean(scene.evidence || scene.preview);
+  const decision = drawDecision({ ...scene, chosen, quiet }, pen);
+  const evidence = scene.evidence
+    ? drawEvidence(scene.evidence, scene.elapsed, pen, ego ?? OURS)
+    : { fact: 0, ghost: 0, kinds: new Set() };
+  const preview = drawPreview(scene.preview, pen);
+  const seen = drawVehicles(scene, pen);
+  const kinds = new Set([...decision.kinds, ...evidence.kinds, ...ringKinds(scene, seen)]);
+  if (preview) kinds.add("preview");
+  for (const vehicle of seen) kinds.add(vehicle.id === 0 ? "us" : "others");
+  return {
+    vehicles: seen.map((vehicle) => vehicle.id),
+    labels: pen.labels.draw(pen.context),
+    ghost: evidence.ghost,
+    fact: evidence.fact,
+    predictions: decision.predictions,
+    yields: decision.yields,
+    preview,
+    kinds,
+  };
+}
+
+/** Draw the vehicles in view, ours on top; returns them. */
+function drawVehicles(scene, pen) {
+  const { context, view, colours } = pen;
+  const bounds = view.bounds;
+  const seen = scene.vehicles.filter((vehicle) => {
+    const reach = vehicle.length + 12 / view.scale;
+    const [x, y] = middleOf(vehicle);
+    return meet([x - reach, y - reach, x + reach, y + reach], bounds);
+  });
+  seen.sort((a, b) => (a.id === 0) - (b.id === 0) || a.id - b.id);
+  context.setLineDash([]);
+  for (const vehicle of seen) drawVehicle(context, view, vehicle, colours, scene.t);
+  const long = view.scale >= LONG_NAMES && seen.length < CROWD;
+  for (const vehicle of seen) {
+    rings(vehicle, scene, pen);
+    name(vehicle, scene, pen, long);
+  }
+  return seen;
+}
+
+function rings(vehicle, scene, { context, view, colours }) {
+  let gap = 4;
+  const ring = (colour, width) => {
+    drawRing(context, view, vehicle, colour, gap, width);
+    gap += width + 2;
+  };
+  if (scene.causes.has(vehicle.id)) ring(colours.get("cause"), 3);
+  if (scene.pointed.has(vehicle.id)) ring(colours.get("ink"), 2);
+  if (scene.chosen === vehicle.id && !scene.pointed.has(vehicle.id)) ring(colours.get("focus"), 2);
+}
+
+function name(vehicle, scene, { view, colours, labels }, long) {
+  const [x, y] = view.toScreen(...middleOf(vehicle));
+  const ringed = scene.causes.has(vehicle.id) + scene.pointed.has(vehicle.id);
+  const reach = radiusOf(vehicle, view.scale) + 2;
+  const [across, down] = extent(vehicle, view.scale);
+  labels.occupy([x - across, y - down, x + across, y + down]);
+  const ours = vehicle.id === 0;
+  const blamed = scene.causes.has(vehicle.id);
+  const ground = blamed ? "cause" : "accent";
+  const look = ours || blamed
+    ? { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(ground), strong: true }
+    : { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
+  const weight = ours ? 80 : ringed || scene.chosen === vehicle.id ? 70 : 20 - vehicle.id / 1e6;
+  const text = ours ? "us" : long || ringed ? nameOf(vehicle.id) : String(vehicle.id);
+  labels.add({ key: `vehicle ${vehicle.id}`, text, x, y, reach: reach + (ringed ? 4 + 4 * ringed : 0), weight, ...look });
+}
+
+/** [px] Half the width and height of the box around a vehicle. */
+function extent(vehicle, scale) {
+  const [c, s] = [Math.abs(Math.cos(vehicle.heading)), Math.abs(Math.sin(vehicle.heading))];
+  const [long, broad] = [Math.max(vehicle.length * scale, 11) / 2, Math.max(vehicle.width * scale, 5) / 2];
+  return [c * long + s * broad, s * long + c * broad];
+}
+
+function ringKinds(scene, seen) {
+  const kinds = [];
+  if (seen.some((vehicle) => scene.causes.has(vehicle.id))) kinds.push("cause");
+  if (seen.some((vehicle) => scene.pointed.has(vehicle.id))) kinds.push("pointed");
+  return kinds;
+}

@@ -1,0 +1,143 @@
+/** What a decision says, on the map: our path, what others may do, right of way, view, goal. */
+
+import { beforeEnd, count, lengthOf, pathOf, pointAt, remaining } from "./lines.js";
+import { arrowHead, flag, giveWay } from "./marks.js";
+import { middleOf } from "./bodies.js";
+import { percent } from "./words.js";
+
+const FEW = 4; // vehicles whose predictions are all labelled
+const LIKELY = 0.05; // probability from which on a goal is labelled
+const PIECES = 8; // of a path that fades along its length
+const SHORT = 3; // [m] below which there is no path to be seen
+
+/**
+ * Draw it.
+ * @param scene {detail, t, vehicles, chosen: Set of vehicles pointed at, quiet: a turn is shown too}
+ * @param pen {context, view, colours, labels, roads}
+ * @returns {{predictions: number, yields: number, kinds: Set<string>}} what was drawn
+ */
+export function drawDecision(scene, pen) {
+  const drawn = { predictions: 0, yields: 0, kinds: new Set() };
+  const { detail } = scene;
+  if (!detail) return drawn;
+  rightOfWay(scene, pen, drawn);
+  viewRadius(scene, pen, drawn);
+  predictions(scene, pen, drawn);
+  if (detail.ego) plan(scene, pen, drawn);
+  if (detail.goal) {
+    pen.view.screen(pen.context);
+    flag(pen.context, pen.view, detail.goal, pen.colours);
+    drawn.kinds.add("goal");
+  }
+  return drawn;
+}
+
+function plan({ detail, t, quiet }, { context, view, colours }, drawn) {
+  const line = remaining(detail.ego, t);
+  if (count(line) < 2 || lengthOf(line) < SHORT) return;
+  view.world(context);
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  const path = pathOf(line);
+  for (const [colour, alpha, width] of [["card", 0.55, 6], ["accent", quiet ? 0.4 : 0.95, 3.5]]) {
+    context.strokeStyle = colours.get(colour, quiet && colour === "card" ? 0 : alpha);
+    context.lineWidth = width / view.scale;
+    context.stroke(path);
+  }
+  view.screen(context);
+  arrowHead(context, view, pointAt(line, count(line) - 1), colours.get("accent", quiet ? 0.4 : 1));
+  drawn.kinds.add("plan");
+}
+
+function predictions(scene, pen, drawn) {
+  const there = new Set(scene.vehicles.map((vehicle) => vehicle.id));
+  const known = scene.detail.predictions.filter((one) => there.has(one.vehicle));
+  for (const one of known) {
+    const chosen = scene.chosen.has(one.vehicle);
+    const labelled = chosen || (known.length <= FEW && !scene.quiet);
+    const strength = chosen ? 1 : scene.quiet || scene.chosen.size || known.length > FEW ? 0.5 : 0.9;
+    for (const goal of one.goals) goalPath(scene, pen, { one, goal, labelled, strength }, drawn);
+  }
+  if (drawn.predictions) drawn.kinds.add("predictions");
+}
+
+function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
+  const lines = goal.ways.filter((way) => way.line && way.probability >= 0.01).slice(0, 3);
+  let end = null;
+  for (const way of lines) {
+    const line = remaining(way.line, scene.t);
+    if (count(line) < 2 || lengthOf(line) < SHORT) continue;
+    fading(pen, line, strength * (0.25 + 0.75 * way.probability));
+    drawn.predictions += 1;
+    end ??= pointAt(line, count(line) - 1);
+  }
+  if (!labelled || !end || goal.probability < LIKELY) return;
+  const [x, y] = pen.view.toScreen(end.x, end.y);
+  pen.view.screen(pen.context);
+  arrowHead(pen.context, pen.view, end, pen.colours.get("other", 0.35 + 0.65 * goal.probability), 7);
+  const { colours } = pen;
+  const look = { ink: colours.get("other"), ground: colours.get("card", 0.92), edge: colours.get("other", 0.5) };
+  pen.labels.add({ key: `goal ${one.vehicle} ${goal.words} ${goal.place}`, text: percent(goal.probability), x, y, reach: 9, weight: 40 + goal.probability, ...look });
+}
+
+/** A path that is broad and plain where it begins, thin and pale where it ends. */
+function fading({ context, view, colours }, line, strength) {
+  view.world(context);
+  context.lineCap = "butt";
+  context.lineJoin = "round";
+  const last = count(line) - 1;
+  const pieces = Math.min(PIECES, last);
+  for (let k = 0; k < pieces; k += 1) {
+    const [a, b] = [Math.round((k * last) / pieces), Math.round(((k + 1) * last) / pieces)];
+    const left = 1 - k / pieces;
+    context.strokeStyle = colours.get("other", Math.max(strength * (0.25 + 0.75 * left), 0.08));
+    context.lineWidth = (1.5 + 2.5 * strength * left + strength) / view.scale;
+    context.stroke(pathOf(line.slice(2 * a, 2 * b + 2)));
+  }
+}
+
+function rightOfWay({ detail, vehicles }, { context, view, colours, roads }, drawn) {
+  const way = detail.right_of_way;
+  const ours = roads?.links.get(way?.ego);
+  if (!way || !ours || passed(roads, ours, vehicles)) return;
+  const strip = (link, colour, alpha) => {
+    const lines = link.via.map((id) => roads.lanes.get(id)).filter(Boolean);
+    view.world(context);
+    context.lineCap = "butt";
+    context.strokeStyle = colours.get(colour, alpha);
+    for (const lane of lines) {
+      context.lineWidth = lane.width * 0.62;
+      context.stroke(pathOf(lane.line));
+    }
+  };
+  const first = way.goes_first.map((id) => roads.links.get(id)).filter(Boolean);
+  for (const link of first) strip(link, "warn", 0.32);
+  strip(ours, "accent", 0.4);
+  drawn.kinds.add("ours");
+  drawn.yields = first.length;
+  if (!first.length) return;
+  drawn.kinds.add("yields");
+  const waiting = roads.lanes.get(ours.from_lane);
+  view.screen(context);
+  if (waiting && view.scale > 1.5) giveWay(context, view, beforeEnd(waiting.line, 1), colours);
+}
+
+/** Whether we have gone through already: the decision is up to a second old. */
+function passed(roads, link, vehicles) {
+  const ego = vehicles.find((vehicle) => vehicle.id === 0);
+  const lane = ego && roads.laneAt(...middleOf(ego));
+  return lane !== null && lane !== undefined && lane.id === link.to_lane;
+}
+
+function viewRadius({ detail, vehicles }, { context, view, colours }, drawn) {
+  const ego = vehicles.find((vehicle) => vehicle.id === 0);
+  if (!ego || !(detail.view_radius > 0)) return;
+  view.screen(context);
+  const [px, py] = view.toScreen(ego.x, ego.y);
+  context.beginPath();
+  context.arc(px, py, detail.view_radius * view.scale, 0, 2 * Math.PI);
+  context.strokeStyle = colours.get("accent", 0.4);
+  context.lineWidth = 1;
+  context.stroke();
+  drawn.kinds.add("view");
+}

@@ -1,0 +1,189 @@
+/** The road network: what of it is drawn, and how, by scale. */
+
+import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./lines.js";
+
+const DASH = [3, 4.5]; // [m]
+const LINE = 0.14; // [m] width of markings
+const KERB = 0.35; // [m] on each side
+const TURN = { left: 1, right: -1, straight: 0, turnaround: 1 };
+
+/** Scales [px/m] from which on things are drawn: below, they would only be clutter. */
+const FROM = { sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
+
+export class RoadLayer {
+  /** @param roads see documents.py: Roads */
+  constructor(roads) {
+    this.lanes = new Map(roads.lanes.map((lane) => [lane.id, lane]));
+    this.links = new Map(roads.links.map((link) => [link.id, link]));
+    this.bounds = roads.bounds;
+    this.lanesOf = grouped(roads.lanes, (lane) => lane.edge);
+    const leaving = grouped(roads.links, (link) => link.from_lane);
+    const open = roads.lanes.filter((lane) => !lane.internal);
+    this.surfaces = roads.lanes.map((lane) => item(lane.line, lane.width, lane));
+    this.junctions = roads.junctions.map((outline) => {
+      const path = new Path2D();
+      trace(path, outline, true);
+      return { path, box: boundsOf([outline]) ?? [0, 0, 0, 0] };
+    });
+    this.sides = [];
+    this.dashes = [];
+    for (const lane of open) this.mark(lane);
+    this.stops = open.filter((lane) => leaving.get(lane.id)?.some((link) => link.yields_to.length)).map(stopLine);
+    this.arrows = this.arrowsOf(open, leaving);
+  }
+
+  mark(lane) {
+    const widths = this.lanesOf.get(lane.edge).map((one) => one.index);
+    const [rightmost, leftmost] = [Math.min(...widths), Math.max(...widths)];
+    if (lane.index === rightmost) this.sides.push(item(offset(lane.line, -lane.width / 2), LINE));
+    const left = item(offset(lane.line, lane.width / 2), LINE);
+    (lane.index === leftmost ? this.sides : this.dashes).push(left);
+  }
+
+  /** Arrows only where lanes of an edge lead to different places. */
+  arrowsOf(open, leaving) {
+    const ways = (lane) => [...new Set((leaving.get(lane.id) ?? []).map((link) => link.direction))];
+    const arrows = [];
+    for (const lane of open) {
+      const there = ways(lane);
+      const choice = this.lanesOf.get(lane.edge).some((one) => ways(one).some((way) => way !== "straight"));
+      if (choice && there.length && lengthOf(lane.line) > 14) arrows.push(arrow(lane, there));
+    }
+    return arrows;
+  }
+
+  /** Draw what is within bounds; the context draws in metres. */
+  draw(context, bounds, scale, colours) {
+    const seen = (items) => items.filter((one) => meet(one.box, bounds));
+    const surfaces = seen(this.surfaces);
+    const inside = surfaces.filter((one) => one.lane.internal);
+    const outside = surfaces.filter((one) => !one.lane.internal);
+    context.lineJoin = "round";
+    context.lineCap = "butt";
+    context.setLineDash([]);
+    this.kerbs(context, outside, seen(this.junctions), colours);
+    for (const one of seen(this.junctions)) fillPath(context, one.path, colours.get("road-junction"));
+    stroke(context, inside, colours.get("road-junction"), (one) => one.width);
+    stroke(context, outside, colours.get("road"), (one) => one.width + 0.04);
+    this.markings(context, seen, scale, colours);
+  }
+
+  kerbs(context, lanes, junctions, colours) {
+    const colour = colours.get("map-kerb");
+    stroke(context, lanes, colour, (one) => one.width + 2 * KERB);
+    context.strokeStyle = colour;
+    context.lineWidth = 2 * KERB;
+    for (const one of junctions) context.stroke(one.path);
+  }
+
+  markings(context, seen, scale, colours) {
+    const colour = colours.get("marking");
+    const thin = () => Math.max(LINE, 0.9 / scale);
+    if (scale >= FROM.sides) stroke(context, seen(this.sides), colour, thin);
+    if (scale >= FROM.dashes) {
+      context.setLineDash(DASH);
+      stroke(context, seen(this.dashes), colour, thin);
+      context.setLineDash([]);
+    }
+    if (scale >= FROM.stops) stroke(context, seen(this.stops), colour, () => 0.4);
+    if (scale >= FROM.arrows) {
+      stroke(context, seen(this.arrows), colour, () => 0.2);
+      for (const one of seen(this.arrows)) fillPath(context, one.heads, colour);
+    }
+  }
+
+  /** The lane that a point is on, the nearest one; null: none within its width. */
+  laneAt(x, y) {
+    let best = null;
+    for (const one of this.surfaces) {
+      if (!meet(one.box, [x, y, x, y])) continue;
+      const away = distance(one.lane.line, x, y);
+      if (away < one.lane.width && (!best || away < best.away)) best = { lane: one.lane, away };
+    }
+    return best?.lane ?? null;
+  }
+}
+
+/** A plain grid for where roads are not known; returns its spacing [m]. */
+export function drawGrid(context, bounds, scale, colours) {
+  const spacing = [10, 50, 100, 500].find((step) => step * scale >= 24) ?? 1000;
+  context.strokeStyle = colours.get("map-grid");
+  context.lineWidth = 1 / scale;
+  context.beginPath();
+  for (let x = Math.ceil(bounds[0] / spacing) * spacing; x <= bounds[2]; x += spacing) {
+    context.moveTo(x, bounds[1]);
+    context.lineTo(x, bounds[3]);
+  }
+  for (let y = Math.ceil(bounds[1] / spacing) * spacing; y <= bounds[3]; y += spacing) {
+    context.moveTo(bounds[0], y);
+    context.lineTo(bounds[2], y);
+  }
+  context.stroke();
+  return spacing;
+}
+
+function item(line, width, lane = null) {
+  return { path: pathOf(line), width, lane, box: boundsOf([line], width) ?? [0, 0, 0, 0] };
+}
+
+function stopLine(lane) {
+  const { x, y, heading } = beforeEnd(lane.line, 0.4);
+  const [dx, dy] = [-Math.sin(heading) * lane.width * 0.44, Math.cos(heading) * lane.width * 0.44];
+  return item([x + dx, y + dy, x - dx, y - dy], 0.4);
+}
+
+/** The arrow painted on a lane before its end: a shaft, and a head for every way that it leads. */
+function arrow(lane, ways) {
+  const { x, y, heading } = beforeEnd(lane.line, Math.min(9, lengthOf(lane.line) / 3));
+  const [c, s] = [Math.cos(heading), Math.sin(heading)];
+  const place = (u, v) => [x + u * c - v * s, y + u * s + v * c];
+  const lines = [[...place(-2.6, 0), ...place(0, 0)]];
+  const heads = new Path2D();
+  for (const way of ways) {
+    const side = TURN[way] ?? 0;
+    const tip = side ? [0.9, side * 0.75] : [1.4, 0];
+    const angle = side ? side * (Math.PI / 2) * (way === "turnaround" ? 1.8 : 1) : 0;
+    lines.push([...place(0, 0), ...place(...tip)]);
+    const corner = (along, across) => place(
+      tip[0] + along * Math.cos(angle) - across * Math.sin(angle),
+      tip[1] + along * Math.sin(angle) + across * Math.cos(angle),
+    );
+    trace(heads, [...corner(0.75, 0), ...corner(-0.15, 0.42), ...corner(-0.15, -0.42)], true);
+  }
+  return { path: pathOf(...lines), heads, width: 0.2, lane: null, box: [x - 4, y - 4, x + 4, y + 4] };
+}
+
+function stroke(context, items, colour, widthOf) {
+  context.strokeStyle = colour;
+  for (const one of items) {
+    context.lineWidth = widthOf(one);
+    context.stroke(one.path);
+  }
+}
+
+function fillPath(context, path, colour) {
+  context.fillStyle = colour;
+  context.fill(path);
+}
+
+function grouped(items, key) {
+  const groups = new Map();
+  for (const one of items) {
+    const name = key(one);
+    if (!groups.has(name)) groups.set(name, []);
+    groups.get(name).push(one);
+  }
+  return groups;
+}
+
+function distance(line, x, y) {
+  let least = Infinity;
+  for (let i = 2; i < line.length; i += 2) {
+    const [ax, ay] = [line[i - 2], line[i - 1]];
+    const [bx, by] = [line[i] - ax, line[i + 1] - ay];
+    const along = ((x - ax) * bx + (y - ay) * by) / (bx * bx + by * by || 1);
+    const part = Math.min(Math.max(along, 0), 1);
+    least = Math.min(least, Math.hypot(x - ax - bx * part, y - ay - by * part));
+  }
+  return least;
+}

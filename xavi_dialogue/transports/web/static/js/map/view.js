@@ -1,0 +1,139 @@
+/** Which part of the world the map shows: centre [m], scale [px/m], and how it gets there. */
+
+const LEAST = 0.15; // [px/m]
+const MOST = 40; // [px/m]
+const GLIDE = 220; // [ms] of a change that buttons or keys make
+const ACROSS = 110; // [m] that the shorter side shows at first
+
+export class View {
+  constructor() {
+    this.width = 0; // [px] as CSS counts them
+    this.height = 0;
+    this.ratio = 1; // pixels of the screen to one of CSS
+    this.x = 0;
+    this.y = 0;
+    this.scale = 5;
+    this.glide = null;
+    this.still = matchMedia("(prefers-reduced-motion: reduce)");
+  }
+
+  /** Take on the size of the canvas; true where it is another one. */
+  resize(width, height, ratio) {
+    if (width === this.width && height === this.height && ratio === this.ratio) return false;
+    Object.assign(this, { width, height, ratio });
+    return true;
+  }
+
+  /** [px/m] Good for a first look at the traffic around us. */
+  get usual() {
+    return Math.min(Math.max(Math.min(this.width, this.height) / ACROSS, 2.5), 8);
+  }
+
+  /** Pixels of the screen to a metre. */
+  get k() {
+    return this.scale * this.ratio;
+  }
+
+  // Whole pixels, so that what is copied from a bitmap and what is drawn anew fit each other.
+  get ox() {
+    return Math.round((this.width * this.ratio) / 2 - this.x * this.k);
+  }
+
+  get oy() {
+    return Math.round((this.height * this.ratio) / 2 + this.y * this.k);
+  }
+
+  /** Let a context draw in metres, y to the north. */
+  world(context) {
+    context.setTransform(this.k, 0, 0, -this.k, this.ox, this.oy);
+  }
+
+  /** Let a context draw in pixels of CSS. */
+  screen(context) {
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+  }
+
+  /** [px] Where a point of the world is on the canvas. */
+  toScreen(x, y) {
+    return [(x * this.k + this.ox) / this.ratio, (this.oy - y * this.k) / this.ratio];
+  }
+
+  /** [m] What is at a place of the canvas. */
+  toWorld(px, py) {
+    return [(px * this.ratio - this.ox) / this.k, (this.oy - py * this.ratio) / this.k];
+  }
+
+  /** What is to be seen: [left, bottom, right, top] in metres. */
+  get bounds() {
+    const [left, top] = this.toWorld(0, 0);
+    const [right, bottom] = this.toWorld(this.width, this.height);
+    return [left, bottom, right, top];
+  }
+
+  /** Whether bounds are within what is to be seen. */
+  holds([left, bottom, right, top]) {
+    const seen = this.bounds;
+    return left >= seen[0] && bottom >= seen[1] && right <= seen[2] && top <= seen[3];
+  }
+
+  /** Zoom about a place of the canvas [px]; what is there stays there. */
+  zoomAt(factor, px, py) {
+    this.glide = null;
+    const [x, y] = this.toWorld(px, py);
+    this.scale = limited(this.scale * factor);
+    this.x = x - (px - this.width / 2) / this.scale;
+    this.y = y + (py - this.height / 2) / this.scale;
+  }
+
+  /** Move by pixels of CSS. */
+  pan(dx, dy) {
+    this.glide = null;
+    this.x -= dx / this.scale;
+    this.y += dy / this.scale;
+  }
+
+  /** Go to a centre and scale; parts that are null stay as they are, so that following goes on. */
+  glideTo(x, y, scale, now) {
+    const to = { x, y, scale: limited(scale) };
+    if (this.still.matches) return this.jump(to);
+    this.glide = { from: { x: this.x, y: this.y, scale: this.scale }, to, since: now };
+    return undefined;
+  }
+
+  /** Show bounds, whole. */
+  fit([left, bottom, right, top], now) {
+    const wide = Math.max(right - left, 20);
+    const high = Math.max(top - bottom, 20);
+    const scale = Math.min((this.width - 48) / wide, (this.height - 64) / high, 12);
+    this.glideTo((left + right) / 2, (bottom + top) / 2, Math.max(scale, LEAST), now);
+  }
+
+  jump({ x, y, scale }) {
+    this.glide = null;
+    if (x !== null) this.x = x;
+    if (y !== null) this.y = y;
+    this.scale = limited(scale);
+  }
+
+  /** Go on with a change under way. */
+  step(now) {
+    if (!this.glide) return;
+    const { from, to, since } = this.glide;
+    const part = Math.min(Math.max((now - since) / GLIDE, 0), 1);
+    if (part === 1) return void this.jump(to);
+    const eased = part * (2 - part);
+    const between = (a, b) => (b === null ? null : a + (b - a) * eased);
+    if (to.x !== null) this.x = between(from.x, to.x);
+    if (to.y !== null) this.y = between(from.y, to.y);
+    this.scale = from.scale * (to.scale / from.scale) ** eased;
+  }
+
+  /** [px/m] The scale that a change under way ends at. */
+  get aim() {
+    return this.glide?.to.scale ?? this.scale;
+  }
+}
+
+function limited(scale) {
+  return Math.min(Math.max(scale, LEAST), MOST);
+}

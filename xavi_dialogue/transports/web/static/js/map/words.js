@@ -1,0 +1,50 @@
+/** Figures and places in words. */
+
+/** "12 %", "under 1 %"; never more exact than it is known. */
+export function percent(p) {
+  if (p > 0 && p < 0.01) return "under 1 %";
+  if (p < 1 && p > 0.99) return "over 99 %";
+  return `${Math.round(p * 100)} %`;
+}
+
+/** "0:12.4" of seconds. */
+export function clock(t) {
+  const tenths = Math.round(Math.max(t, 0) * 10);
+  const [minutes, rest] = [Math.floor(tenths / 600), tenths % 600];
+  return `${minutes}:${rest < 100 ? "0" : ""}${(rest / 10).toFixed(1)}`;
+}
+
+/** "30 km/h" of a speed [m/s]. */
+export function speed(v) {
+  return `${Math.round(v * 3.6)} km/h`;
+}
+
+/** "vehicle 1", or who else it is. */
+export function nameOf(id) {
+  return id === 0 ? "us" : `vehicle ${id}`;
+}
+
+/** "red car"; what is not known is left out. */
+export function looksOf({ kind, colour }) {
+  const words = [colour, kind || "vehicle"].filter(Boolean).join(" ");
+  return words.length > 40 ? `${words.slice(0, 39)}…` : words;
+}
+
+const AROUND = ["ahead of us", "ahead to the left", "to our left", "behind to the left", "behind us", "behind to the right", "to our right", "ahead to the right"];
+
+/** "20 m ahead of us": from our front bumper to that of another vehicle. */
+export function whereTo(ego, other) {
+  const [x, y] = [other.x - ego.x, other.y - ego.y];
+  const angle = Math.atan2(y, x) - ego.heading;
+  const eighth = ((Math.round(angle / (Math.PI / 4)) % 8) + 8) % 8;
+  return `${Math.round(Math.hypot(x, y))} m ${AROUND[eighth]}`;
+}
+
+const NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight"];
+
+/** "in the right one of two lanes"; empty where there is only one. */
+export function laneInWords(index, lanes) {
+  if (lanes < 2) return "";
+  const which = index === 0 ? "right" : index === lanes - 1 ? "left" : "middle";
+  return `in the ${which} one of ${NUMBERS[lanes] ?? lanes} lanes`;
+}
