@@ -1,0 +1,87 @@
+/** The branches of the search: how often each was tried, what it was worth, who was in the way. */
+
+import { h } from "../dom.js";
+import { drawOutcomes, outcomeBar } from "./bars.js";
+import { say, steady } from "./steady.js";
+import { createTree } from "./tree.js";
+import { doing, fixed, lower, many, named, outcomesInWords, percent, seconds, upper } from "./words.js";
+
+/** @returns {{element: HTMLElement, update: (decision: object) => void}} */
+export function createBranches() {
+  const tree = createTree({
+    label: "Search tree",
+    row: branchRow,
+    draw: drawBranch,
+    key: (branch) => branch.action,
+    name: nameOf,
+    children: (branch) => branch.children,
+    open: (branch) => branch.chosen,
+  });
+  const none = h("p", { class: "quiet" }, "There was nothing to search: no rollouts are in the record.");
+  return {
+    element: h("div", { class: "branches" }, none, tree.element),
+    update(decision) {
+      none.hidden = decision.root.length > 0;
+      tree.element.hidden = !none.hidden;
+      tree.update(decision.root);
+    },
+  };
+}
+
+function branchRow() {
+  const parts = {
+    words: h("span", { class: "branch-words" }),
+    mark: h("span", { class: "badge" }, "my plan"),
+    visits: h("span", { class: "figure branch-visits" }),
+    outcomes: outcomeBar(),
+    facts: h("span", { class: "small" }),
+    held: h("ul", { class: "branch-held small" }),
+    refused: h("ul", { class: "branch-refused small" }),
+  };
+  const head = h("div", { class: "branch-head" }, h("span", { class: "branch-fold", "aria-hidden": "true" }), parts.words, parts.mark, parts.visits);
+  const row = h("div", { class: "branch" }, head, parts.outcomes, parts.facts, parts.held, parts.refused);
+  row.parts = parts;
+  return row;
+}
+
+function drawBranch(row, branch, open) {
+  const { words, mark, visits, outcomes, facts, held, refused } = row.parts;
+  say(words, upper(branch.words));
+  mark.hidden = !branch.chosen;
+  say(visits, visitsOf(branch));
+  drawOutcomes(outcomes, branch.outcomes);
+  say(facts, factsOf(branch).join(" · "));
+  lines(held, branch.held_up.map(heldUp));
+  const leaf = !branch.children.length;
+  lines(refused, open || leaf ? branch.refused.map(([action, why]) => notThen(action, why)) : []);
+}
+
+function lines(list, texts) {
+  list.hidden = !texts.length;
+  steady(list, texts, (text) => text, () => h("li"), say);
+}
+
+function visitsOf({ visits, forced }) {
+  return forced ? `${visits} + ${forced} forced` : many(visits, "visit");
+}
+
+function factsOf(branch) {
+  return [
+    outcomesInWords(branch.outcomes),
+    branch.arrival === null ? null : `takes ${seconds(branch.arrival)}`,
+    branch.value === null ? null : `value ${fixed(branch.value)}`,
+  ].filter(Boolean);
+}
+
+function heldUp([vehicle, how, share]) {
+  return `Held up by ${named(vehicle)} (${how}) in ${percent(share)}`;
+}
+
+function notThen(action, why) {
+  return `Not after that: ${doing(action)}, since ${lower(why)}`;
+}
+
+function nameOf(branch) {
+  const chosen = branch.chosen ? ", my plan" : "";
+  return [`${upper(branch.words)}${chosen}`, visitsOf(branch), ...factsOf(branch), ...branch.held_up.map(heldUp)].join(", ");
+}

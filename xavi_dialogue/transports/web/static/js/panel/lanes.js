@@ -1,0 +1,113 @@
+/** The lanes of the timeline, drawn as SVG for the stretch shown: only what is in it. */
+
+import { h, fill } from "../dom.js";
+import { between, tickFor } from "./span.js";
+import { clock, doing } from "./words.js";
+
+const LETTER = 6.6; // [px] about as wide as a letter of a bar is
+const MARKS = { "gave-way": "M-6,-5 H6 L0,6 Z", arrived: "M-1,7 V-7 H8 L5,-3 L8,1 H1 V7 Z", collided: "M-6,-6 L6,6 M6,-6 L-6,6", ended: "M-4,-5 H5 V5 H-4 Z" };
+
+/** Heights [px] of the lanes, by how much room there is. */
+export function lanesFor(width) {
+  const [ruler, done, decided, asked] = width < 520 ? [16, 24, 22, 14] : [18, 28, 26, 16];
+  const top = { ruler: 0, done: ruler, decided: ruler + done + 2, asked: ruler + done + decided + 4 };
+  return { ...top, ends: { done: top.done + done, decided: top.decided + decided }, height: top.asked + asked };
+}
+
+/**
+ * Draw all lanes anew.
+ * @param {SVGElement} svg
+ * @param {{width: number, start: number, length: number, lanes: object, bars: object[],
+ *   events: object[], decisions: object[], turns: {t: number, n: number}[], shown: number|null}} what
+ */
+export function drawLanes(svg, what) {
+  const x = (t) => ((t - what.start) / what.length) * what.width;
+  const end = what.start + what.length;
+  svg.setAttribute("width", what.width);
+  svg.setAttribute("height", what.lanes.height);
+  fill(
+    svg,
+    ruler(what, x, end),
+    what.bars.filter((one) => one.to >= what.start && one.from <= end).map((one) => bar(one, x, what)),
+    between(what.events, what.start, end).map((one) => mark(one, x, what.lanes)),
+    between(what.decisions, what.start, end).map((one) => tick(one, x, what.lanes)),
+    between(what.turns, what.start, end).map((one) => asked(one, x, what)),
+  );
+}
+
+function ruler({ start, length, width, lanes }, x, end) {
+  const each = tickFor(length, width);
+  const marks = [];
+  for (let t = Math.ceil(start / each) * each; t <= end; t += each) {
+    const at = x(t);
+    marks.push(h("line", { class: "ruler-line", x1: at, x2: at, y1: lanes.done - 4, y2: lanes.height }));
+    if (at < width - 30) marks.push(h("text", { class: "ruler-time", x: at + 3, y: lanes.done - 5 }, clock(t)));
+  }
+  return h("g", { class: "ruler" }, marks);
+}
+
+function bar(one, x, { lanes, width }) {
+  const from = Math.max(x(one.from), 0);
+  const to = Math.min(Math.max(x(one.to), from + 2), width);
+  const height = lanes.ends.done - lanes.done - 4;
+  const words = clipped(doing(one.action), to - from - 12);
+  const calm = one.action === "continue";
+  return h(
+    "g",
+    { class: `bar${calm ? " bar-calm" : ""}${one.open ? " bar-open" : ""}`, transform: `translate(${from} ${lanes.done + 2})` },
+    h("rect", { width: Math.max(to - from - 1, 1), height, rx: 4 }),
+    one.committed !== null && x(one.committed) > from && x(one.committed) < to
+      ? h("line", { class: "bar-committed", x1: x(one.committed) - from, x2: x(one.committed) - from, y1: height - 6, y2: height })
+      : null,
+    words ? h("text", { x: 6, y: height / 2 + 4 }, words) : null,
+  );
+}
+
+function clipped(words, room) {
+  const letters = Math.floor(room / LETTER);
+  if (letters >= words.length) return words;
+  return letters < 4 ? "" : `${words.slice(0, letters - 1).trimEnd()}…`;
+}
+
+function mark(event, x, lanes) {
+  const path = MARKS[event.kind];
+  if (!path) return null;
+  const middle = (lanes.done + lanes.ends.done) / 2;
+  return h("path", { class: `mark mark-${event.kind}`, d: path, transform: `translate(${x(event.t)} ${middle})` });
+}
+
+function tick(decision, x, lanes) {
+  const at = x(decision.t);
+  const bottom = lanes.ends.decided - 3;
+  if (!decision.changed) return h("line", { class: "tick", x1: at, x2: at, y1: bottom - 8, y2: bottom });
+  return h(
+    "g",
+    { class: "tick tick-changed", dataset: { decision: decision.id } },
+    h("line", { x1: at, x2: at, y1: lanes.decided + 6, y2: bottom }),
+    h("circle", { cx: at, cy: lanes.decided + 7, r: 4 }),
+  );
+}
+
+function asked(turn, x, { lanes, shown }) {
+  const middle = (lanes.asked + lanes.height) / 2;
+  const path = "M-5,-5 H5 V3 H0 L-3,6 V3 H-5 Z"; // a speech bubble
+  const name = `asked${turn.n === shown ? " asked-shown" : ""}`;
+  return h("path", { class: name, d: path, transform: `translate(${x(turn.t)} ${middle})`, dataset: { turn: turn.n } });
+}
+
+/** The whole ride in a thin strip: where the plan changed, and the stretch that is shown above. */
+export function drawOverview(svg, { width, first, lasts, start, length, decisions, bars }) {
+  const x = (t) => ((t - first) / lasts) * width;
+  const seen = new Set(); // one line per pixel: an hour has thousands
+  const columns = decisions.filter((one) => one.changed).map((one) => Math.round(x(one.t)));
+  const lines = columns.filter((at) => !seen.has(at) && seen.add(at));
+  svg.setAttribute("width", width);
+  fill(
+    svg,
+    bars
+      .filter((one) => one.action !== "continue")
+      .map((one) => h("rect", { class: "overview-bar", x: x(one.from), y: 4, width: Math.max(x(one.to) - x(one.from), 1), height: 12 })),
+    lines.length ? h("path", { class: "overview-changed", d: lines.map((at) => `M${at},2 V18`).join(" ") }) : null,
+    h("rect", { class: "overview-window", x: x(start) + 1, y: 1, width: Math.max(x(start + length) - x(start) - 2, 4), height: 18, rx: 4 }),
+  );
+}

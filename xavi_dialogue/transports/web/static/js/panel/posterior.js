@@ -1,0 +1,132 @@
+/** How the probabilities of a vehicle's goals moved in time: a stacked chart, labelled in words. */
+
+import { h, fill } from "../dom.js";
+import { between } from "./span.js";
+import { clock, percent } from "./words.js";
+
+const BEFORE = 60; // [s] that are shown
+const AFTER = 15; // [s] of what came later, where it is known
+const SHORTEST = 10; // [s]
+const GAP = 3.5; // [s] without a word about the vehicle: it was not in view
+const HEIGHT = 84; // [px]
+const FOOT = 16; // [px] for times
+const LABELS = 112; // [px] for words at the right
+const LINE = 13; // [px] between labels
+
+/** The order in which goals are stacked: as they came up, so that none changes its place. */
+export class Places {
+  constructor() {
+    this.known = new Map();
+  }
+
+  /** Number of a goal of a vehicle. */
+  of(vehicle, words) {
+    if (!this.known.has(vehicle)) this.known.set(vehicle, []);
+    const goals = this.known.get(vehicle);
+    if (!goals.includes(words)) goals.push(words);
+    return goals.indexOf(words);
+  }
+
+  goals(vehicle) {
+    return this.known.get(vehicle) ?? [];
+  }
+}
+
+/** [s] From when to when the chart goes about a moment. */
+export function stretchFor(at, [first, last]) {
+  const from = Math.max(first, at - BEFORE);
+  return [from, Math.max(at, Math.min(last, at + AFTER), from + SHORTEST)];
+}
+
+/**
+ * What was believed of a vehicle.
+ * @returns {{t: number, shares: number[]}[][]} stretches without a gap; shares by place
+ */
+export function beliefsOf(decisions, vehicle, [from, to], places) {
+  const stretches = [];
+  let before = -Infinity;
+  for (const { t, beliefs } of between(decisions, from, to)) {
+    const goals = beliefs.find((one) => one.vehicle === vehicle)?.goals;
+    if (!goals) continue;
+    const shares = [];
+    for (const [words, p] of goals) {
+      const place = places.of(vehicle, words);
+      shares[place] = (shares[place] ?? 0) + p;
+    }
+    if (t - before > GAP) stretches.push([]);
+    stretches[stretches.length - 1].push({ t, shares: Array.from(shares, (one) => one ?? 0) });
+    before = t;
+  }
+  return stretches;
+}
+
+/**
+ * Draw the chart anew.
+ * @param {SVGElement} svg
+ * @param {{stretches: object[][], goals: string[], at: number, span: [number, number], width: number}} what
+ */
+export function drawPosterior(svg, { stretches, goals, at, span, width }) {
+  const [from, to] = span;
+  const right = Math.max(width - LABELS, 60);
+  const x = (t) => ((t - from) / (to - from)) * right;
+  const y = (share) => (1 - share) * (HEIGHT - FOOT);
+  svg.setAttribute("width", width);
+  svg.setAttribute("height", HEIGHT);
+  svg.setAttribute("aria-label", inWords(stretches, goals));
+  const now = x(at);
+  const near = now > right - 34 ? "end" : "middle";
+  fill(
+    svg,
+    h("rect", { class: "posterior-ground", width: right, height: HEIGHT - FOOT }),
+    stretches.map((points) => goals.map((_, k) => area(points, k, x, y))),
+    labels(stretches, goals, y, right),
+    h("line", { class: "posterior-now", x1: now, x2: now, y1: 0, y2: HEIGHT - FOOT + 3 }),
+    now > 50 ? h("text", { x: 0, y: HEIGHT - 3 }, clock(from)) : null,
+    h("text", { class: "posterior-at", x: Math.max(now, 12), y: HEIGHT - 3, "text-anchor": now < 12 ? "start" : near }, clock(at)),
+    now < right - 56 ? h("text", { x: right, y: HEIGHT - 3, "text-anchor": "end" }, clock(to)) : null,
+  );
+}
+
+function below(shares, k) {
+  return shares.slice(0, k).reduce((sum, one) => sum + one, 0);
+}
+
+function area(points, k, x, y) {
+  if (!points.some(({ shares }) => shares[k] > 0)) return null;
+  const lone = points.length === 1 ? [points[0], { ...points[0], t: points[0].t + 1 }] : points;
+  const up = lone.map(({ t, shares }) => `${x(t).toFixed(1)},${y(below(shares, k + 1)).toFixed(1)}`);
+  const down = lone.map(({ t, shares }) => `${x(t).toFixed(1)},${y(below(shares, k)).toFixed(1)}`).reverse();
+  return h("path", { class: "posterior-area", dataset: { tint: k % 6 }, d: `M${[...up, ...down].join("L")}Z` });
+}
+
+/** Words at the right of each goal that is held likely in the end; apart from each other. */
+function labels(stretches, goals, y, right) {
+  const last = stretches.at(-1)?.at(-1);
+  if (!last) return [];
+  const named = goals
+    .map((words, k) => ({ words, k, share: last.shares[k] ?? 0 }))
+    .filter(({ share }) => share >= 0.04)
+    .map((one) => ({ ...one, y: y(below(last.shares, one.k) + one.share / 2) }));
+  let lowest = HEIGHT - FOOT + LINE / 2;
+  for (const one of named) lowest = one.at = Math.min(Math.max(one.y, 6), lowest - LINE);
+  const over = Math.min(0, (named.at(-1)?.at ?? 6) - 6); // pushed out above: all down again
+  return named.map((one) => [
+    h("line", { class: "posterior-leader", x1: right + 1, x2: right + 7, y1: one.y, y2: one.at - over }),
+    h("text", { class: "posterior-label", x: right + 10, y: one.at - over + 4 }, short(one.words)),
+  ]);
+}
+
+function short(words) {
+  return words.length > 16 ? `${words.slice(0, 15).trimEnd()}…` : words;
+}
+
+function inWords(stretches, goals) {
+  const first = stretches[0]?.[0];
+  const last = stretches.at(-1)?.at(-1);
+  if (!first) return "Nothing was believed of it in this time.";
+  const moved = goals
+    .map((words, k) => [words, first.shares[k] ?? 0, last.shares[k] ?? 0])
+    .filter(([, a, b]) => a > 0.01 || b > 0.01)
+    .map(([words, a, b]) => `${words}: from ${percent(a)} to ${percent(b)}`);
+  return `From ${clock(first.t)} to ${clock(last.t)}: ${moved.join("; ")}`;
+}

@@ -1,0 +1,126 @@
+/** What the other vehicles are expected to do, those that matter first. */
+
+import { h } from "../dom.js";
+import { drawShare, shareBar } from "./bars.js";
+import { beliefsOf, drawPosterior, Places, stretchFor } from "./posterior.js";
+import { say, set, steady } from "./steady.js";
+import { named, percent, upper } from "./words.js";
+
+const FIRST = 6; // vehicles that are shown at once
+
+/**
+ * @param {Store} store
+ * @returns {{element: HTMLElement, update: (predictions: object[], near: number[]) => void,
+ *   move: () => void, forget: () => void}}
+ *   `update`: others are expected to do other things; `move`: another moment, or others pointed at
+ */
+export function createPredictions(store) {
+  const list = h("ul", { class: "vehicles" });
+  const more = h("button", { type: "button", class: "show-all", hidden: true });
+  const none = h("p", { class: "quiet" }, "Nobody else was in view.");
+  const here = { store, list, more, none, all: false, predictions: [], near: [], places: new Places(), order: [] };
+  more.addEventListener("click", () => {
+    here.all = !here.all;
+    render(here);
+  });
+  new ResizeObserver(() => charts(here)).observe(list);
+  return {
+    element: h("div", { class: "predictions" }, none, list, more),
+    update(predictions, near) {
+      Object.assign(here, { predictions, near });
+      render(here);
+    },
+    move: () => render(here),
+    forget: () => (here.places = new Places()),
+  };
+}
+
+function render(here) {
+  const { list, more, none, predictions } = here;
+  const sorted = ranked(here);
+  const shown = here.all ? sorted : sorted.slice(0, FIRST);
+  none.hidden = sorted.length > 0;
+  steady(list, shown, (one) => one.vehicle, (one) => card(here, one.vehicle), (li, one) => drawCard(here, li, one));
+  more.hidden = predictions.length <= FIRST;
+  say(more, here.all ? `Show the ${FIRST} that matter most` : `Show all ${predictions.length}`);
+  set(more, "aria-expanded", String(here.all));
+  charts(here);
+}
+
+/** Causes of the turn shown first, then who is pointed at, then who was in our way. */
+function ranked({ store, predictions, near, list }) {
+  const causes = new Set((store.evidence?.causes ?? []).map((one) => one.vehicle));
+  const still = list.matches(":hover") || list.contains(document.activeElement); // none moves away then
+  const before = still ? [...list.children].map((li) => Number(li.dataset.vehicle)) : [];
+  const rank = ({ vehicle }) => {
+    if (before.includes(vehicle)) return before.indexOf(vehicle) - 1000;
+    if (causes.has(vehicle)) return 0;
+    if (store.pointed.has(vehicle)) return 1;
+    return near.includes(vehicle) ? 2 + near.indexOf(vehicle) : 1000;
+  };
+  return [...predictions].sort((a, b) => rank(a) - rank(b) || a.vehicle - b.vehicle);
+}
+
+function card({ store }, vehicle) {
+  const name = h("button", { type: "button", class: "vehicle-name", "aria-pressed": "false" }, upper(named(vehicle)));
+  const li = h(
+    "li",
+    { class: "vehicle", dataset: { vehicle } },
+    h("div", { class: "vehicle-head" }, name, h("span", { class: "badge badge-cause", hidden: true }, "a cause")),
+    h("ul", { class: "goals" }),
+    h("svg", { class: "posterior", role: "img" }),
+  );
+  let before = null; // who was pointed at
+  const enter = () => {
+    before ??= [...store.pointed];
+    store.point([vehicle]);
+  };
+  const leave = () => {
+    if (before) store.point(before);
+    before = null;
+  };
+  li.addEventListener("pointerenter", (event) => event.pointerType === "mouse" && enter());
+  li.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && leave());
+  name.addEventListener("focus", () => name.matches(":focus-visible") && enter());
+  name.addEventListener("blur", leave);
+  name.addEventListener("click", () => {
+    const kept = name.getAttribute("aria-pressed") === "true";
+    before = kept ? [] : [vehicle]; // what is pointed at when it is left
+    store.point(before);
+    set(name, "aria-pressed", String(!kept));
+  });
+  return li;
+}
+
+function drawCard({ store, places }, li, { vehicle, goals }) {
+  const [head, list] = li.children;
+  const cause = (store.evidence?.causes ?? []).some((one) => one.vehicle === vehicle);
+  head.lastElementChild.hidden = !cause;
+  set(li, "data-pointed", store.pointed.has(vehicle) ? "yes" : null);
+  if (!store.pointed.has(vehicle)) set(head.firstElementChild, "aria-pressed", "false");
+  const alike = ({ words }) => goals.filter((goal) => goal.words === words).length > 1;
+  const named = goals.map((goal) => ({ ...goal, full: alike(goal) && goal.place ? `${goal.words}: ${goal.place}` : goal.words }));
+  steady(list, named, (goal) => `${goal.kind} ${goal.place}`, goalRow, (row, goal) => {
+    const [words, bar, share] = row.children;
+    say(words, goal.full);
+    set(words, "title", goal.place || null);
+    drawShare(bar, goal.probability, places.of(vehicle, goal.words) % 6);
+    say(share, percent(goal.probability));
+  });
+}
+
+function goalRow() {
+  return h("li", { class: "goal" }, h("span", { class: "goal-words" }), shareBar("goal-bar"), h("span", { class: "figure" }));
+}
+
+function charts({ store, list, places }) {
+  const width = Math.floor(list.firstElementChild?.querySelector(".goals").clientWidth ?? 0);
+  if (!width) return;
+  const span = stretchFor(store.at, store.span);
+  for (const li of list.children) {
+    const vehicle = Number(li.dataset.vehicle);
+    const stretches = beliefsOf(store.decisions, vehicle, span, places);
+    const what = { stretches, goals: places.goals(vehicle), at: store.at, span, width };
+    drawPosterior(li.lastElementChild, what);
+  }
+}

@@ -1,0 +1,63 @@
+/**
+ * Lists that change without being made anew: what is still there keeps its element, and with it
+ * focus, what is folded open, and where it is scrolled to.
+ */
+
+const KEY = Symbol("key");
+
+/**
+ * Make the children of an element those of `items`, in their order.
+ * @template T
+ * @param {Element} parent holds nothing else
+ * @param {T[]} items
+ * @param {(item: T) => string|number} key names an item; of two of the same name the first counts
+ * @param {(item: T) => Element} make the element of a new item
+ * @param {(element: any, item: T) => void} update brings it up to date; also after `make`
+ */
+export function steady(parent, items, key, make, update) {
+  const known = new Map([...parent.children].map((child) => [child[KEY], child]));
+  const focused = parent.contains(document.activeElement) ? document.activeElement : null;
+  const wanted = new Map();
+  for (const item of items) {
+    const name = key(item);
+    if (wanted.has(name)) continue;
+    const element = known.get(name) ?? make(item);
+    element[KEY] = name;
+    wanted.set(name, element);
+    update(element, item);
+  }
+  for (const [name, child] of known) if (wanted.get(name) !== child) child.remove();
+  let place = parent.firstElementChild;
+  for (const element of wanted.values()) {
+    if (element === place) place = place.nextElementSibling;
+    else parent.insertBefore(element, place); // only what is out of order moves
+  }
+  if (focused?.isConnected && document.activeElement !== focused) focused.focus({ preventScroll: true });
+}
+
+/** Set text only where it is another one, so that a selection of the reader stays. */
+export function say(element, text) {
+  const words = String(text ?? "");
+  if (element.textContent !== words) element.textContent = words;
+  return element;
+}
+
+/** Set an attribute only where it changes; null takes it away. */
+export function set(element, name, value) {
+  if (value === null || value === undefined || value === false) element.removeAttribute(name);
+  else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
+  return element;
+}
+
+/** A function that runs `work` once in the coming frame, however often it is called. */
+export function eachFrame(work) {
+  let asked = false;
+  return () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      work();
+    });
+  };
+}
