@@ -1,0 +1,81 @@
+/** The top bar: whose car this is, who is there, what time it is. */
+import { clock, counted } from "./clock.js";
+import { fill, h } from "./dom.js";
+import { createThemeSwitch } from "./theme.js";
+
+// Told apart by shape as well as by colour: full, cut through, open.
+const SHAPES = {
+  there: () => h("circle", { cx: 6, cy: 6, r: 5 }),
+  gone: () => h("path", { d: "M2 2 10 10M10 2 2 10" }),
+  awaited: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
+};
+const SAYS = { there: "there", gone: "gone", awaited: "awaited" };
+
+/**
+ * @param {HTMLElement} bar holds the heading
+ * @param {import("./store.js").Store} store
+ * @param {{open: () => void}} help
+ */
+export function createBar(bar, store, help) {
+  const scenario = h("p", { class: "scenario" });
+  const presence = h("ul", { class: "presence", "aria-label": "Who is there" });
+  const time = h("span", { class: "time" });
+  const mode = h("span", { class: "mode" });
+  const dropped = h("p", { class: "dropped", hidden: true, title: "This page was too slow for them; nothing of the record is lost." });
+  const ask = h("button", { type: "button", class: "icon", "aria-label": "Help and keys", title: "Help and keys (?)", onclick: () => help.open() }, "?");
+  bar.append(scenario, presence, h("p", { class: "clock" }, time, mode), dropped, createThemeSwitch(), ask);
+  const moment = () => {
+    say(time, store.latest ? clock(store.at) : "–:––");
+    const [words, kind] = modeOf(store);
+    say(mode, words);
+    if (mode.dataset.kind !== kind) mode.dataset.kind = kind;
+  };
+  const status = () => {
+    named(bar, scenario, store);
+    showPresence(presence, store.status);
+    dropped.hidden = !(store.status.dropped > 0);
+    say(dropped, `${counted(store.status.dropped, "scene")} dropped`);
+    moment();
+  };
+  for (const name of ["ride", "status"]) store.addEventListener(name, status);
+  for (const name of ["scene", "moment"]) store.addEventListener(name, moment);
+  status();
+}
+
+function named(bar, scenario, store) {
+  const vehicle = store.welcome?.vehicle;
+  const name = store.ride?.scenario?.split("/").filter(Boolean).pop() ?? null; // of a folder, its own name
+  const seed = store.ride?.seed ?? null;
+  say(bar.querySelector("h1"), vehicle ?? "XAVI Dialogue");
+  say(scenario, [name, seed === null ? null : `seed ${seed}`].filter((one) => one !== null).join(", "));
+  const title = [vehicle, name, "XAVI Dialogue"].filter(Boolean).join(" · ");
+  if (document.title !== title) document.title = title;
+}
+
+function modeOf({ latest, live, status, welcome }) {
+  if (!latest) return ["", "none"];
+  if (!live) return ["earlier", "held"];
+  if (!status.connected) return ["not connected", "gone"];
+  if (status.car === "gone") return ["car gone", "gone"];
+  if (latest.state === "ended") return ["over", "over"];
+  if (latest.state === "paused") return ["paused", "paused"];
+  return welcome?.recording ? ["recording", "live"] : ["live", "live"];
+}
+
+function showPresence(list, status) {
+  const key = JSON.stringify([status.connected, status.car, status.service]);
+  if (list.dataset.key === key) return;
+  list.dataset.key = key;
+  const who = [["car", status.car], ["service", status.service]];
+  fill(list, who.map(([name, there]) => presenceOf(name, status.connected ? there : "awaited")));
+}
+
+function presenceOf(name, there) {
+  const shape = h("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, SHAPES[there]());
+  return h("li", { dataset: { there } }, shape, h("span", {}, name, h("span", { class: "says" }, ` ${SAYS[there]}`)));
+}
+
+/** Change a text only where it differs: scenes come ten times a second. */
+function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}

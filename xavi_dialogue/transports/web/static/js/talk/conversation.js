@@ -1,0 +1,140 @@
+/** The conversation with the car. */
+import { h, fill } from "../dom.js";
+import { draw } from "../drawings.js";
+import { createComposer } from "./composer.js";
+import { Log } from "./log.js";
+import { createPending } from "./pending.js";
+import { Pointing } from "./pointing.js";
+import { Questions } from "./questions.js";
+import { createSuggested } from "./suggested.js";
+import { createTurn } from "./turn.js";
+
+const SETTLING = 2500; // [ms] after a welcome in which the conversation so far comes
+const MANY = 4; // turns at once: somebody's history, and no news
+
+/**
+ * @param {HTMLElement} element
+ * @param {import("../store.js").Store} store
+ * @param {import("../connection.js").Connection} connection
+ * @returns {{focus: () => void, ask: (text: string) => boolean}}
+ */
+export function createConversation(element, store, connection) {
+  const questions = new Questions(connection);
+  const ask = (text) => {
+    const asked = questions.ask(text, store.live ? null : store.held);
+    if (asked) log.toEnd();
+    else composer.say("Not connected at the moment.");
+    return asked;
+  };
+  const cancel = () => {
+    const latest = questions.latest();
+    if (latest) questions.cancel(latest.request);
+    return latest !== null;
+  };
+  const composer = createComposer({ store, ask, cancel });
+  const empty = h("div", { class: "nothing" }, draw("talk"), h("p", {}, h("b", {}, "Ask the car about its driving.")), h("p", { class: "soft" }, "It answers from its planner's own record, and says so where that does not bear an answer."));
+  const pending = createPending(questions, () => {
+    empty.hidden = store.turns.length > 0 || questions.open.size > 0;
+    log.settle();
+  });
+  const log = new Log(pending, empty, createSuggested(store, connection, ask));
+  fill(element, h("div", { class: "talk" }, log.element, createAbsence(store, connection), composer.element));
+  const pointing = new Pointing(store, element);
+  const around = { store, pointing, ask, newest: (n) => store.turns[store.turns.length - 1]?.n === n };
+  followTurns({ element, store, connection, log, around, empty, pending });
+  followQuestions({ store, questions, composer, log, around });
+  element.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented && cancel()) composer.focus();
+  });
+  return { focus: composer.focus, ask };
+}
+
+/** Turns as they come, whoever asked. */
+function followTurns({ element, store, connection, log, around, empty, pending }) {
+  let shown = new Map(); // what each turn says, by number
+  let settling = 0; // [ms] until when what comes is of before
+  const render = () => {
+    const early = performance.now() < settling;
+    if (early && store.turns.length === 0 && shown.size > 0) return; // a new dashboard is still reading up
+    if (!agrees(shown, store.turns)) {
+      shown = new Map();
+      log.clear();
+    }
+    const more = store.turns.filter(({ n }) => !shown.has(n));
+    const quietly = more.length > MANY || (early && pending.childElementCount === 0);
+    for (const { n, text, reply } of more) shown.set(n, said(text, reply));
+    for (const { text } of more) hideWaiting(pending, text);
+    log.add(more.map((turn) => createTurn(turn, around)), quietly);
+    empty.hidden = store.turns.length > 0 || pending.childElementCount > 0;
+    if (!quietly && more.length > 0) showOnMap(more[more.length - 1], around);
+  };
+  store.addEventListener("turns", render);
+  store.addEventListener("shown", () => markShown(element, store));
+  connection.addEventListener("welcome", () => {
+    settling = performance.now() + SETTLING;
+    setTimeout(render, SETTLING + 10);
+  });
+}
+
+/** Whether what is shown is the beginning of these turns. */
+function agrees(shown, turns) {
+  const now = new Map(turns.map(({ n, text, reply }) => [n, said(text, reply)]));
+  return [...shown].every(([n, words]) => now.get(n) === words);
+}
+
+function said(text, reply) {
+  return `${text}\n${reply.kind}\n${reply.text}`;
+}
+
+/** The answer is there a moment before it is known whose it is; the question is not to stand there twice. */
+function hideWaiting(pending, text) {
+  const row = [...pending.children].find((one) => one.dataset.text === text && !one.hidden);
+  if (row) row.hidden = true;
+}
+
+/** An answer's vehicles are pointed at, and its evidence is on the map, without being asked for. */
+function showOnMap(turn, { store, pointing }) {
+  pointing.keep(turn.vehicles);
+  store.show(turn.evidence || turn.vehicles.length > 0 ? turn.n : null);
+}
+
+function markShown(element, store) {
+  for (const button of element.querySelectorAll("button.on-map")) {
+    button.setAttribute("aria-pressed", String(Number(button.dataset.show) === store.turn));
+  }
+}
+
+/** What becomes of this page's own questions. */
+function followQuestions({ store, questions, composer, log, around }) {
+  questions.addEventListener("settled", ({ detail: { question, n, reply } }) => {
+    const is = (one) => (n === null ? one.reply.text === reply?.text && one.reply.sim_time === reply.sim_time : one.n === n);
+    const turn = store.turns.findLast(is); // also where its number could not be told, as of a choice
+    if (turn && store.turn !== turn.n) showOnMap(turn, around); // it came with the greeting after a break
+    if (turn || !reply) return;
+    const passing = { n: null, text: question.text, reply, vehicles: [], evidence: false };
+    log.add([createTurn(passing, around)], false);
+  });
+  questions.addEventListener("returned", ({ detail: { question, words } }) => {
+    composer.say(words);
+    if (question) composer.giveBack(question.text);
+  });
+}
+
+/** Said above the input while nobody is there to answer. */
+function createAbsence(store, connection) {
+  const element = h("div", { class: "absence", role: "status", hidden: true });
+  let shown = null;
+  const follow = () => {
+    const service = store.status.connected && connection.state === "open" ? store.status.service : "there";
+    if (service === shown) return;
+    shown = service;
+    element.hidden = service === "there";
+    if (service === "there") return fill(element);
+    const title = service === "gone" ? "The dialogue service is gone." : "Waiting for the dialogue service.";
+    fill(element, draw("service"), h("p", {}, h("b", {}, title), " Nobody can answer until it is there; what you type stays here. It is started with ", h("code", {}, "xavi serve"), "."));
+  };
+  store.addEventListener("status", follow);
+  connection.addEventListener("state", follow);
+  follow();
+  return element;
+}

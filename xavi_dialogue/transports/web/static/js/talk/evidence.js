@@ -1,0 +1,87 @@
+/** What an answer rests on, in a fold under it: outcomes, effects, causes, rollouts. */
+import { clock, counted } from "../clock.js";
+import { fill, h } from "../dom.js";
+import { createEffect } from "./effects.js";
+import { createOutcomes } from "./outcomes.js";
+import { createRuns } from "./runs.js";
+import { percent } from "./figures.js";
+
+let made = 0;
+
+/**
+ * @param {{n: number}} turn
+ * @param {import("../store.js").Store} store
+ * @param {import("./pointing.js").Pointing} pointing
+ * @returns {{button: HTMLElement, fold: HTMLElement}}
+ */
+export function createEvidence(turn, store, pointing) {
+  made += 1;
+  const fold = h("div", { class: "evidence", id: `evidence-${made}`, role: "region", "aria-label": "Evidence", hidden: true });
+  const button = h("button", { type: "button", class: "quiet", "aria-expanded": "false", "aria-controls": fold.id }, "Evidence");
+  const load = async () => {
+    fill(fold, skeleton());
+    try {
+      fill(fold, shown(await store.evidenceOf(turn.n), store, pointing));
+      fold.dataset.loaded = "yes";
+    } catch (error) {
+      const again = h("button", { type: "button", class: "quiet", onclick: load }, "Try again");
+      fill(fold, h("p", { class: "soft", role: "status" }, `${error.message} `, again));
+    }
+  };
+  button.addEventListener("click", () => {
+    fold.hidden = !fold.hidden;
+    button.setAttribute("aria-expanded", String(!fold.hidden));
+    if (!fold.hidden && !fold.dataset.loaded) load();
+  });
+  return { button, fold };
+}
+
+function skeleton() {
+  return h("div", { role: "status" }, h("span", { class: "unseen" }, "Loading the evidence"), [1, 2, 3].map(() => h("span", { class: "awaited-line" })));
+}
+
+function shown(evidence, store, pointing) {
+  const { factual, counterfactual, effects, causes } = evidence;
+  const sides = [
+    factual ? ["What I did", "fact", factual] : null,
+    counterfactual ? ["What you asked about", "foil", counterfactual] : null,
+  ].filter(Boolean);
+  return [
+    basis(evidence, store),
+    evidence.missing ? h("p", { class: "missing" }, evidence.missing) : null,
+    sides.map(([title, kind, side]) => sideOf(title, kind, side)),
+    effects.length > 0 ? [h("h3", {}, "What that would have changed"), h("ul", { class: "effects" }, effects.map(createEffect))] : null,
+    causes.length > 0 ? [h("h3", {}, "Because of"), h("ul", { class: "causes" }, causes.map((cause) => causeOf(cause, pointing)))] : null,
+    sides.map(([title, , side]) => (side.runs.length > 0 ? createRuns(title, side, pointing) : null)),
+  ];
+}
+
+function basis({ method, rollouts, distinct, t }, store) {
+  const when = h("button", { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) }, clock(t));
+  const count = rollouts > 0 ? `: ${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}` : "";
+  return h("p", { class: "basis" }, `From ${method}${count}. Decision at `, when);
+}
+
+function sideOf(title, kind, side) {
+  const arrival = side.arrival === null ? null : h("span", { class: "arrival" }, `${side.arrival.toFixed(1)} s to the goal`);
+  return h(
+    "div",
+    { class: `outcome-side ${kind}` },
+    h("h3", {}, title),
+    h("p", { class: "side-words" }, side.words),
+    createOutcomes(side.outcomes),
+    h("p", { class: "soft" }, arrival, arrival ? ", " : "", counted(side.rollouts, "rollout")),
+  );
+}
+
+function causeOf(cause, pointing) {
+  const rest = [cause.how, cause.checked].filter(Boolean);
+  const influence = cause.influence === null ? null : h("span", { class: "soft" }, `influence on the choice ${cause.influence.toFixed(2)} bit`);
+  return h(
+    "li",
+    {},
+    h("p", {}, pointing.button(cause.vehicle, `vehicle ${cause.vehicle}`), ` ${cause.words} `, h("b", {}, percent(cause.probability))),
+    rest.map((words) => h("p", { class: "soft" }, pointing.spoken(words, [cause.vehicle]))),
+    influence,
+  );
+}

@@ -1,0 +1,45 @@
+/** A table of rollouts: what the others did in each, and what came of it. */
+import { counted } from "../clock.js";
+import { fill, h } from "../dom.js";
+import { outcomeWords } from "./outcomes.js";
+import { percent } from "./figures.js";
+
+const FIRST = 10;
+
+/**
+ * @param {string} title
+ * @param {{runs: any[], rollouts: number}} side
+ * @param {import("./pointing.js").Pointing} pointing
+ */
+export function createRuns(title, side, pointing) {
+  const body = h("tbody", {});
+  const show = (count) => fill(body, side.runs.slice(0, count).map((run) => row(run, pointing)));
+  const more = h("button", { type: "button", class: "quiet" }, `Show all ${side.runs.length}`);
+  more.addEventListener("click", () => {
+    show(side.runs.length);
+    body.rows[FIRST].querySelector("th").focus(); // the button that had the focus is gone
+    more.remove();
+  });
+  const columns = ["Rollout", "What the others did", "Outcome", "Time", "Held up by"];
+  const head = h("thead", {}, h("tr", {}, columns.map((name) => h("th", { scope: "col" }, name))));
+  const count = side.runs.length < side.rollouts ? `${side.runs.length} of ${counted(side.rollouts, "rollout")}` : counted(side.rollouts, "rollout");
+  const caption = h("caption", {}, `${title}: ${count}`);
+  show(FIRST);
+  const table = h("table", { class: "runs" }, caption, head, body);
+  return h("div", { class: "wide", role: "region", "aria-label": `Rollouts: ${title}`, tabindex: 0 }, table, side.runs.length > FIRST ? more : null);
+}
+
+function row(run, pointing) {
+  const samples = run.samples.map(([vehicle, words, probability]) => h("div", {}, pointing.button(vehicle, String(vehicle)), ` ${words} `, h("span", { class: "soft" }, percent(probability))));
+  const held = run.held_up.map(([vehicle, how, seconds]) => h("div", {}, pointing.button(vehicle, String(vehicle)), ` ${how}, ${seconds.toFixed(1)} s`));
+  const collided = run.collided_with === null || run.collided_with === undefined ? "" : ` with vehicle ${run.collided_with}`;
+  return h(
+    "tr",
+    { dataset: { outcome: run.outcome } },
+    h("th", { scope: "row", tabindex: -1 }, run.index),
+    h("td", {}, samples.length > 0 ? samples : "–"),
+    h("td", {}, `${outcomeWords(run.outcome)}${collided}`),
+    h("td", { class: "number" }, run.arrival === null ? "–" : `${run.arrival.toFixed(1)} s`),
+    h("td", {}, held.length > 0 ? held : "–"),
+  );
+}
