@@ -61,23 +61,56 @@ def read_network(path: Path) -> Network:
         NetworkInvalid: an element lacks an attribute or refers to nothing.
     """
     try:
-        text = path.read_text(encoding="utf-8")
-        root = ET.fromstring(text)
+        data = path.read_bytes()
     except OSError as error:
         raise NetworkUnreadable(f"{path}: cannot be read: {error.strerror}") from error
-    except (ET.ParseError, UnicodeDecodeError) as error:
-        raise NetworkUnreadable(f"{path}: not an XML file: {error}") from error
-    if root.tag != "net":
-        raise NetworkUnreadable(f"{path}: not a SUMO net: its root is <{root.tag}>, not <net>")
+    return parse_network(data, str(path))
+
+
+def parse_network(data: bytes, name: str) -> Network:
+    """The network in a SUMO net file; `name` is what errors call the file.
+
+    Raises:
+        NetworkUnreadable: it is not XML, or not a SUMO net.
+        NetworkInvalid: an element lacks an attribute or refers to nothing.
+    """
+    text, root = _parsed(data, name)
     try:
         lanes = {lane.id: lane for lane in _lanes(root)}
         links = tuple(_links(root, lanes))
     except NetworkInvalid as error:
-        raise NetworkInvalid(f"{path}: {error}") from error
+        raise NetworkInvalid(f"{name}: {error}") from error
     # The canonical form leaves out comments, among them netconvert's time stamp.
     canonical = ET.canonicalize(text, strip_text=True)
     digest = hashlib.sha256(canonical.encode()).hexdigest()[:16]
     return Network(lanes, links, digest, _roundabouts(root, lanes) or find_rings(lanes, links))
+
+
+def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
+    """The outlines [m] of the junctions in a SUMO net file, in file order; none of a line only.
+
+    Raises:
+        NetworkUnreadable: it is not XML, or not a SUMO net.
+        NetworkInvalid: an outline holds what is no point.
+    """
+    _, root = _parsed(data, name)
+    drawn = [j for j in root.iter("junction") if j.get("shape") and j.get("type") != "internal"]
+    try:
+        found = [_points(junction) for junction in drawn]
+    except NetworkInvalid as error:
+        raise NetworkInvalid(f"{name}: {error}") from error
+    return tuple(outline for outline in found if len(outline) > 2)
+
+
+def _parsed(data: bytes, name: str) -> tuple[str, ET.Element]:
+    try:
+        text = data.decode()
+        root = ET.fromstring(text)
+    except (ET.ParseError, UnicodeDecodeError) as error:
+        raise NetworkUnreadable(f"{name}: not an XML file: {error}") from error
+    if root.tag != "net":
+        raise NetworkUnreadable(f"{name}: not a SUMO net: its root is <{root.tag}>, not <net>")
+    return text, root
 
 
 def _attribute(element: ET.Element, key: str) -> str:
@@ -134,16 +167,21 @@ def _open_to_cars(lane: ET.Element) -> bool:
 
 
 def _shape(lane: ET.Element) -> tuple[Point, ...]:
+    points = _points(lane)
+    if len(points) < 2:
+        raise NetworkInvalid(f"<lane> {lane.get('id', '?')!r}: its shape has fewer than 2 points")
+    return points
+
+
+def _points(element: ET.Element) -> tuple[Point, ...]:
     points: list[Point] = []
-    for text in _attribute(lane, "shape").split():
+    for text in _attribute(element, "shape").split():
         try:
             x, y = (float(part) for part in text.split(",")[:2])
         except ValueError as error:
-            name = lane.get("id", "?")
-            raise NetworkInvalid(f"<lane> {name!r}: {text!r} in its shape is no point") from error
+            what = f"<{element.tag}> {element.get('id', '?')!r}"
+            raise NetworkInvalid(f"{what}: {text!r} in its shape is no point") from error
         points.append((x, y))
-    if len(points) < 2:
-        raise NetworkInvalid(f"<lane> {lane.get('id', '?')!r}: its shape has fewer than 2 points")
     return tuple(points)
 
 

@@ -1,0 +1,131 @@
+"""Roads and scenes as browsers get them, also from a car that nobody knows."""
+
+import gzip
+import math
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from sim.netfile import NetworkError, parse_outlines, read_network
+from sim.scene import VehicleState
+from xavi_dialogue.app.dashboard import roads
+from xavi_dialogue.transports.messages import SceneReport
+from xavi_dialogue.transports.web.documents import Roads
+
+SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
+LANE = '<lane id="{0}_0" index="0" speed="10" length="9" shape="{1}"/>'
+
+
+def packed(name: str) -> bytes:
+    return gzip.compress((SCENARIOS / name / f"{name}.net.xml").read_bytes(), mtime=0)
+
+
+def net(shape: str, more: str = "") -> bytes:
+    lane = LANE.format("a", shape)
+    return gzip.compress(f'<net><edge id="a">{lane}</edge>{more}</net>'.encode(), mtime=0)
+
+
+@pytest.mark.parametrize("name", ["s1", "s2", "s3", "s4", "motorway", "town"])
+def test_the_roads_of_every_scenario(name: str) -> None:
+    network, outlines = roads.read(packed(name))
+    assert network.hash == read_network(SCENARIOS / name / f"{name}.net.xml").hash
+    shown = roads.shown(network, outlines)
+    assert msgspec.json.decode(msgspec.json.encode(shown), type=Roads) == shown
+    assert [lane.id for lane in shown.lanes] == list(network.lanes)
+    assert len(shown.junctions) >= len({link.junction for link in network.links}) > 0
+    left, bottom, right, top = shown.bounds
+    for line in (*(lane.line for lane in shown.lanes), *shown.junctions):
+        assert len(line) % 2 == 0
+        assert all(left <= x <= right for x in line[0::2])
+        assert all(bottom <= y <= top for y in line[1::2])
+
+
+def test_links_are_named_by_their_place_and_yield_to_those_of_their_junction() -> None:
+    network, outlines = roads.read(packed("town"))
+    shown = roads.shown(network, outlines)
+    yielding = 0
+    for k, link in enumerate(shown.links):
+        assert link.id == k
+        assert (link.from_lane, link.to_lane) == (
+            network.links[k].from_lane,
+            network.links[k].to_lane,
+        )
+        first = [network.links[other] for other in link.yields_to]
+        assert {one.junction for one in first} <= {link.junction}
+        assert tuple(one.index for one in first) == network.links[k].yields_to
+        yielding += bool(first)
+    assert yielding > 0
+
+
+@pytest.mark.parametrize(
+    ("data", "complaint"),
+    [
+        (b"no gzip", "damaged"),
+        (gzip.compress(b"x" * 100)[:-9], "damaged"),
+        (gzip.compress(b"<osm/>"), "not a SUMO net"),
+        (gzip.compress(b"<net"), "not an XML file"),
+        (gzip.compress(b"\xff\xfe\x00"), "not an XML file"),
+        (net("0,0 nan,1"), "farther"),
+        (net("0,0 1e300,1"), "farther"),
+        (net("0,0 inf,1"), "farther"),
+        (net(" ".join("0,0 1000000,0" for _ in range(9))), "longer"),
+        (net("0,0 9,0", '<junction id="j" shape="0,0 1,b 3,3"/>'), "is no point"),
+        (net("0,0 9,0", '<junction id="j" shape="0,0 1,1e9 3,3"/>'), "farther"),
+    ],
+)
+def test_roads_that_are_none_are_refused(data: bytes, complaint: str) -> None:
+    with pytest.raises(NetworkError, match=complaint):
+        roads.read(data)
+
+
+def test_a_bomb_does_not_go_off() -> None:
+    """A few hundred bytes that would be gigabytes (billion laughs) are no XML that is read."""
+    entities = "".join(
+        f'<!ENTITY e{k + 1} "{"".join(f"&e{k};" for _ in range(10))}">' for k in range(11)
+    )
+    text = f'<!DOCTYPE net [<!ENTITY e0 "laugh">{entities}]><net>&e11;</net>'
+    with pytest.raises(NetworkError, match="not an XML file"):
+        roads.read(gzip.compress(text.encode()))
+
+
+def test_outlines_are_of_junctions_that_have_an_area() -> None:
+    text = b"""<net>
+        <junction id="a" type="priority" shape="0,0 4,0 4,4"/>
+        <junction id="b" type="internal" shape="0,0 4,0 4,4"/>
+        <junction id="c" type="dead_end" shape="0,0 4,0"/>
+        <junction id="d" type="dead_end" shape=""/>
+        <junction id="e" type="dead_end"/>
+    </net>"""
+    assert parse_outlines(text, "it") == (((0.0, 0.0), (4.0, 0.0), (4.0, 4.0)),)
+
+
+def test_a_net_without_roads_has_bounds() -> None:
+    network, outlines = roads.read(gzip.compress(b"<net></net>"))
+    assert roads.shown(network, outlines).bounds == (0.0, 0.0, 0.0, 0.0)
+
+
+def test_a_scene_as_it_was_seen() -> None:
+    other = VehicleState(
+        (1.23456, -2.0), math.pi / 3, 9.87654, 0.5, 4.567, 1.8, "bus", "red", ("left",)
+    )
+    ego = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
+    report = SceneReport(
+        ride="r",
+        seq=7,
+        sim_time=3.2,
+        wall_time=99.5,
+        vehicles={2: other, 0: ego},
+        state="driving",
+        speed_factor=1.0,
+        plan=("continue",),
+        traces=1,
+        events=0,
+    )
+    shown = roads.scene(report)
+    assert (shown.seq, shown.t, shown.wall, shown.state) == (7, 3.2, 99.5, "driving")
+    assert (shown.speed, shown.plan) == (1.0, ("continue",))
+    assert shown.vehicles == (
+        (0, 0.0, 0.0, 0.0, 10.0, 4.5, 1.8, "car", None, ()),
+        (2, 1.23, -2.0, 1.047, 9.88, 4.57, 1.8, "bus", "red", ("left",)),
+    )

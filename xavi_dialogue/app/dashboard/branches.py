@@ -1,0 +1,52 @@
+"""The search tree of a decision, as browsers get it."""
+
+from planner.trace import Action, PlanTrace
+from xavi_dialogue.app.dashboard.lines import chance
+from xavi_dialogue.app.dashboard.words import deed, has_lane_change, hold_up_words
+from xavi_dialogue.app.debug import tree
+from xavi_dialogue.transports.web.documents import Branch
+
+DIGITS = 3  # of values and times
+
+
+def branches(trace: PlanTrace) -> tuple[Branch, ...]:
+    """The branches of the root, the chosen one first; none where the rollouts are no search."""
+    try:
+        root = tree.grow(trace)
+    except tree.TreeError:
+        return ()
+    return _beneath(root)
+
+
+def rounded(value: float | None) -> float | None:
+    """A value or a time, rounded."""
+    return None if value is None else round(value, DIGITS)
+
+
+def _beneath(branch: tree.Branch) -> tuple[Branch, ...]:
+    in_lane = has_lane_change(child.actions[-1] for child in branch.children)
+    return tuple(_branch(child, in_lane) for child in branch.children)
+
+
+def _branch(branch: tree.Branch, in_lane: bool) -> Branch:
+    action, total = branch.actions[-1], branch.visits + branch.forced
+    value = next((v for v in (branch.alike, branch.value, branch.mean) if v is not None), None)
+    return Branch(
+        action=action,
+        words=deed(action, in_lane=in_lane),
+        chosen=branch.chosen,
+        visits=branch.visits,
+        forced=branch.forced,
+        value=rounded(value),
+        arrival=rounded(branch.time),
+        outcomes={name: chance(count / total) for name, count in branch.outcomes.items()},
+        held_up=tuple(
+            (one.vehicle, hold_up_words(one.how), chance(one.share)) for one in branch.held_up
+        ),
+        children=_beneath(branch),
+        refused=_refused(branch),
+    )
+
+
+def _refused(branch: tree.Branch) -> tuple[tuple[Action, str], ...]:
+    return tuple((action, reason) for reason, actions in branch.refused for action in actions)
