@@ -14,7 +14,16 @@ import typer
 from typer.core import TyperGroup
 
 from xavi_dialogue.app.bench.commands import Measure, commands
-from xavi_dialogue.app.commands import doctor, keys, looking, processes, recording, riding, sessions
+from xavi_dialogue.app.commands import (
+    dashboard,
+    doctor,
+    keys,
+    looking,
+    processes,
+    recording,
+    riding,
+    sessions,
+)
 from xavi_dialogue.app.commands.shell import Shell, to_json
 from xavi_dialogue.app.exit_status import ExitStatus
 from xavi_dialogue.app.kernels import find_place
@@ -161,7 +170,7 @@ def _note(text: str) -> None:
 
 
 SHELL = Shell(_errors, _write, _note, _lines)
-for room in (riding, processes, recording, looking, sessions, keys, doctor):
+for room in (riding, dashboard, processes, recording, looking, sessions, keys, doctor):
     room.add(app, SHELL)
 
 

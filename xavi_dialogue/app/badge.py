@@ -14,7 +14,7 @@ from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.roles import ROLES, BadName, Deed, Member, member
 from xavi_dialogue.transports.zenoh_bus import certificate_of
 
-Doing: TypeAlias = Literal["report a ride", "answer passengers", "ask", "record"]
+Doing: TypeAlias = Literal["report a ride", "answer passengers", "ask", "record", "show a car"]
 
 #: By what one can tell in the table of roles who may do it.
 SHOWN_BY: Mapping[Doing, tuple[Deed, str]] = {
@@ -22,6 +22,7 @@ SHOWN_BY: Mapping[Doing, tuple[Deed, str]] = {
     "answer passengers": ("serve", "@rpc/ask"),
     "ask": ("ask", "@rpc/ask"),
     "record": ("appear", "alive/recorder"),
+    "show a car": ("appear", "alive/dashboard"),
 }
 
 

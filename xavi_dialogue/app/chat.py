@@ -58,7 +58,7 @@ def through_pipe(
     """
     note(f"playing {ride.name}" if ride.played else f"driving {ride.name}, seed {ride.seed}")
     company = Company(ride.record, ride.overwrite, warner(note), note)
-    with _behind(ride, speed, company) as behind:
+    with behind_of(ride, speed, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys())
         scene = first_scene(behind, client)
         with suppress(CommandError):  # there is no car any more, which has been told
@@ -89,14 +89,24 @@ def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None
     unasked = Unasked(note)
     company = Company(ride.record, ride.overwrite, unasked.warn, unasked.tell)
     first = speed if ride.resume is None else 0.0
-    with _behind(ride, first, company) as behind:
+    with behind_of(ride, first, company) as behind:
         client = client_of(ride.passenger, behind.bus, Keys(), unasked.on_event)
         minutes = Minutes(client, ride.passenger.session, ride.header)
         typed = Typed(history, None if ride.keeping is None else ride.keeping.days)
         talk(behind, client, minutes, typed, unasked, lambda: _begin(ride, behind, client, speed))
 
 
-def _behind(ride: Ride, speed: float, company: Company) -> AbstractContextManager[Convoy]:
+def behind_of(ride: Ride, speed: float, company: Company) -> AbstractContextManager[Convoy]:
+    """The processes behind a conversation about a ride.
+
+    Args:
+        ride: to drive, or to play.
+        speed: at which it begins.
+        company: what else there is.
+
+    Raises:
+        ChildFailed: one does not come up.
+    """
     if ride.played:
         played = [*ride.played, "--speed", repr(speed)]
         return convoy_of(played, speed, ride.keeping, company, seeks=True)

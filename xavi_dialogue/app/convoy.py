@@ -43,6 +43,7 @@ class Convoy:
     recorder: Expendable | None = None
     over: threading.Event = field(default_factory=threading.Event)
     seeks: bool = False  # the car is a recording, which can go to any moment
+    endpoint: str = ""  # of the hub: others may join
 
     def check(self) -> None:
         """Make sure that there are processes; start the service anew if it is not there.
@@ -214,7 +215,7 @@ def _start(
             stack.callback(_let_go, bus, service)
             if recorder is not None:
                 _await(recorder.child, bus)
-            return Convoy(driven, service, bus, recorder)
+            return Convoy(driven, service, bus, recorder, endpoint=endpoint)
     raise AssertionError("the last attempt returns or raises")
 
 

@@ -34,6 +34,7 @@ from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.roles import BadName
 from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
+from xavi_dialogue.transports.web.listen import ListenError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
@@ -41,7 +42,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
             *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
             *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
-            *(FileThere, NotARecording, NothingToPlay, TooMuch),
+            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError),
         ),
         ExitStatus.USAGE,
     ),

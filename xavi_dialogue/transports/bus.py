@@ -156,6 +156,10 @@ class Bus(Protocol):
     What is heard, served and watched may be a pattern, in which `*` stands for any one part.
     """
 
+    @property
+    def linked(self) -> bool:
+        """Whether there is a way to others now."""
+
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """Send under a key.
 

@@ -94,6 +94,8 @@ class _MemoryCall:
 class MemoryBus:
     """One connection to a MemoryHub."""
 
+    linked = True
+
     def __init__(self, hub: MemoryHub) -> None:
         self._hub = hub
 

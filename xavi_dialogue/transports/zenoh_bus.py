@@ -95,6 +95,11 @@ class ZenohBus:
                 key, payload, encoding=JSON, congestion_control=CongestionControl.DROP
             )
 
+    @property
+    def linked(self) -> bool:
+        """See Bus."""
+        return bool(self._session.info.peers_zid() or self._session.info.routers_zid())
+
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
         """See Bus."""
 

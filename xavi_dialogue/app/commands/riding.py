@@ -71,12 +71,12 @@ def _chat(shell: Shell) -> Callable[..., None]:
         """Ride and talk; with --connect or --zenoh, in a car that is under way."""
         with shell.errors():
             keeping = keeping_in(store, keep_days)
-            there = _there(connect, zenoh, vehicle)
+            there = there_of(connect, zenoh, vehicle)
             if there is None:
                 taped = None if record is None else _Tape(record, force)
                 _drive(shell, scenario, seed, speed, session, as_json, keeping, share, taped)
                 return
-            _alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
+            alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
             _ride_along(shell, there, session, as_json, keeping, share)
 
     return chat
@@ -119,7 +119,7 @@ def _drive(
     at = going.moment(loaded, seed)
     if session is None or keeping is None or going.before is not None:
         shell.note(going.note(at, keeping))
-    passenger = _passenger(going.session, share, kept=keeping is not None)
+    passenger = passenger_of(going.session, share, kept=keeping is not None)
     ride = Ride(str(loaded.folder), loaded.name, seed, passenger, keeping, at)
     if tape is not None:
         ride = replace(ride, record=tape.path, overwrite=tape.overwrite)
@@ -146,7 +146,7 @@ def _ride_along(
     if session is None:
         session = going_on.fresh(datetime.now().astimezone(), token_hex(2)).session
         shell.note(f"this conversation is {session}: --session {session} goes on with it")
-    passenger = _passenger(session, share)
+    passenger = passenger_of(session, share)
     if _terminal(as_json):
         typed = Typed(typed_file(), None if keeping is None else keeping.days)
         remote.at_terminal(there, passenger, typed, shell.note)
@@ -183,13 +183,13 @@ def _ask(shell: Shell) -> Callable[..., None]:
             from xavi_dialogue.app import going_on
             from xavi_dialogue.app.remote import ask_there
 
-            _alone(scenario=scenario, seed=seed)
+            alone(scenario=scenario, seed=seed)
             fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
-            passenger = _passenger(session or fresh.session, share)
+            passenger = passenger_of(session or fresh.session, share)
             return ask_there(there, passenger, text, at, style)
 
         with shell.errors():
-            there = _there(connect, zenoh, vehicle)
+            there = there_of(connect, zenoh, vehicle)
             reply = driven() if there is None else under_way(there)
         shell.write(encode(reply) if as_json else reply.text)
         raise typer.Exit(status_of(reply))
@@ -197,7 +197,7 @@ def _ask(shell: Shell) -> Callable[..., None]:
     return ask
 
 
-def _there(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | None":
+def there_of(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | None":
     """Whom to talk with; None: nobody is named."""
     if connect is None and zenoh is None:
         return None
@@ -210,7 +210,7 @@ def _there(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | No
     return There(link, vehicle)
 
 
-def _alone(**given: object) -> None:
+def alone(**given: object) -> None:
     """Refuse what is about a car of one's own."""
     for name, value in given.items():
         if value is not None:
@@ -219,7 +219,14 @@ def _alone(**given: object) -> None:
             )
 
 
-def _passenger(session: str, share: bool, *, kept: bool = True) -> "Passenger":
+def passenger_of(session: str, share: bool, *, kept: bool = True) -> "Passenger":
+    """As whom to talk: with the token that this user has for a conversation.
+
+    Args:
+        session: name of the conversation.
+        share: others may read it.
+        kept: whether the user's secret is, where there is none yet.
+    """
     from xavi_dialogue.app.identity import Passenger, default_path, own_secret, token_of
 
     secret = own_secret(default_path(), make=kept)

@@ -1,0 +1,78 @@
+"""What a dashboard learns of a conversation that others take part in."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from xavi_dialogue.app.dashboard.conversation import GLANCE, MAX_TURNS, Conversation
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.messages import PastTurn
+
+
+def turn(text: str) -> PastTurn:
+    return PastTurn(text, Reply(text=f"About {text}.", kind="refusal", sim_time=float(len(text))))
+
+
+def look(conversation: Conversation, said: list[PastTurn]) -> list[tuple[int, str]]:
+    """What is new to a dashboard that looks at the latest turns, and at all if it has to."""
+    latest = said[-GLANCE:]
+    news = conversation.learn(latest, all_of_it=len(latest) < GLANCE)
+    if news is None:
+        news = conversation.learn(said[-100:], all_of_it=True)
+    assert news is not None
+    return [(one.n, one.text) for one in news.turns]
+
+
+def test_what_is_new_is_told_once() -> None:
+    conversation, said = Conversation(), [turn("a"), turn("b")]
+    assert look(conversation, said) == [(0, "a"), (1, "b")]
+    assert look(conversation, said) == []
+    said.append(turn("c"))
+    assert look(conversation, said) == [(2, "c")]
+
+
+def test_more_than_one_looks_at_is_found_too() -> None:
+    conversation, said = Conversation(), [turn(f"q{k}") for k in range(3)]
+    look(conversation, said)
+    said += [turn(f"q{k}") for k in range(3, 20)]
+    assert look(conversation, said) == [(k, f"q{k}") for k in range(3, 20)]
+
+
+def test_a_conversation_that_was_forgotten_begins_anew() -> None:
+    conversation = Conversation()
+    look(conversation, [turn("a"), turn("b")])
+    news = conversation.learn([], all_of_it=True)
+    assert news is not None
+    assert news.reset
+    assert conversation.all().turns == ()
+    assert look(conversation, [turn("c")]) == [(2, "c")]
+
+
+def test_a_turn_is_found_by_what_was_said() -> None:
+    conversation, said = Conversation(), [turn("a"), turn("b"), turn("a")]
+    look(conversation, said)
+    assert conversation.find("a", said[0].reply) == 2
+    assert conversation.find("b", said[1].reply) == 1
+    assert conversation.find("c", turn("c").reply) is None
+    assert conversation.turn(1) == said[1]
+    assert conversation.turn(3) is None
+    assert conversation.turn(-1) is None
+
+
+def test_a_long_conversation_is_not_known_for_ever() -> None:
+    conversation, said = Conversation(), []
+    for k in range(MAX_TURNS + 10):
+        said.append(turn(f"q{k}"))
+        look(conversation, said)
+    told = conversation.all().turns
+    assert [told[0].n, told[-1].n] == [10, MAX_TURNS + 9]
+    assert conversation.turn(9) is None
+    assert conversation.turn(10) == said[10]
+
+
+@given(st.lists(st.integers(0, 3).flatmap(lambda n: st.lists(st.text(max_size=3), max_size=n))))
+def test_whatever_is_said_when_all_of_it_is_known_in_order(batches: list[list[str]]) -> None:
+    conversation, said = Conversation(), []
+    for batch in batches:
+        said += [turn(f"{len(said)} {text}") for text in batch]
+        look(conversation, said)
+        assert conversation.turns == said

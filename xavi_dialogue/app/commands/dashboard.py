@@ -1,0 +1,134 @@
+"""The command `xavi dashboard`: a car, its decisions and the conversation in a web page."""
+
+from collections.abc import Callable
+from datetime import datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from xavi_dialogue.app.commands.logged import logged
+from xavi_dialogue.app.commands.riding import AnyScenario, alone, passenger_of
+from xavi_dialogue.app.commands.sessions import keeping_in
+from xavi_dialogue.app.commands.shell import (
+    KEEP_DAYS,
+    Connect,
+    KeepDays,
+    Seed,
+    SessionName,
+    Shell,
+    SpeedFactor,
+    StoreFile,
+    Vehicle,
+    ZenohFile,
+)
+
+if TYPE_CHECKING:
+    from xavi_dialogue.app.chat import Ride
+    from xavi_dialogue.app.identity import Passenger
+    from xavi_dialogue.app.memory import Keeping
+
+ListenAt = Annotated[
+    str | None,
+    typer.Option(
+        "--listen",
+        envvar="XAVI_DASHBOARD_LISTEN",
+        metavar="HOST:PORT",
+        help="Where browsers find the page. Default: 127.0.0.1:8480; port 0: any that is free.",
+    ),
+]
+Token = Annotated[
+    str | None,
+    typer.Option(
+        envvar="XAVI_DASHBOARD_TOKEN",
+        help="That browsers must bring. Default: none on this machine alone, else a random one.",
+    ),
+]
+HostNames = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--host-name", metavar="NAME", help="A name that the page is opened under; repeatable."
+    ),
+]
+Played = Annotated[
+    Path | None,
+    typer.Option(
+        "--replay", exists=True, dir_okay=False, metavar="FILE", help="Show a recording (MCAP)."
+    ),
+]
+Opens = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in a browser.")]
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the command."""
+    app.command("dashboard")(logged("dashboard")(_dashboard(shell)))
+
+
+def _dashboard(shell: Shell) -> Callable[..., None]:
+    def dashboard(
+        scenario: AnyScenario = None,
+        seed: Seed = None,
+        speed: SpeedFactor = None,
+        replay: Played = None,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        session: SessionName = None,
+        listen: ListenAt = None,
+        token: Token = None,
+        host_name: HostNames = None,
+        opens: Opens = True,
+        store: StoreFile = None,
+        keep_days: KeepDays = KEEP_DAYS,
+    ) -> None:
+        """Show a car, its decisions and the conversation in a web page.
+
+        A car of your own, a recording, or with --connect or --zenoh a car that is under way.
+        """
+        from xavi_dialogue.app import going_on
+        from xavi_dialogue.app.badge import check
+        from xavi_dialogue.app.dashboard.run import Task, run
+        from xavi_dialogue.transports.link import Link
+        from xavi_dialogue.transports.web.listen import Listen
+
+        with shell.errors():
+            place = Listen.read(listen, token=token, names=tuple(host_name or ()))
+            fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            passenger = passenger_of(session or fresh.session, share=False)
+            if connect is not None or zenoh is not None:
+                alone(scenario=scenario, seed=seed, speed=speed, replay=replay)
+                link = Link.to_hub(connect, zenoh)
+                check(link, "show a car")
+                task = Task(place, vehicle, passenger, link, opens=opens)
+            else:
+                own = _own(shell, scenario, seed, replay, passenger, keeping_in(store, keep_days))
+                pace = 1.0 if speed is None else speed
+                task = Task(place, "car", passenger, own, speed=pace, opens=opens)
+            run(task, shell.note)
+
+    return dashboard
+
+
+def _own(
+    shell: Shell,
+    scenario: str | None,
+    seed: int | None,
+    replay: Path | None,
+    passenger: "Passenger",
+    keeping: "Keeping | None",
+) -> "Ride":
+    """What to drive, or to play."""
+    from xavi_dialogue.app.chat import Ride
+    from xavi_dialogue.app.commands.riding import DEFAULT_SCENARIO
+    from xavi_dialogue.transports.mcap_file import read
+
+    if replay is None:
+        loaded = shell.load(scenario or DEFAULT_SCENARIO)
+        chosen = loaded.seed if seed is None else seed
+        return Ride(str(loaded.folder), loaded.name, chosen, passenger, keeping)
+    if scenario is not None or seed is not None:
+        raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
+    next(read(replay), None)  # raises at once where it is no recording
+    played = ("replay", str(replay.absolute()), "--vehicle", "car")
+    return Ride(replay.name, replay.name, 0, passenger, keeping, played=played)

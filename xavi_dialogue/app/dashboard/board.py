@@ -1,0 +1,255 @@
+"""The board of a dashboard: what browsers are told, and what becomes of what they ask.
+
+Everything here runs on the event loop. What takes long, or waits for the bus, runs on threads.
+"""
+
+import asyncio
+import logging
+import time
+from collections.abc import Callable, Coroutine
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
+
+import msgspec
+
+from xavi_dialogue import __version__
+from xavi_dialogue.app.alive import Alive
+from xavi_dialogue.app.client import Client, ServiceLost
+from xavi_dialogue.app.dashboard.asking import Asking, Unanswered
+from xavi_dialogue.app.dashboard.conversation import GLANCE, Conversation
+from xavi_dialogue.app.dashboard.ear import Ear
+from xavi_dialogue.app.dashboard.library import Library
+from xavi_dialogue.app.dashboard.record import Record
+from xavi_dialogue.app.dashboard.suggest import suggestions
+from xavi_dialogue.app.identity import Passenger
+from xavi_dialogue.app.ledger import Heard
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.transports.bus import Bus, Keys
+from xavi_dialogue.transports.messages import MAX_TURNS
+from xavi_dialogue.transports.text import one_line
+from xavi_dialogue.transports.web.board import Audience
+from xavi_dialogue.transports.web.viewers import Viewer
+from xavi_dialogue.transports.web.wire import (
+    AnsweredHere,
+    Ask,
+    Cancel,
+    Outgoing,
+    Presence,
+    SceneShown,
+    Status,
+    Suggest,
+    Suggestions,
+    Thinking,
+    Welcome,
+)
+
+_LOG = logging.getLogger(__name__)
+LOOK = 1.0  # [s] between looks at whether others have asked, and at what is amiss
+COUNTERS = ("scenes", "questions", "dropped", "rejected")
+ALONE = "There is no dialogue service to ask yet."
+
+
+@dataclass
+class Board:
+    """Shows one car, and one conversation about it; see transports.web.server.Board."""
+
+    keys: Keys
+    passenger: Passenger
+    recording: bool = False  # a recorded ride is played
+    alive: Alive = field(default_factory=lambda: Alive("dashboard", COUNTERS))
+    record: Record = field(default_factory=Record)
+    conversation: Conversation = field(default_factory=Conversation)
+    first_seen: Callable[[], None] = lambda: None  # called when the first browser has come
+    _there: dict[str, Presence] = field(default_factory=dict)
+    _suggested: Suggestions = field(default_factory=lambda: Suggestions(t=0.0, questions=()))
+    _stale: bool = False  # something has happened since these were made
+    _bus: Bus | None = None
+    _asking: Asking | None = None
+    _client: Client | None = None
+    _tasks: set[asyncio.Task[None]] = field(default_factory=set)
+
+    def attach(self, audience: Audience) -> None:
+        """Know whom to tell; to be called first."""
+        self.audience = audience
+        self._ear = Ear(audience, self.alive, self._hear)
+        self.library = Library(self.record, self.conversation, self._roads_known)
+        self._refreshing = asyncio.Lock()
+
+    def join(self, bus: Bus) -> None:
+        """Begin to hear and to ask, now that there is a bus."""
+        self._bus = bus
+        self._asking = Asking(bus, self.keys, self.audience, self.passenger)
+        token, share = self.passenger.token, self.passenger.share
+        self._client = Client(bus, self.keys, self.passenger.session, token=token, share=share)
+        self.library.join(self._asking)
+        self._ear.open(bus, self.keys, self._see)
+        self.alive.gauge("browsers", lambda: self.audience.browsers)
+        self.alive.serve(bus, self.keys)
+
+    async def watch(self) -> None:
+        """See again and again whether others have asked, and what is amiss; until cancelled."""
+        while True:
+            await asyncio.sleep(LOOK)
+            for message in self.record.wait(time.monotonic()):
+                self.audience.tell(message)
+            self._see("hub", self._bus is not None and self._bus.linked)
+            self.library.look()
+            if self.audience.browsers:
+                await self.refresh()
+                self._suggest_anew()
+
+    # What the server calls:
+
+    def greet(self, viewer: Viewer) -> tuple[Outgoing, ...]:
+        """All that a browser is told that has just come."""
+        self.first_seen()
+        welcome = Welcome(
+            version=__version__,
+            vehicle=self.keys.vehicle,
+            session=self.passenger.session,
+            recording=self.recording,
+        )
+        self._spawn(self.refresh())
+        shown = (*self.record.all(), self.conversation.all(), self._suggested)
+        return welcome, self.status(), *shown
+
+    def status(self) -> Status:
+        """Who is there; the server fills in what each browser is told besides."""
+        return Status(
+            hub=self._there.get("hub", "awaited"),
+            car=self._there.get("car", "awaited"),
+            service=self._there.get("service", "awaited"),
+            dropped=0,
+            browsers=self.audience.browsers,
+        )
+
+    def ask(self, viewer: Viewer, message: Ask) -> None:
+        """Ask the service; the browser is told what comes of it."""
+        self.alive.count("questions")
+        client, request = self._client, message.request
+        if client is None:
+            nobody = Reply(text=ALONE, kind="refusal", reason="planner-unavailable", sim_time=0.0)
+            viewer.tell(AnsweredHere(request=request, n=None, reply=nobody))
+            return
+        viewer.tell(Thinking(request=request))
+
+        def done(came: Reply | ServiceLost) -> None:
+            self.audience.soon(self._answered, viewer, message, came)
+
+        at = client.now() if message.at is None else message.at
+        client.send(message.text, done, at=at, request=request)
+
+    def cancel(self, viewer: Viewer, message: Cancel) -> None:
+        """Tell the service that an answer is no longer wanted."""
+        if self._client is not None:
+            self._client.cancel(message.request)
+
+    def suggest(self, viewer: Viewer, message: Suggest) -> None:
+        """Tell a browser what could be asked at an earlier moment."""
+        viewer.tell(self._suggestions(message.at))
+
+    def left(self, viewer: Viewer) -> None:
+        """A browser is gone."""
+        self._tell_status()
+
+    def roads(self, name: str) -> bytes | None:
+        """See Library."""
+        return self.library.roads(name)
+
+    def past(self) -> bytes:
+        """All moments so far."""
+        return msgspec.json.encode(self.record.past())
+
+    def decision(self, name: str) -> bytes | None:
+        """See Library."""
+        return self.library.decision(name)
+
+    async def evidence(self, n: int) -> bytes | None:
+        """See Library."""
+        return await self.library.evidence(n)
+
+    # Within:
+
+    def _hear(self, report: Heard) -> None:
+        begun, told = self.record.hear(report)
+        if begun:
+            self.library.begin_anew()
+            self._suggested = Suggestions(t=0.0, questions=())
+        for message in told:
+            self.audience.tell(message)
+            if isinstance(message, SceneShown):
+                self.alive.count("scenes")
+                self.alive.at(message.t)
+            else:
+                self._stale = True
+
+    def _see(self, component: str, there: bool) -> None:
+        before = self._there.get(component, "awaited")
+        now: Presence = "there" if there else "awaited" if before == "awaited" else "gone"
+        if now != before:
+            self._there[component] = now
+            self._tell_status()
+
+    def _tell_status(self) -> None:
+        self.audience.tell(self.status())
+
+    def _roads_known(self) -> None:
+        ride = self.record.ride
+        if ride is not None:
+            self.audience.tell(ride)
+
+    def _suggestions(self, at: float) -> Suggestions:
+        try:
+            found = suggestions(self.record.up_to(at), self.record.events, at)
+        except Exception:  # a fault of ours must not keep anybody from asking
+            _LOG.exception("nothing could be suggested", extra={"vehicle": self.keys.vehicle})
+            found = ()
+        return Suggestions(t=at, questions=found)
+
+    def _suggest_anew(self) -> None:
+        scene = self.record.scene
+        if self._stale and scene is not None:
+            self._stale = False
+            fresh = self._suggestions(scene.sim_time)
+            if fresh.questions != self._suggested.questions:
+                self.audience.tell(fresh)
+            self._suggested = fresh
+
+    async def refresh(self) -> None:
+        """Learn what was said, here and elsewhere, and tell what is new."""
+        asking = self._asking
+        if asking is None:
+            return
+        async with self._refreshing:
+            with suppress(Unanswered):
+                latest = await asking.history(GLANCE)
+                news = self.conversation.learn(latest, all_of_it=len(latest) < GLANCE)
+                if news is None:
+                    everything = await asking.history(MAX_TURNS)
+                    news = self.conversation.learn(everything, all_of_it=True)
+                if news is not None and (news.turns or news.reset):
+                    self.audience.tell(news)
+
+    def _answered(self, viewer: Viewer, asked: Ask, came: Reply | ServiceLost) -> None:
+        self._spawn(self._tell_answer(viewer, asked, came))
+
+    async def _tell_answer(self, viewer: Viewer, asked: Ask, came: Reply | ServiceLost) -> None:
+        if isinstance(came, ServiceLost):
+            text = f"({came})"
+            came = Reply(text=text, kind="refusal", reason="planner-unavailable", sim_time=0.0)
+        await self.refresh()
+        n = self.conversation.find(one_line(asked.text), came)
+        reply = came if n is None else None
+        viewer.tell(AnsweredHere(request=asked.request, n=n, reply=reply))
+
+    def _spawn(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(partial(_done, self._tasks))
+
+
+def _done(tasks: set[asyncio.Task[None]], task: asyncio.Task[None]) -> None:
+    tasks.discard(task)
+    if not task.cancelled() and task.exception() is not None:
+        _LOG.error("a fault of ours", exc_info=task.exception())
