@@ -91,13 +91,19 @@ class Board:
         """See again and again whether others have asked, and what is amiss; until cancelled."""
         while True:
             await asyncio.sleep(LOOK)
-            for message in self.record.wait(time.monotonic()):
-                self.audience.tell(message)
-            self._see("hub", self._bus is not None and self._bus.linked)
-            self.library.look()
-            if self.audience.browsers:
-                await self.refresh()
-                self._suggest_anew()
+            try:
+                await self._look()
+            except Exception:
+                _LOG.exception("a fault of ours", extra={"vehicle": self.keys.vehicle})
+
+    async def _look(self) -> None:
+        for message in self.record.wait(time.monotonic()):
+            self.audience.tell(message)
+        self._see("hub", self._bus is not None and self._bus.linked)
+        self.library.look()
+        if self.audience.browsers:
+            self._suggest_anew()
+            await self.refresh()
 
     # What the server calls:
 

@@ -88,9 +88,11 @@ class Library:
             return None
         found = {name: await self._trace(name) for name in traces_of(turn.reply)}
         known = {name: trace for name, trace in found.items() if trace is not None}
-        if len(known) < len(found):  # it may still come
-            return msgspec.json.encode(of_turn(n, turn.reply, known))
-        return self._kept(("evidence", n), lambda: of_turn(n, turn.reply, known))
+        make = lambda: of_turn(n, turn.reply, known)  # noqa: E731
+        if len(known) == len(found):
+            return self._kept(("evidence", n), make)
+        shown = make()  # what is missing may still come
+        return None if shown is None else msgspec.json.encode(shown)
 
     async def _trace(self, name: str) -> PlanTrace | None:
         """A decision of the record, or a plan made again, which the service knows."""
@@ -118,9 +120,12 @@ class Library:
         self._made.clear()  # what was made without knowing the roads
         self._roads_known()
 
-    def _kept(self, key: tuple[str, str | int], make: Callable[[], object]) -> bytes:
+    def _kept(self, key: tuple[str, str | int], make: Callable[[], object | None]) -> bytes | None:
         if key not in self._made:
-            self._made[key] = msgspec.json.encode(make())
+            shown = make()
+            if shown is None:
+                return None
+            self._made[key] = msgspec.json.encode(shown)
         self._made.move_to_end(key)
         while len(self._made) > MAX_KEPT:
             self._made.popitem(last=False)
