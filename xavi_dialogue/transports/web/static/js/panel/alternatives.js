@@ -110,7 +110,8 @@ function drawRow(tr, one, scale) {
 }
 
 function timeWords(one) {
-  if (one.chosen) return one.arrival === null ? "does not get there" : `takes ${seconds(one.arrival)}`;
+  if (one.chosen && one.arrival !== null) return `takes ${seconds(one.arrival)}`;
+  if (one.chosen) return one.outcomes.done > 0 ? "the others are measured by this" : "does not get there";
   return one.time ? signed(one.time.delta) : "cannot be told";
 }
 

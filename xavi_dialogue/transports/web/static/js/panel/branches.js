@@ -4,7 +4,7 @@ import { h } from "../dom.js";
 import { drawOutcomes, outcomeBar } from "./bars.js";
 import { say, steady } from "./steady.js";
 import { createTree } from "./tree.js";
-import { doing, fixed, lower, many, named, outcomesInWords, percent, seconds, upper } from "./words.js";
+import { doing, fixed, many, named, outcomesInWords, percent, seconds, upper } from "./words.js";
 
 /** @returns {{element: HTMLElement, update: (decision: object) => void}} */
 export function createBranches() {
@@ -36,7 +36,7 @@ function branchRow() {
     outcomes: outcomeBar(),
     facts: h("span", { class: "small" }),
     held: h("ul", { class: "branch-held small" }),
-    refused: h("ul", { class: "branch-refused small" }),
+    refused: h("p", { class: "branch-refused small" }),
   };
   const head = h("div", { class: "branch-head" }, h("span", { class: "branch-fold", "aria-hidden": "true" }), parts.words, parts.mark, parts.visits);
   const row = h("div", { class: "branch" }, head, parts.outcomes, parts.facts, parts.held, parts.refused);
@@ -53,7 +53,8 @@ function drawBranch(row, branch, open) {
   say(facts, factsOf(branch).join(" · "));
   lines(held, branch.held_up.map(heldUp));
   const leaf = !branch.children.length;
-  lines(refused, open || leaf ? branch.refused.map(([action, why]) => notThen(action, why)) : []);
+  refused.hidden = !branch.refused.length || !(open || leaf);
+  if (!refused.hidden) say(refused, notThen(branch.refused));
 }
 
 function lines(list, texts) {
@@ -74,11 +75,14 @@ function factsOf(branch) {
 }
 
 function heldUp([vehicle, how, share]) {
-  return `Held up by ${named(vehicle)} (${how}) in ${percent(share)}`;
+  return `Held up in ${percent(share)} by ${named(vehicle)} ${how}`; // "... vehicle 1 going first"
 }
 
-function notThen(action, why) {
-  return `Not after that: ${doing(action)}, since ${lower(why)}`;
+/** "Not possible then: change left (there is no lane to the left); stop (...)" */
+function notThen(refused) {
+  const reasons = new Map();
+  for (const [action, why] of refused) reasons.set(why, [...(reasons.get(why) ?? []), doing(action)]);
+  return `Not possible then: ${[...reasons].map(([why, actions]) => `${actions.join(", ")} (${why})`).join("; ")}`;
 }
 
 function nameOf(branch) {

@@ -141,7 +141,7 @@ function notice(panel, state, store) {
   const first = panel.shown === null;
   const nothing = store.latest ? "I have not decided anything yet. My first decision will be here in a moment." : "As soon as the car drives, what it decides and why will be here.";
   const said = {
-    none: [h("p", { class: "decision-empty" }, "No decision yet"), h("p", { class: "quiet" }, nothing)],
+    none: [fork(), h("p", { class: "decision-empty" }, "No decision yet"), h("p", { class: "quiet" }, nothing)],
     loading: first ? [h("span", { class: "unseen" }, "Fetching the decision"), skeleton()] : [],
     gone: [h("p", {}, "The record of this decision is not here any more."), h("p", { class: "quiet" }, "What it came to, and what I expected of the others, is still known.")],
     failed: [h("p", {}, "The record of this decision could not be fetched."), panel.again],
@@ -150,6 +150,13 @@ function notice(panel, state, store) {
   panel.noticed = `${state} ${first} ${nothing}`;
   fill(panel.notice, said[state] ?? []);
   panel.notice.hidden = !panel.notice.childNodes.length;
+}
+
+/** A way that parts in three, one of them taken. */
+function fork() {
+  const way = (d, name) => h("path", { class: name, d });
+  const ways = [way("M60,70 V44 C60,30 28,34 28,12", "fork"), way("M60,70 V44 C60,30 92,34 92,12", "fork"), way("M60,70 V12", "fork fork-taken")];
+  return h("svg", { class: "decision-fork", viewBox: "0 0 120 76", width: 120, height: 76, "aria-hidden": "true" }, ways);
 }
 
 function skeleton() {

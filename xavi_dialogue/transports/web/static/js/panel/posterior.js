@@ -32,10 +32,16 @@ export class Places {
   }
 }
 
-/** [s] From when to when the chart goes about a moment. */
+/** [s] From when to when anything is looked for about a moment. */
 export function stretchFor(at, [first, last]) {
-  const from = Math.max(first, at - BEFORE);
-  return [from, Math.max(at, Math.min(last, at + AFTER), from + SHORTEST)];
+  return [Math.max(first, at - BEFORE), Math.max(at, Math.min(last, at + AFTER))];
+}
+
+/** [s] From when to when the chart goes: while the vehicle was in view, and to the moment shown. */
+function spanOf(stretches, at) {
+  const from = Math.min(stretches[0]?.[0].t ?? at, at);
+  const to = Math.max(stretches.at(-1)?.at(-1).t ?? at, at);
+  return [from, Math.max(to, from + SHORTEST)];
 }
 
 /**
@@ -63,10 +69,10 @@ export function beliefsOf(decisions, vehicle, [from, to], places) {
 /**
  * Draw the chart anew.
  * @param {SVGElement} svg
- * @param {{stretches: object[][], goals: string[], at: number, span: [number, number], width: number}} what
+ * @param {{stretches: object[][], goals: string[], at: number, width: number}} what
  */
-export function drawPosterior(svg, { stretches, goals, at, span, width }) {
-  const [from, to] = span;
+export function drawPosterior(svg, { stretches, goals, at, width }) {
+  const [from, to] = spanOf(stretches, at);
   const right = Math.max(width - LABELS, 60);
   const x = (t) => ((t - from) / (to - from)) * right;
   const y = (share) => (1 - share) * (HEIGHT - FOOT);
@@ -117,7 +123,8 @@ function labels(stretches, goals, y, right) {
 }
 
 function short(words) {
-  return words.length > 16 ? `${words.slice(0, 15).trimEnd()}…` : words;
+  const bare = words.replace(/^heads for (the )?/, "to ");
+  return bare.length > 17 ? `${bare.slice(0, 16).trimEnd()}…` : bare;
 }
 
 function inWords(stretches, goals) {

@@ -104,6 +104,7 @@ function drawCard({ store, places }, li, { vehicle, goals }) {
     const [words, bar, share] = row.children;
     say(words, goal.full);
     set(words, "title", goal.place || null);
+    set(row, "data-long", goal.full.length > 22 ? "yes" : null);
     drawShare(bar, goal.probability, places.of(vehicle, goal.words) % 6);
     say(share, percent(goal.probability));
   });
@@ -120,7 +121,6 @@ function charts({ store, list, places }) {
   for (const li of list.children) {
     const vehicle = Number(li.dataset.vehicle);
     const stretches = beliefsOf(store.decisions, vehicle, span, places);
-    const what = { stretches, goals: places.goals(vehicle), at: store.at, span, width };
-    drawPosterior(li.lastElementChild, what);
+    drawPosterior(li.lastElementChild, { stretches, goals: places.goals(vehicle), at: store.at, width });
   }
 }

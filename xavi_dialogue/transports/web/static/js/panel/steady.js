@@ -32,7 +32,15 @@ export function steady(parent, items, key, make, update) {
     if (element === place) place = place.nextElementSibling;
     else parent.insertBefore(element, place); // only what is out of order moves
   }
-  if (focused?.isConnected && document.activeElement !== focused) focused.focus({ preventScroll: true });
+  if (!focused || document.activeElement === focused) return;
+  const next = focused.isConnected ? focused : refuge(parent);
+  next?.focus({ preventScroll: true });
+}
+
+/** Where the focus goes when what had it is gone: as near as can be, never to the page's top. */
+function refuge(parent) {
+  const around = parent.closest("[role=treeitem]") ?? parent.querySelector("[role=treeitem], button");
+  return around ?? parent.closest("details")?.querySelector("summary");
 }
 
 /** Set text only where it is another one, so that a selection of the reader stays. */

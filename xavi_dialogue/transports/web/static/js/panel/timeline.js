@@ -132,6 +132,7 @@ function tell(parts, view, store, player) {
   say(parts.words, empty ? "Nothing has happened yet." : sentence(store, decision, ago));
   parts.back.hidden = store.live;
   parts.play.disabled = empty;
+  set(parts.track, "data-empty", empty ? "yes" : null);
   const running = player.playing || store.live;
   set(parts.play, "aria-label", running ? (store.live ? "Hold this moment" : "Pause") : "Play from here");
   set(parts.play, "title", parts.play.getAttribute("aria-label"));
