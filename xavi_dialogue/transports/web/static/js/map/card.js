@@ -4,6 +4,7 @@ import { fill, h } from "../dom.js";
 import { looksOf, nameOf, percent, speed } from "./words.js";
 
 const EDGE = 8; // [px] kept from the sides of the map
+const NAME = 28; // [px] kept from the vehicle, for its name
 
 /** "red car, 30 km/h; turns left: 80 %, ...", for who cannot see the card. */
 export function cardInWords(vehicle, goals) {
@@ -49,9 +50,8 @@ function content(vehicle, goals) {
 
 function moveTo(element, { x, y, reach, width, height }) {
   const [wide, high] = [element.offsetWidth, element.offsetHeight];
-  const left = Math.min(Math.max(x + reach + 10, EDGE), width - wide - EDGE);
-  const covers = left < x + reach && left + wide > x - reach;
-  const top = covers ? y - reach - high - 10 : y - high / 2;
-  const kept = Math.min(Math.max(top < EDGE && covers ? y + reach + 10 : top, EDGE), Math.max(height - high - EDGE, EDGE));
-  element.style.transform = `translate(${Math.round(left)}px, ${Math.round(kept)}px)`;
+  const left = Math.max(Math.min(x - wide / 2, width - wide - EDGE), EDGE);
+  const above = y - reach - NAME - high;
+  const top = above >= EDGE ? above : Math.min(y + reach + NAME, Math.max(height - high - EDGE, EDGE));
+  element.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
 }

@@ -4,10 +4,11 @@ import { count, boundsOf, headingAt, pathOf, pointAt } from "./lines.js";
 import { arrowHead, crash } from "./marks.js";
 import { drawGhost } from "./bodies.js";
 
+const BUTTONS = 80; // [px] on the right, where labels have no room
 const REST = 1.2; // [s] at the end before the loop begins anew
 const SIDES = {
   fact: { colour: "accent", dash: [], words: () => "what I did" },
-  ghost: { colour: "foil", dash: [9, 6], words: (side) => `what you asked about: ${side.words}` },
+  ghost: { colour: "foil", dash: [9, 6], words: (side) => `what you asked about: ${side.words}`, short: "what you asked about" },
   preview: { colour: "foil", dash: [3, 5], words: (side) => side.words },
 };
 
@@ -112,14 +113,24 @@ function label(name, side, lines, { view, colours, labels }) {
   for (const part of [1, 0.85, 0.7, 0.55, 0.4, 0.25, 0.1, 0]) {
     const point = pointAt(line.path, part * last);
     const [x, y] = view.toScreen(point.x, point.y);
-    if (x < 30 || y < 30 || x > view.width - 30 || y > view.height - 30) continue;
+    if (x < 30 || y < 30 || x > view.width - BUTTONS || y > view.height - 30) continue;
     const away = other ? apart(point, other.path) * view.scale : 0;
-    if (!best || Math.min(away, 60) > Math.min(best.away, 60) + 4) best = { x, y, away };
+    if (!best || Math.min(away, 60) > Math.min(best.away, 60) + 4) best = { x, y, away, point };
   }
   if (!best) return;
-  const { colour, words } = SIDES[name];
+  const { colour, words, short } = SIDES[name];
   const look = { ink: colours.get("card"), ground: colours.get(colour), strong: true };
-  labels.add({ key: name, text: words(side), x: best.x, y: best.y, reach: 12, weight: 90, ...look });
+  labels.add({ key: name, text: words(side), short, x: best.x, y: best.y, reach: 18, weight: 90, wide: true, below: other ? under(best.point, other.path) : name !== "fact", ...look });
+}
+
+/** Whether a point lies south of a line, where its label does not cover it. */
+function under(point, path) {
+  let [least, below] = [Infinity, false];
+  for (let i = 0; i < path.length; i += 2) {
+    const away = Math.hypot(path[i] - point.x, path[i + 1] - point.y);
+    if (away < least) [least, below] = [away, path[i + 1] > point.y + 0.2];
+  }
+  return below;
 }
 
 function apart(point, path) {

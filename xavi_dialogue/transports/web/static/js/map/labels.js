@@ -5,8 +5,9 @@ const PAD = 6; // [px] left and right of the text
 const CELL = 64; // [px] of the grid by which neighbours are found
 const LONGEST = 64; // characters
 
-/** Places of a label around what it names, the best first: x, y from -1 to 1. */
+/** Places of a label around what it names, the best first: x, y from -1 to 1; halves overlap it. */
 const SIDES = [[0, -1], [1, 0], [-1, 0], [0, 1], [1, -1], [-1, -1], [1, 1], [-1, 1]];
+const WIDE = [[0, -1], [0.5, -1], [-0.5, -1], [1, -1], [-1, -1], [0, 1], [0.5, 1], [-0.5, 1], [1, 1], [-1, 1]];
 
 export class Labels {
   constructor() {
@@ -30,8 +31,9 @@ export class Labels {
   /**
    * Wish for a label.
    * @param {{key: string, text: string, x: number, y: number, reach: number, weight: number,
-   *   ink: string, ground: string, edge?: string, strong?: boolean}} label x, y [px] of what is
-   *   named, `reach` [px] to be kept from it; the heaviest are placed first
+   *   ink: string, ground: string, edge?: string, strong?: boolean, short?: string, wide?: boolean, below?: boolean}} label x, y [px] of what is
+   *   named, `reach` [px] to be kept from it; the heaviest are placed first;
+   *   `short` is said where there is no room for the text
    */
   add(label) {
     if (label.x < -40 || label.y < -40 || label.x > this.view.width + 40 || label.y > this.view.height + 40) return;
@@ -47,8 +49,8 @@ export class Labels {
     this.wanted.sort((a, b) => b.weight - a.weight || (a.key < b.key ? -1 : 1));
     const placed = [];
     for (const label of this.wanted) {
-      const box = this.placed(context, label);
-      if (box) placed.push([label, box]);
+      const found = this.placed(context, label);
+      if (found) placed.push(found);
     }
     for (const [label, box] of placed) paint(context, label, box, this.fontOf(label));
     const kept = new Set(this.wanted.map((label) => label.key));
@@ -57,21 +59,26 @@ export class Labels {
   }
 
   placed(context, label) {
+    return this.fitted(context, label) ?? (label.short ? this.placed(context, shorter(label)) : null);
+  }
+
+  fitted(context, label) {
     const width = this.widthOf(context, label) + 2 * PAD;
     const before = this.sides.get(label.key);
-    const order = before === undefined ? SIDES.keys() : [before, ...SIDES.keys()];
-    for (const side of order) {
-      const box = this.boxAt(label, width, SIDES[side]);
+    const sides = label.wide ? WIDE : SIDES;
+    for (const side of [before ?? 0, ...sides.keys()]) {
+      const [dx, dy] = sides[side];
+      const box = this.boxAt(label, width, [dx, label.below ? -dy : dy]);
       if (!this.free(box)) continue;
       this.sides.set(label.key, side);
       this.occupy(box);
-      return box;
+      return [label, box];
     }
     return null;
   }
 
   boxAt(label, width, [dx, dy]) {
-    const across = dx ? label.reach * (dy ? 0.75 : 1) : 0;
+    const across = Math.abs(dx) === 1 ? label.reach * (dy ? 0.75 : 1) : 0;
     const down = dy ? label.reach * (dx ? 0.75 : 1) : 0;
     const x = label.x + dx * (across + width / 2) - width / 2;
     const y = label.y + dy * (down + HEIGHT / 2) - HEIGHT / 2;
@@ -112,6 +119,10 @@ export class Labels {
     }
     return width;
   }
+}
+
+function shorter({ short, ...label }) {
+  return { ...label, text: short };
 }
 
 function paint(context, label, [left, top, right, bottom], font) {

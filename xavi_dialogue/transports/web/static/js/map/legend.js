@@ -3,9 +3,8 @@
 import { fill, h } from "../dom.js";
 
 /** In the order in which they are listed: kind, words, drawing, class. */
+// Vehicles are not among them: each has its name beside it.
 const ENTRIES = [
-  ["us", "our car", "body", "accent"],
-  ["others", "other vehicles", "body", "other"],
   ["plan", "our planned path", "line", "accent"],
   ["predictions", "where others may go", "fade", "other"],
   ["ours", "our way through the junction", "strip", "accent"],
@@ -20,7 +19,6 @@ const ENTRIES = [
 ];
 
 const DRAWINGS = {
-  body: () => h("rect", { x: 5, y: 4, width: 18, height: 8, rx: 3 }),
   line: () => h("path", { d: "M2 8h20M18 4l6 4-6 4" }),
   fade: () => [h("path", { d: "M2 8h8" }), h("path", { d: "M10 8h8", opacity: 0.6 }), h("path", { d: "M18 8h8", opacity: 0.3 })],
   strip: () => h("path", { class: "map-strip", d: "M2 8h24" }),
@@ -49,7 +47,7 @@ export function createLegend(changed, folded) {
       const key = `${[...kinds].sort().join()} ${spacing}`;
       if (key === shown) return;
       shown = key;
-      element.hidden = kinds.size === 0;
+      element.hidden = kinds.size === 0 && !spacing;
       const grid = spacing && h("li", {}, `roads not known: a grid of ${spacing} m`);
       fill(list, ENTRIES.filter(([kind]) => kinds.has(kind)).map(entry), grid);
       changed();

@@ -91,6 +91,15 @@ export function beforeEnd(line, distance) {
   return pointAt(line, 0);
 }
 
+/** The last point of a line within bounds, the line's own end if it is there; null: none is. */
+export function lastWithin(line, [left, bottom, right, top]) {
+  for (let i = count(line) - 1; i >= 0; i -= 1) {
+    const [x, y] = [line[2 * i], line[2 * i + 1]];
+    if (x >= left && x <= right && y >= bottom && y <= top) return { x, y, heading: headingAt(line, i), end: i === count(line) - 1 };
+  }
+  return null;
+}
+
 /** Bounds of lines: [left, bottom, right, top] in metres; null where there is no point. */
 export function boundsOf(lines, margin = 0) {
   let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];

@@ -3,8 +3,6 @@
 import { h } from "../dom.js";
 import { lastUpTo } from "../store.js";
 import { Backdrop } from "./backdrop.js";
-import { middleOf, radiusOf } from "./bodies.js";
-import { createCard } from "./card.js";
 import { Colours } from "./colours.js";
 import { createBadge, createControls } from "./controls.js";
 import { Deciding } from "./deciding.js";
@@ -17,14 +15,14 @@ import { boundsOf } from "./lines.js";
 import { Motion, sceneAt } from "./motion.js";
 import { Pace } from "./pace.js";
 import { drawPicture } from "./picture.js";
+import { Pointing } from "./pointing.js";
 import { RoadLayer, drawGrid } from "./roads.js";
+import { Steering } from "./steering.js";
 import { createSummary } from "./summary.js";
 import { View } from "./view.js";
 
-const STEP = 1.5; // of the scale, by buttons and keys
 const BUSY = 14; // [ms] a frame that takes longer is drawn at most 30 times a second
 const SPARE = 30; // [ms]
-const NEAR = 16; // [px] around a vehicle that still mean it
 const NOTHING = { vehicles: [], labels: [], ghost: 0, fact: 0, predictions: 0, yields: 0, preview: false, kinds: new Set() };
 const LABEL = "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, "
   + "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
@@ -45,9 +43,9 @@ const LABEL = "Map of the drive. Arrow keys move it, plus and minus zoom, 0 show
 export function createMap(element, store) {
   const map = new LiveMap(element, store);
   return {
-    fit: () => map.fit(),
-    follow: (on = !map.following.on) => map.follow(on),
-    zoom: (factor) => map.zoom(factor),
+    fit: () => map.steering.fit(map.everything),
+    follow: (on = !map.following.on) => map.steering.follow(on),
+    zoom: (factor) => map.steering.zoom(factor),
     shown: () => map.shown(),
     frames: () => map.pace.figures(performance.now()),
   };
@@ -69,8 +67,6 @@ class LiveMap {
     this.roads = null;
     this.scene = null; // that is drawn: {t, vehicles}
     this.drawn = NOTHING;
-    this.hovered = null; // vehicle under the mouse
-    this.chosen = null; // vehicle whose card stays
     this.compared = 0; // [ms] since when lines of a turn are shown
     this.taken = null; // rectangles under controls; null: to be measured
     this.frame = 0; // asked for
@@ -82,24 +78,29 @@ class LiveMap {
   }
 
   build() {
-    this.controls = createControls({
-      zoomIn: () => this.zoom(STEP),
-      zoomOut: () => this.zoom(1 / STEP),
-      fit: () => this.fit(),
-      follow: () => this.follow(!this.following.on),
-      both: () => this.showBoth(),
+    this.steering = new Steering(this.view, this.following, () => this.ego, (following) => {
+      this.controls.following(following);
+      this.request();
     });
+    const { steering } = this;
+    this.steered = {
+      zoomIn: () => steering.zoomIn(),
+      zoomOut: () => steering.zoomOut(),
+      fit: () => steering.fit(this.everything),
+      follow: () => steering.follow(!this.following.on),
+    };
+    this.controls = createControls({ ...this.steered, both: () => steering.fit(boundsOfEvidence(this.store.evidence)) });
     const moved = () => {
       this.taken = null;
       this.request();
     };
     this.legend = createLegend(moved, matchMedia("(max-width: 700px)").matches);
     this.badge = createBadge();
-    this.card = createCard();
     this.summary = createSummary("map-in-words");
+    this.pointing = new Pointing(this.store, this.view, this.summary, () => this.request());
     this.element.classList.add("map");
     this.element.append(this.canvas, this.badge.element, this.legend.element, this.controls.bar,
-      this.controls.element, this.card.element, this.summary.element, this.summary.said);
+      this.controls.element, this.pointing.card.element, this.summary.element, this.summary.said);
     this.colours = new Colours(this.element);
   }
 
@@ -138,29 +139,29 @@ class LiveMap {
 
   touched() {
     listen(this.canvas, {
-      pan: (dx, dy, pinching = false) => {
-        if (!(pinching && this.following.on)) this.follow(false);
-        this.view.pan(dx, dy);
-        this.request();
-      },
-      zoom: (factor, x, y) => this.zoomAt(factor, x, y),
-      zoomIn: () => this.zoom(STEP),
-      zoomOut: () => this.zoom(1 / STEP),
-      fit: () => this.fit(),
-      follow: () => this.follow(!this.following.on),
-      hover: (x, y) => this.hover(this.vehicleAt(x, y)),
+      ...this.steered,
+      pan: (dx, dy, pinching = false) => this.steering.pan(dx, dy, pinching),
+      zoom: (factor, x, y) => this.steering.zoomAt(factor, x, y),
+      hover: (x, y) => this.hover(this.pointing.at(x, y)),
       leave: () => this.hover(null),
-      choose: (x, y) => this.choose(this.vehicleAt(x, y)),
-      next: (step) => this.next(step),
-      escape: () => (this.chosen === null ? false : this.choose(null)),
+      choose: (x, y) => this.pointing.choose(this.pointing.at(x, y)),
+      next: (step) => this.pointing.next(step, this.drawn.vehicles),
+      escape: () => (this.pointing.chosen === null ? false : this.pointing.choose(null)),
     });
+  }
+
+  hover(id) {
+    if (id === this.pointing.hovered) return;
+    this.pointing.hovered = id;
+    this.canvas.classList.toggle("map-over", id !== null);
+    this.request();
   }
 
   begin() {
     this.motion.reset();
     this.following.reset();
     this.deciding.keep(null);
-    this.chosen = null;
+    this.pointing.chosen = null;
     this.scene = null;
     this.roadsCame();
   }
@@ -181,92 +182,13 @@ class LiveMap {
     this.draw(performance.now()); // at once: a canvas that changed its size is empty
   }
 
-  // --- what can be done with it ---
-
-  follow(on) {
-    this.following.set(on, this.ego);
-    this.controls.following(on);
-    this.request();
-  }
-
-  fit() {
-    const vehicles = this.scene?.vehicles.map(({ x, y }) => [x, y]) ?? [];
-    const bounds = this.roads?.bounds ?? boundsOf(vehicles, 30);
-    if (!bounds) return;
-    this.follow(false);
-    this.view.fit(bounds, performance.now());
-    this.request();
-  }
-
-  showBoth() {
-    const bounds = boundsOfEvidence(this.store.evidence);
-    if (!bounds) return;
-    this.follow(false);
-    this.view.fit(bounds, performance.now());
-    this.request();
-  }
-
-  zoom(factor) {
-    const { x, y } = this.view;
-    const still = this.following.on && this.ego;
-    this.view.glideTo(still ? null : x, still ? null : y, this.view.aim * factor, performance.now());
-    this.request();
-  }
-
-  zoomAt(factor, px, py) {
-    const before = this.view.scale;
-    if (this.following.on && this.ego) this.view.jump({ x: null, y: null, scale: before * factor });
-    else this.view.zoomAt(factor, px, py);
-    this.following.zoomed(this.view.scale / before);
-    this.request();
-  }
-
   get ego() {
     return this.scene?.vehicles.find((vehicle) => vehicle.id === 0);
   }
 
-  // --- vehicles pointed at ---
-
-  vehicleAt(px, py) {
-    let best = null;
-    for (const vehicle of this.scene?.vehicles ?? []) {
-      const [x, y] = this.view.toScreen(...middleOf(vehicle));
-      const away = Math.hypot(x - px, y - py);
-      if (away < Math.max(radiusOf(vehicle, this.view.scale), NEAR) && !(best?.away < away)) best = { id: vehicle.id, away };
-    }
-    return best?.id ?? null;
-  }
-
-  hover(id) {
-    if (id === this.hovered) return;
-    this.hovered = id;
-    this.canvas.classList.toggle("map-over", id !== null);
-    this.request();
-  }
-
-  choose(id) {
-    const { pointed } = this.store;
-    if (id === null && this.chosen !== null && pointed.size === 1 && pointed.has(this.chosen)) this.store.point([]);
-    this.chosen = id;
-    if (id !== null && id !== 0) this.store.point([id]);
-    const vehicle = this.scene?.vehicles.find((one) => one.id === id);
-    this.summary.say(vehicle, vehicle ? this.goalsOf(id) : []);
-    this.request();
-  }
-
-  next(step) {
-    const ids = [...this.drawn.vehicles].sort((a, b) => a - b);
-    if (!ids.length) return;
-    const at = ids.indexOf(this.chosen);
-    const start = step > 0 ? -1 : 0;
-    this.choose(ids[((at < 0 ? start : at) + step + ids.length) % ids.length]);
-  }
-
-  /** What a vehicle is expected to do: [[words, probability], ...], likeliest first. */
-  goalsOf(id) {
-    const beliefs = this.store.decisionAt(this.store.at)?.beliefs ?? [];
-    const goals = beliefs.find((one) => one.vehicle === id)?.goals ?? [];
-    return [...goals].sort((a, b) => b[1] - a[1]);
+  /** Bounds of everything there is. */
+  get everything() {
+    return this.roads?.bounds ?? boundsOf(this.scene?.vehicles.map(({ x, y }) => [x, y]) ?? [], 30);
   }
 
   // --- drawing ---
@@ -285,6 +207,7 @@ class LiveMap {
     const began = performance.now();
     this.began = now;
     this.scene = this.sceneNow(began);
+    this.pointing.vehicles = this.scene?.vehicles ?? [];
     this.move(began);
     const settling = this.backdropNow(began);
     this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
@@ -333,7 +256,8 @@ class LiveMap {
     const { store, view } = this;
     const { evidence } = store;
     const turn = store.turns.find((one) => one.n === store.turn);
-    const about = (turn?.vehicles ?? []).filter((id) => id !== 0);
+    const causes = new Set((evidence?.causes ?? []).map((cause) => cause.vehicle));
+    const about = (turn?.vehicles ?? []).filter((id) => id !== 0 && !causes.has(id)); // these have their ring
     this.taken ??= this.measured();
     this.labels.begin(view, this.colours.font, this.taken);
     return drawPicture({
@@ -342,9 +266,9 @@ class LiveMap {
       evidence,
       preview: store.preview,
       elapsed: view.still.matches ? null : (now - this.compared) / 1000,
-      causes: new Set((evidence?.causes ?? []).map((cause) => cause.vehicle)),
+      causes,
       pointed: new Set([...store.pointed, ...about]),
-      chosen: this.chosen ?? this.hovered,
+      chosen: this.pointing.id,
     }, { context: this.context, view, colours: this.colours, labels: this.labels, roads: this.roads });
   }
 
@@ -358,18 +282,8 @@ class LiveMap {
     this.controls.scale(view.scale);
     const compared = this.drawn.fact + this.drawn.ghost > 0 && boundsOfEvidence(store.evidence);
     this.controls.comparing(Boolean(compared) && !view.holds(compared));
-    this.cardNow();
+    this.pointing.place();
     if (this.summary.due(now) && this.scene) this.summary.update(this.inWords(), now);
-  }
-
-  cardNow() {
-    const id = this.hovered ?? this.chosen;
-    const vehicle = id === null ? null : this.scene?.vehicles.find((one) => one.id === id);
-    if (!vehicle) return this.card.hide();
-    const [x, y] = this.view.toScreen(...middleOf(vehicle));
-    const { width, height } = this.view;
-    if (x < 0 || y < 0 || x > width || y > height) return this.card.hide();
-    return this.card.show(vehicle, this.goalsOf(id), { x, y, reach: radiusOf(vehicle, this.view.scale), width, height });
   }
 
   inWords() {

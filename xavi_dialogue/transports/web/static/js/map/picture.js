@@ -30,7 +30,6 @@ export function drawPicture(scene, pen) {
   const seen = drawVehicles(scene, pen);
   const kinds = new Set([...decision.kinds, ...evidence.kinds, ...ringKinds(scene, seen)]);
   if (preview) kinds.add("preview");
-  for (const vehicle of seen) kinds.add(vehicle.id === 0 ? "us" : "others");
   return {
     vehicles: seen.map((vehicle) => vehicle.id),
     labels: pen.labels.draw(pen.context),
@@ -71,7 +70,7 @@ function rings(vehicle, scene, { context, view, colours }) {
   };
   if (scene.causes.has(vehicle.id)) ring(colours.get("cause"), 3);
   if (scene.pointed.has(vehicle.id)) ring(colours.get("ink"), 2);
-  if (scene.chosen === vehicle.id && !scene.pointed.has(vehicle.id)) ring(colours.get("focus"), 2);
+  else if (scene.chosen === vehicle.id) ring(colours.get("focus"), 2);
 }
 
 function name(vehicle, scene, { view, colours, labels }, long) {

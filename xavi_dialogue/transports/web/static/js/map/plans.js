@@ -1,6 +1,6 @@
 /** What a decision says, on the map: our path, what others may do, right of way, view, goal. */
 
-import { beforeEnd, count, lengthOf, pathOf, pointAt, remaining } from "./lines.js";
+import { beforeEnd, boundsOf, count, lastWithin, lengthOf, meet, pathOf, pointAt, remaining } from "./lines.js";
 import { arrowHead, flag, giveWay } from "./marks.js";
 import { middleOf } from "./bodies.js";
 import { percent } from "./words.js";
@@ -8,6 +8,7 @@ import { percent } from "./words.js";
 const FEW = 4; // vehicles whose predictions are all labelled
 const LIKELY = 0.05; // probability from which on a goal is labelled
 const PIECES = 8; // of a path that fades along its length
+const BORDER = 28; // [px] at which paths that leave the view are labelled
 const SHORT = 3; // [m] below which there is no path to be seen
 
 /**
@@ -27,9 +28,13 @@ export function drawDecision(scene, pen) {
   if (detail.goal) {
     pen.view.screen(pen.context);
     flag(pen.context, pen.view, detail.goal, pen.colours);
-    drawn.kinds.add("goal");
+    if (meet(pointBox(detail.goal), pen.view.bounds)) drawn.kinds.add("goal");
   }
   return drawn;
+}
+
+function pointBox([x, y]) {
+  return [x, y, x, y];
 }
 
 function plan({ detail, t, quiet }, { context, view, colours }, drawn) {
@@ -69,12 +74,12 @@ function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
     if (count(line) < 2 || lengthOf(line) < SHORT) continue;
     fading(pen, line, strength * (0.25 + 0.75 * way.probability));
     drawn.predictions += 1;
-    end ??= pointAt(line, count(line) - 1);
+    end ??= lastWithin(line, pen.view.within(BORDER));
   }
   if (!labelled || !end || goal.probability < LIKELY) return;
   const [x, y] = pen.view.toScreen(end.x, end.y);
   pen.view.screen(pen.context);
-  arrowHead(pen.context, pen.view, end, pen.colours.get("other", 0.35 + 0.65 * goal.probability), 7);
+  if (end.end) arrowHead(pen.context, pen.view, end, pen.colours.get("other", 0.35 + 0.65 * goal.probability), 7);
   const { colours } = pen;
   const look = { ink: colours.get("other"), ground: colours.get("card", 0.92), edge: colours.get("other", 0.5) };
   pen.labels.add({ key: `goal ${one.vehicle} ${goal.words} ${goal.place}`, text: percent(goal.probability), x, y, reach: 9, weight: 40 + goal.probability, ...look });
@@ -113,13 +118,25 @@ function rightOfWay({ detail, vehicles }, { context, view, colours, roads }, dra
   const first = way.goes_first.map((id) => roads.links.get(id)).filter(Boolean);
   for (const link of first) strip(link, "warn", 0.32);
   strip(ours, "accent", 0.4);
-  drawn.kinds.add("ours");
   drawn.yields = first.length;
+  const inView = [ours, ...first].some((link) => meet(boxOf(link, roads), view.bounds));
+  if (inView) drawn.kinds.add("ours");
   if (!first.length) return;
-  drawn.kinds.add("yields");
+  if (inView) drawn.kinds.add("yields");
   const waiting = roads.lanes.get(ours.from_lane);
   view.screen(context);
-  if (waiting && view.scale > 1.5) giveWay(context, view, beforeEnd(waiting.line, 1), colours);
+  if (waiting && view.scale > 1.5) giveWay(context, view, beside(waiting, 13 / view.scale), colours);
+}
+
+function boxOf(link, roads) {
+  return boundsOf(link.via.map((id) => roads.lanes.get(id)?.line ?? []), 1) ?? [Infinity, Infinity, -Infinity, -Infinity];
+}
+
+/** Where a sign stands: to the right of a lane's end. */
+function beside(lane, gap) {
+  const { x, y, heading } = beforeEnd(lane.line, 1);
+  const away = lane.width / 2 + gap;
+  return { x: x + Math.sin(heading) * away, y: y - Math.cos(heading) * away };
 }
 
 /** Whether we have gone through already: the decision is up to a second old. */
@@ -135,9 +152,10 @@ function viewRadius({ detail, vehicles }, { context, view, colours }, drawn) {
   view.screen(context);
   const [px, py] = view.toScreen(ego.x, ego.y);
   context.beginPath();
-  context.arc(px, py, detail.view_radius * view.scale, 0, 2 * Math.PI);
+  const radius = detail.view_radius * view.scale;
+  context.arc(px, py, radius, 0, 2 * Math.PI);
   context.strokeStyle = colours.get("accent", 0.4);
   context.lineWidth = 1;
   context.stroke();
-  drawn.kinds.add("view");
+  if (radius < Math.hypot(Math.max(px, view.width - px), Math.max(py, view.height - py))) drawn.kinds.add("view");
 }

@@ -87,7 +87,7 @@ export class RoadLayer {
     }
     if (scale >= FROM.stops) stroke(context, seen(this.stops), colour, () => 0.4);
     if (scale >= FROM.arrows) {
-      stroke(context, seen(this.arrows), colour, () => 0.2);
+      stroke(context, seen(this.arrows), colour, () => 0.24);
       for (const one of seen(this.arrows)) fillPath(context, one.heads, colour);
     }
   }
@@ -137,18 +137,20 @@ function arrow(lane, ways) {
   const { x, y, heading } = beforeEnd(lane.line, Math.min(9, lengthOf(lane.line) / 3));
   const [c, s] = [Math.cos(heading), Math.sin(heading)];
   const place = (u, v) => [x + u * c - v * s, y + u * s + v * c];
-  const lines = [[...place(-2.6, 0), ...place(0, 0)]];
+  const lines = [[...place(-3, 0), ...place(0.1, 0)]];
   const heads = new Path2D();
   for (const way of ways) {
     const side = TURN[way] ?? 0;
-    const tip = side ? [0.9, side * 0.75] : [1.4, 0];
-    const angle = side ? side * (Math.PI / 2) * (way === "turnaround" ? 1.8 : 1) : 0;
-    lines.push([...place(0, 0), ...place(...tip)]);
+    const back = way === "turnaround" ? -0.9 : 0.4;
+    const tip = side ? [back, side * 0.85] : [1.6, 0];
+    const angle = side ? side * (way === "turnaround" ? Math.PI : Math.PI / 2) : 0;
+    const bend = side ? [[0.1, 0], [0.4, side * 0.25], [Math.max(back, 0.4), side * 0.6]] : [[0, 0]];
+    lines.push([...bend, tip].flatMap((point) => place(...point)));
     const corner = (along, across) => place(
       tip[0] + along * Math.cos(angle) - across * Math.sin(angle),
       tip[1] + along * Math.sin(angle) + across * Math.cos(angle),
     );
-    trace(heads, [...corner(0.75, 0), ...corner(-0.15, 0.42), ...corner(-0.15, -0.42)], true);
+    trace(heads, [...corner(side ? 0.6 : 1.1, 0), ...corner(-0.1, 0.45), ...corner(-0.1, -0.45)], true);
   }
   return { path: pathOf(...lines), heads, width: 0.2, lane: null, box: [x - 4, y - 4, x + 4, y + 4] };
 }

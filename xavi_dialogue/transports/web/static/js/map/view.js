@@ -70,6 +70,13 @@ export class View {
     return [left, bottom, right, top];
   }
 
+  /** What is to be seen without a border [px]. */
+  within(border) {
+    const [left, bottom, right, top] = this.bounds;
+    const metres = border / this.scale;
+    return [left + metres, bottom + metres, right - metres, top - metres];
+  }
+
   /** Whether bounds are within what is to be seen. */
   holds([left, bottom, right, top]) {
     const seen = this.bounds;
