@@ -15,7 +15,7 @@ def branches(trace: PlanTrace) -> tuple[Branch, ...]:
         root = tree.grow(trace)
     except tree.TreeError:
         return ()
-    return _beneath(root)
+    return _beneath(root, arrives=trace.waypoint is None)
 
 
 def rounded(value: float | None) -> float | None:
@@ -23,12 +23,13 @@ def rounded(value: float | None) -> float | None:
     return None if value is None else round(value, DIGITS)
 
 
-def _beneath(branch: tree.Branch) -> tuple[Branch, ...]:
+def _beneath(branch: tree.Branch, *, arrives: bool) -> tuple[Branch, ...]:
     in_lane = has_lane_change(child.actions[-1] for child in branch.children)
-    return tuple(_branch(child, in_lane) for child in branch.children)
+    return tuple(_branch(child, in_lane, arrives) for child in branch.children)
 
 
-def _branch(branch: tree.Branch, in_lane: bool) -> Branch:
+def _branch(branch: tree.Branch, in_lane: bool, arrives: bool) -> Branch:
+    """One branch; `arrives`: rollouts aim for the goal, and not for a place on the way there."""
     action, total = branch.actions[-1], branch.visits + branch.forced
     value = next((v for v in (branch.alike, branch.value, branch.mean) if v is not None), None)
     return Branch(
@@ -38,12 +39,12 @@ def _branch(branch: tree.Branch, in_lane: bool) -> Branch:
         visits=branch.visits,
         forced=branch.forced,
         value=rounded(value),
-        arrival=rounded(branch.time),
+        arrival=rounded(branch.time) if arrives else None,
         outcomes={name: chance(count / total) for name, count in branch.outcomes.items()},
         held_up=tuple(
             (one.vehicle, hold_up_words(one.how), chance(one.share)) for one in branch.held_up
         ),
-        children=_beneath(branch),
+        children=_beneath(branch, arrives=arrives),
         refused=_refused(branch),
     )
 

@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import groupby
@@ -42,9 +43,14 @@ def has_lane_change(actions: Iterable[str]) -> bool:
     return any(action in LANE_CHANGES for action in actions)
 
 
-def plan_words(plan: Iterable[Action]) -> str:
-    """A plan: "move to the left lane, then turn left"; where there is none, the car stops."""
-    said = [deed(action) for action in plain(plan) or ("stop",)]
+def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
+    """A plan: "move to the left lane, then turn left"; where there is none, the car stops.
+
+    Args:
+        plan: of the ego.
+        in_lane: see `deed`.
+    """
+    said = [deed(action, in_lane=in_lane) for action in plain(plan) or ("stop",)]
     return ", then ".join(words for words, _ in groupby(said))
 
 
@@ -67,18 +73,29 @@ def hold_up_words(how: HoldUp) -> str:
     return _table()["held-up"][how]
 
 
-def cause_words(cause: Cause) -> str:
-    """What a vehicle was expected to do: "will very likely slow down and turn right"."""
+def cause_words(cause: Cause, *, of_ours: bool = True) -> str:
+    """What a vehicle was expected to do: "will very likely slow down and turn right".
+
+    Args:
+        cause: the vehicle.
+        of_ours: it is in our way; else it is in another's, and so may we be.
+    """
     point, grammar = cause_point(cause, "future", _FULL), load_grammar("answer_passenger")
+    if not of_ours:
+        point = replace(point, how=None)
     chance = expand(grammar, "LIKELY", min(cause.probability, 1.0))
+    if not of_ours and point.doing is None:
+        return _table()["held-up-another"]["any"]
     return _said((Word("will"), *chance, *expand(grammar, "DEED", point)))
 
 
-def way_words(cause: Cause) -> str | None:
-    """How a vehicle held us up: "slowing ahead of me, from 42 to 13 km/h"."""
+def way_words(cause: Cause, *, of_ours: bool = True) -> str | None:
+    """How a vehicle held us up, or another: "slowing ahead of me, from 42 to 13 km/h"."""
     point = cause_point(cause, "past", _FULL)
     if point.how is None:
         return None
+    if not of_ours:
+        return _table()["held-up-another"][point.how]
     if point.how in ("collision", "right-of-way"):
         return _table()["held-up"][point.how]
     return _said(expand(load_grammar("answer_passenger"), "HINDRANCE", point))
