@@ -5,11 +5,12 @@ const PATIENCE = 20_000; // [ms]
 /**
  * @param {string} path
  * @returns {Promise<any>}
- * @throws {Error} with words for people
+ * @throws {Error} with words for people, and the response's `status` where there was one
  */
 export async function fetchJson(path) {
   const response = await fetch(path, { headers: { accept: "application/json" }, signal: AbortSignal.timeout(PATIENCE) });
   const body = await response.json().catch(() => null);
   if (response.ok && body !== null) return body;
-  throw new Error(typeof body?.error === "string" ? body.error : "The dashboard did not say what was asked for.");
+  const words = typeof body?.error === "string" ? body.error : "The dashboard did not say what was asked for.";
+  throw Object.assign(new Error(words), { status: response.status });
 }

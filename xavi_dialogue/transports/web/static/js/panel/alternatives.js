@@ -106,7 +106,12 @@ function drawRow(tr, one, scale) {
   drawRange(range, one.time, scale);
   range.hidden = !one.time;
   say(time, timeWords(one));
-  say(bounds, one.time ? `${fixed(one.time.low)} to ${fixed(one.time.high)} s` : "");
+  say(bounds, one.time ? spread(one.time) : "");
+}
+
+function spread({ low, high }) {
+  if (fixed(low) === fixed(high)) return "in all samples";
+  return `${fixed(low)} to ${fixed(high)} s`;
 }
 
 function timeWords(one) {

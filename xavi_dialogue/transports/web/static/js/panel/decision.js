@@ -5,6 +5,7 @@ import { createAlternatives } from "./alternatives.js";
 import { createBranches } from "./branches.js";
 import { createHead } from "./head.js";
 import { createPredictions } from "./predictions.js";
+import { staying } from "./staying.js";
 import { eachFrame, set } from "./steady.js";
 
 const LIVE_EACH = 950; // [ms] between decisions while they come by themselves
@@ -31,6 +32,7 @@ export function createDecision(element, store) {
     follow();
   });
   store.addEventListener("status", () => panel.state === "failed" && store.status.connected && retry(panel, store));
+  new ResizeObserver(follow).observe(element); // it may have been behind a tab
   follow();
   return { element, shown: () => ({ state: panel.state, id: panel.shown }) };
 }
@@ -73,7 +75,7 @@ function wanted(panel, store) {
     else notice(panel, "none", store);
     return;
   }
-  if (decision.id === panel.asked || panel.busy || panel.timer) return;
+  if (decision.id === panel.asked || panel.busy || panel.timer || isHidden(panel)) return;
   const wait = panel.at + (store.live ? LIVE_EACH : HELD_EACH) - performance.now();
   if (wait <= 0 || panel.shown === null) return void load(panel, store, decision);
   panel.timer = setTimeout(() => {
@@ -100,11 +102,20 @@ async function load(panel, store, decision) {
   }
 }
 
+/** Whether it is behind a tab: nothing is fetched or drawn for nobody. */
+function isHidden(panel) {
+  return panel.element.offsetParent === null;
+}
+
 function isGone(error) {
   return error?.status === 404 || error?.status === 410;
 }
 
-function show(panel, state, store, decision = null, whole = null) {
+function show(panel, ...what) {
+  staying(panel.element, () => draw(panel, ...what));
+}
+
+function draw(panel, state, store, decision = null, whole = null) {
   panel.state = state;
   const known = state === "shown" || (state === "loading" && panel.full);
   set(panel.element, "data-state", state);
@@ -166,8 +177,8 @@ function skeleton() {
 
 function moveCharts(panel, store) {
   const now = performance.now();
-  if (panel.state === "none" || panel.element.offsetParent === null) return;
+  if (panel.state === "none" || isHidden(panel)) return;
   if (store.live && now - panel.moved < MOVE_EACH) return;
   panel.moved = now;
-  panel.predictions.move();
+  staying(panel.element, () => panel.predictions.move());
 }
