@@ -6,6 +6,7 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 
 import msgspec
 
@@ -88,7 +89,7 @@ class Library:
             return None
         found = {name: await self._trace(name) for name in traces_of(turn.reply)}
         known = {name: trace for name, trace in found.items() if trace is not None}
-        make = lambda: of_turn(n, turn.reply, known)  # noqa: E731
+        make = partial(of_turn, n, turn.reply, known)
         if len(known) == len(found):
             return self._kept(("evidence", n), make)
         shown = make()  # what is missing may still come
