@@ -37,7 +37,7 @@ export function drawVehicle(context, view, vehicle, colours, t) {
   place(context, view, vehicle);
   const [long, broad] = sizeOf(vehicle, view.scale);
   const paint = colours.paintOf(vehicle);
-  const look = LOOKS[vehicle.kind] ?? LOOKS.car;
+  const look = Object.hasOwn(LOOKS, vehicle.kind) ? LOOKS[vehicle.kind] : LOOKS.car; // the kind is told by a stranger
   const pen = { context, colours, long, broad, paint, fine: long >= DETAIL && broad >= 8 };
   look(pen);
   if (long >= 16) lights(pen, vehicle.signals, t);

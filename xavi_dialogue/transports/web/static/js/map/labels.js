@@ -95,8 +95,9 @@ export class Labels {
   }
 
   each([left, top, right, bottom], visit) {
-    for (let i = Math.floor(left / CELL); i <= Math.floor(right / CELL); i += 1) {
-      for (let j = Math.floor(top / CELL); j <= Math.floor(bottom / CELL); j += 1) {
+    const [across, down] = [cellOf(right, this.view.width), cellOf(bottom, this.view.height)];
+    for (let i = cellOf(left, this.view.width); i <= across; i += 1) {
+      for (let j = cellOf(top, this.view.height); j <= down; j += 1) {
         const key = i * 4096 + j;
         if (!this.cells.has(key)) this.cells.set(key, []);
         visit(this.cells.get(key));
@@ -119,6 +120,11 @@ export class Labels {
     }
     return width;
   }
+}
+
+/** Beyond the view there is nothing to keep free, however large a vehicle is said to be. */
+function cellOf(pixels, size) {
+  return Math.floor(Math.min(Math.max(pixels, 0), size) / CELL);
 }
 
 function shorter({ short, ...label }) {

@@ -37,8 +37,8 @@ const LABEL = "Map of the drive. Arrow keys move it, plus and minus zoom, 0 show
  *   vehicles: ids, labels: texts, ghost, fact: numbers of lines, predictions: number of paths,
  *   yields: number of links that go first, preview, pointed, causes: ids, follow, scale [px/m]}.
  *   `frames`: {count, fps: over the last 2 s, worst_ms, draw_ms: taken by a frame, latest_scene:
- *   {seq, wall, drawn: epoch ms of the first frame on the way to it, reached: of the first frame
- *   that shows it where it is, or null}}
+ *   {seq, wall, drawn: epoch ms of the first frame on the way to it}, reached_scene: likewise the
+ *   latest that vehicles have come to where it says}
  */
 export function createMap(element, store) {
   const map = new LiveMap(element, store);
@@ -71,6 +71,7 @@ class LiveMap {
     this.taken = null; // rectangles under controls; null: to be measured
     this.frame = 0; // asked for
     this.began = -Infinity; // [ms] the last one
+    this.wasLive = true;
     this.build();
     this.listen();
     this.roadsCame();
@@ -108,8 +109,8 @@ class LiveMap {
     const on = {
       ride: () => this.begin(),
       roads: () => this.roadsCame(),
-      scene: () => this.motion.arrive(this.store.latest, performance.now()),
-      moment: () => this.deciding.update(),
+      scene: () => this.sceneCame(),
+      moment: () => this.momentCame(),
       decisions: () => this.deciding.update(),
       shown: () => void (this.compared = performance.now()),
       pointed: () => {},
@@ -118,8 +119,7 @@ class LiveMap {
     };
     for (const [name, change] of Object.entries(on)) {
       this.store.addEventListener(name, () => {
-        change();
-        this.request();
+        if (change() !== false) this.request();
       });
     }
     const recoloured = () => {
@@ -148,6 +148,21 @@ class LiveMap {
       next: (step) => this.pointing.next(step, this.drawn.vehicles),
       escape: () => (this.pointing.chosen === null ? false : this.pointing.choose(null)),
     });
+  }
+
+  /** A live scene came; false: nothing moved, so that nothing need be drawn. */
+  sceneCame() {
+    this.motion.arrive(this.store.latest, performance.now());
+    this.badge.update(this.store);
+    return !this.motion.still;
+  }
+
+  /** Another moment is shown; false: only since a scene came, see there. */
+  momentCame() {
+    this.deciding.update();
+    const went = this.store.live && this.wasLive;
+    this.wasLive = this.store.live;
+    return !went;
   }
 
   hover(id) {
@@ -212,7 +227,7 @@ class LiveMap {
     const settling = this.backdropNow(began);
     this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
     this.around(began);
-    if (this.scene && this.store.live) this.pace.painted(this.store.latest, !this.motion.moving(began));
+    if (this.scene && this.store.live) this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
     this.pace.frame(began, performance.now());
     if (settling || this.moving(began)) this.request();
   }

@@ -1,13 +1,15 @@
 /**
  * Where vehicles are at a moment, between the scenes that were told.
  *
- * Live, what is drawn trails the latest scene: it gets there when the next one is due. So motion is
- * smooth whatever the speed of the simulation, and nothing has to be guessed.
+ * Live, what is drawn trails the latest scene: it gets there a little after the next one is due, so
+ * that one that is late does not stop all motion. It is smooth whatever the speed of the simulation,
+ * and nothing has to be guessed.
  */
 
 import { lastUpTo } from "../store.js";
 
 const KEPT = 6; // scenes
+const TRAIL = 1.25; // pauses between scenes, in which one is reached
 const FAR = 3; // mean pauses between scenes; who is farther behind leaps
 
 export class Motion {
@@ -41,13 +43,18 @@ export class Motion {
   /** [s] The simulation time that is drawn at `now` [ms]. */
   time(now) {
     const last = this.scenes.at(-1);
-    const part = Math.min(Math.max((now - this.heard) / this.pause, 0), 1);
+    const part = Math.min(Math.max((now - this.heard) / (this.pause * TRAIL), 0), 1);
     return this.start + (last.t - this.start) * part;
   }
 
   /** Whether the picture changes by itself. */
   moving(now) {
-    return this.scenes.length > 0 && !this.still && now - this.heard < this.pause;
+    return this.scenes.length > 0 && !this.still && now - this.heard < this.pause * TRAIL;
+  }
+
+  /** The last scene that what is drawn at `now` [ms] has come up to. */
+  reached(now) {
+    return this.scenes[Math.max(lastUpTo(this.scenes, this.time(now)), 0)];
   }
 
   /** What is drawn live: {t, vehicles}. */

@@ -8,7 +8,8 @@ export class Pace {
     this.recent = []; // [ms] when frames were drawn
     this.draw = 0; // [ms] of a frame, smoothed
     this.worst = 0; // [ms] the longest frame so far
-    this.scene = null; // {seq, wall, drawn, reached}
+    this.latest = null; // {seq, wall, drawn}
+    this.reached = null; // {seq, wall, drawn}
   }
 
   /** A frame was drawn. */
@@ -21,11 +22,11 @@ export class Pace {
     this.worst = Math.max(this.worst, took);
   }
 
-  /** A live scene took part in a frame; `whole`: it was drawn where it says, not on the way there. */
-  painted(scene, whole) {
-    const now = performance.timeOrigin + performance.now();
-    if (this.scene?.seq !== scene.seq) this.scene = { seq: scene.seq, wall: scene.wall, drawn: now, reached: null };
-    if (whole && this.scene.reached === null) this.scene.reached = now;
+  /** A frame was drawn on the way to the latest live scene, from one that it has come up to. */
+  painted(latest, reached) {
+    const drawn = performance.timeOrigin + performance.now();
+    if (this.latest?.seq !== latest.seq) this.latest = { seq: latest.seq, wall: latest.wall, drawn };
+    if (this.reached?.seq !== reached.seq) this.reached = { seq: reached.seq, wall: reached.wall, drawn };
   }
 
   /** See `createMap`. */
@@ -37,7 +38,8 @@ export class Pace {
       fps: span > 0 ? ((frames.length - 1) * 1000) / span : 0,
       worst_ms: this.worst,
       draw_ms: this.draw,
-      latest_scene: this.scene && { ...this.scene },
+      latest_scene: this.latest && { ...this.latest },
+      reached_scene: this.reached && { ...this.reached },
     };
   }
 }

@@ -22,7 +22,8 @@ export function drawPicture(scene, pen) {
   const chosen = new Set([...scene.pointed, ...scene.causes]);
   if (scene.chosen !== null) chosen.add(scene.chosen);
   const quiet = Boolean(scene.evidence || scene.preview);
-  const decision = drawDecision({ ...scene, chosen, quiet }, pen);
+  const retold = scene.evidence?.decision === scene.detail?.id && Boolean(scene.evidence?.factual?.lines.length);
+  const decision = drawDecision({ ...scene, chosen, quiet, retold }, pen);
   const evidence = scene.evidence
     ? drawEvidence(scene.evidence, scene.elapsed, pen, ego ?? OURS)
     : { fact: 0, ghost: 0, kinds: new Set() };

@@ -13,7 +13,8 @@ const SHORT = 3; // [m] below which there is no path to be seen
 
 /**
  * Draw it.
- * @param scene {detail, t, vehicles, chosen: Set of vehicles pointed at, quiet: a turn is shown too}
+ * @param scene {detail, t, vehicles, chosen: Set of vehicles pointed at, quiet: a turn is shown too,
+ *   retold: and the plan's own line with it}
  * @param pen {context, view, colours, labels, roads}
  * @returns {{predictions: number, yields: number, kinds: Set<string>}} what was drawn
  */
@@ -24,7 +25,7 @@ export function drawDecision(scene, pen) {
   rightOfWay(scene, pen, drawn);
   viewRadius(scene, pen, drawn);
   predictions(scene, pen, drawn);
-  if (detail.ego) plan(scene, pen, drawn);
+  if (detail.ego && !scene.retold) plan(scene, pen, drawn);
   if (detail.goal) {
     pen.view.screen(pen.context);
     flag(pen.context, pen.view, detail.goal, pen.colours);

@@ -5,7 +5,7 @@ import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./li
 const DASH = [3, 4.5]; // [m]
 const LINE = 0.14; // [m] width of markings
 const KERB = 0.35; // [m] on each side
-const TURN = { left: 1, right: -1, straight: 0, turnaround: 1 };
+const TURN = new Map([["left", 1], ["right", -1], ["turnaround", 1]]);
 
 /** Scales [px/m] from which on things are drawn: below, they would only be clutter. */
 const FROM = { sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
@@ -140,7 +140,7 @@ function arrow(lane, ways) {
   const lines = [[...place(-3, 0), ...place(0.1, 0)]];
   const heads = new Path2D();
   for (const way of ways) {
-    const side = TURN[way] ?? 0;
+    const side = TURN.get(way) ?? 0;
     const back = way === "turnaround" ? -0.9 : 0.4;
     const tip = side ? [back, side * 0.85] : [1.6, 0];
     const angle = side ? side * (way === "turnaround" ? Math.PI : Math.PI / 2) : 0;
