@@ -42,7 +42,8 @@ class Gate:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """See ASGI."""
-        if scope["type"] not in {"http", "websocket"}:
+        if scope["type"] not in {"http", "websocket"}:  # nobody has come: a beginning or an end
+            await self._app(scope, receive, send)
             return
         started = False
 

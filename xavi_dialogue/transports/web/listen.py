@@ -3,7 +3,7 @@
 import ipaddress
 import re
 import secrets
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Self
 
 DEFAULT_HOST = "127.0.0.1"
@@ -25,7 +25,9 @@ class Listen:
 
     host: str = DEFAULT_HOST  # an address, that of IPv6 without brackets, or a name
     port: int = DEFAULT_PORT  # 0: any that is free
-    token: str | None = None  # that browsers must bring; None: none is asked for
+    token: str | None = field(
+        default=None, repr=False
+    )  # that browsers must bring; None: none is asked for
     names: tuple[str, ...] = ()  # other names that the page is opened under, in small letters
 
     @classmethod
@@ -73,7 +75,7 @@ class Listen:
         Args:
             port: that is listened at, once it is known.
         """
-        host = DEFAULT_HOST if self.everywhere else bracketed(self.host)
+        host = {"0.0.0.0": DEFAULT_HOST, "::": "[::1]"}.get(self.host, bracketed(self.host))
         return f"http://{self.names[0] if self.names else host}:{port}/"
 
     def serves(self, host: str) -> bool:

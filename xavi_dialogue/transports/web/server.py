@@ -105,11 +105,15 @@ class Server:
             stopping.cancel()
             self._site.close()
             with suppress(TimeoutError):
-                await asyncio.wait_for(self._site.empty.wait(), ENDING)
+                async with asyncio.timeout(ENDING):
+                    await self._site.empty.wait()
             with self._lock:
                 self._loop, self._over = None, True
             server.should_exit = True
             await serving
+            for connection in list(server.server_state.connections):
+                connection.transport.abort()  # of who reads nothing
+            await asyncio.sleep(0)  # they are lost in the loop's next round
 
     def close(self) -> None:
         """Give the place up; harmless after `serve`."""
@@ -185,6 +189,7 @@ class _Http(H11Protocol):
     """Cuts off who does not ask, or does not read, in time; has the headers of all responses."""
 
     _late: asyncio.TimerHandle | None = None
+    _cut: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
@@ -198,24 +203,27 @@ class _Http(H11Protocol):
         self._wait()
 
     def handle_websocket_upgrade(self, event: Any) -> None:
-        self._wait(0.0)
+        self._wait_no_longer()
         super().handle_websocket_upgrade(event)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._wait(0.0)
+        self._wait_no_longer()
+        if self._cut is not None:
+            self._cut.cancel()
         super().connection_lost(exc)
 
     def send_400_response(self, msg: str) -> None:
         del msg
         self._send_off(400, "This is no request that can be understood.")
 
-    def _wait(self, patience: float = PATIENCE) -> None:
-        """Wait so long [s] for the next request; 0: no longer."""
+    def _wait(self) -> None:
+        """Wait for the next request, for a while."""
+        self._wait_no_longer()
+        self._late = self.loop.call_later(PATIENCE, self._give_up, self.cycle)
+
+    def _wait_no_longer(self) -> None:
         if self._late is not None:
             self._late.cancel()
-        self._late = None
-        if patience:
-            self._late = self.loop.call_later(patience, self._give_up, self.cycle)
 
     def _give_up(self, last: RequestResponseCycle | None) -> None:
         if self.cycle is last:
@@ -223,7 +231,8 @@ class _Http(H11Protocol):
 
     def _part(self) -> None:
         self.transport.close()
-        self.loop.call_later(LAST, self.transport.abort)
+        if self._cut is None:
+            self._cut = self.loop.call_later(LAST, self.transport.abort)
 
     def _send_off(self, status: int, words: str) -> None:
         data = bodies.said(words)
@@ -246,6 +255,8 @@ class _Handshake(ServerProtocol):
 class _WebSocket(WebSocketsSansIOProtocol):
     """Cuts off who does not read, and who sends endless parts of messages or signs of life."""
 
+    _cut: asyncio.TimerHandle | None = None
+
     def __init__(self, *arguments: Any, **named: Any) -> None:
         super().__init__(*arguments, **named)
         self.close_timeout = PARTING
@@ -255,7 +266,13 @@ class _WebSocket(WebSocketsSansIOProtocol):
     async def run_asgi(self) -> None:
         await super().run_asgi()
         # What was not read until now keeps a connection open that is closed otherwise.
-        self.loop.call_later(PARTING, self.transport.abort)
+        if self in self.connections:
+            self._cut = self.loop.call_later(PARTING, self.transport.abort)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if self._cut is not None:
+            self._cut.cancel()
+        super().connection_lost(exc)
 
     def keepalive_timeout(self) -> None:
         super().keepalive_timeout()

@@ -128,7 +128,8 @@ class Site:
     async def _evidence(self, request: Request) -> Response:
         number = int(_named(request, _NUMBER, NO_EVIDENCE, "number"))
         try:
-            found = await asyncio.wait_for(self._board.evidence(number), EVIDENCE_WAIT)
+            async with asyncio.timeout(EVIDENCE_WAIT):
+                found = await self._board.evidence(number)
         except TimeoutError:
             raise HTTPException(504, TOO_LATE) from None
         return await _json(request, found, NO_EVIDENCE)
@@ -185,10 +186,10 @@ class Site:
         finally:
             for task in tasks:
                 task.cancel()
-            ends = await asyncio.gather(*tasks, return_exceptions=True)
-        for end in ends:
-            if isinstance(end, Exception) and not isinstance(end, WebSocketDisconnect):
-                raise end
+            await asyncio.wait(tasks)
+        for task in tasks:
+            if not task.cancelled() and not isinstance(task.exception(), WebSocketDisconnect):
+                task.result()
         await _dismiss(socket, viewer)
 
     async def _send(self, socket: WebSocket, viewer: Viewer, more: asyncio.Event) -> None:
@@ -200,7 +201,8 @@ class Site:
                 await asyncio.sleep(0)  # a long row must not hold up the others
             else:
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(more.wait(), viewer.due(self._clock()))
+                    async with asyncio.timeout(viewer.due(self._clock())):
+                        await more.wait()
 
     async def _hear(self, socket: WebSocket, viewer: Viewer) -> None:
         while (event := await socket.receive())["type"] == "websocket.receive":
@@ -231,8 +233,8 @@ async def _dismiss(socket: WebSocket, viewer: Viewer) -> None:
     """Close the connection where a browser is to leave; one that reads nothing is not told."""
     if viewer.leave is not None:
         with suppress(TimeoutError, RuntimeError, WebSocketDisconnect):
-            going = socket.close(viewer.leave.code, viewer.leave.reason)
-            await asyncio.wait_for(going, CLOSING)
+            async with asyncio.timeout(CLOSING):
+                await socket.close(viewer.leave.code, viewer.leave.reason)
 
 
 async def _page(request: Request) -> Response:

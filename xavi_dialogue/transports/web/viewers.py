@@ -13,6 +13,7 @@ import msgspec
 
 from xavi_dialogue.transports.web.limits import Bucket, Rate
 from xavi_dialogue.transports.web.wire import (
+    MAX_INCOMING,
     Ask,
     Cancel,
     Incoming,
@@ -38,6 +39,7 @@ GOING_AWAY = 1001  # the dashboard ends
 UNREADABLE = 1003  # binary
 BROKEN = 1011  # a fault of ours
 AGAIN_LATER = 1013  # too slow for what it is told, or too many browsers
+TOO_LARGE = 1009
 NO_TOKEN = 4401
 TOO_OFTEN = 4429
 
@@ -182,6 +184,9 @@ class Viewer:
             What it wants; None where there is nothing to do, or it is told what is amiss.
         """
         if self.leave is not None:
+            return None
+        if len(text) > MAX_INCOMING:
+            self.send_away(TOO_LARGE, "A message was too large.")
             return None
         if not self._messages.take(now):
             self.send_away(TOO_OFTEN, "Too many messages at once.")
