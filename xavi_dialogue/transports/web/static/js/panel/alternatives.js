@@ -25,8 +25,9 @@ export function createAlternatives(store) {
 
   function update(decision) {
     const tried = decision.alternatives.filter((one) => one.rollouts > 0);
-    const range = scaleFor(tried.map((one) => one.time).filter(Boolean));
-    say(scale, `±${range} s`);
+    const times = tried.map((one) => one.time).filter(Boolean);
+    const range = scaleFor(times);
+    say(scale, times.length ? `±${range} s` : "");
     table.hidden = !tried.length;
     steady(body, tried, (one) => one.action, (one) => row(one, preview), (tr, one) => drawRow(tr, one, range));
     steady(barred, untried(decision), ([reason]) => reason, () => h("li"), said);

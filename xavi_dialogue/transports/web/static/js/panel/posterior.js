@@ -12,6 +12,9 @@ const HEIGHT = 84; // [px]
 const FOOT = 16; // [px] for times
 const LABELS = 112; // [px] for words at the right
 const LINE = 13; // [px] between labels
+const LETTER = 6; // [px] about as wide as a letter of a label is
+const LABELLED = 0.04; // probability in the end from which on a goal is named at the right
+const WIDE = 0.3; // that a goal must have had to be named where it was likeliest
 
 /** The order in which goals are stacked: as they came up, so that none changes its place. */
 export class Places {
@@ -85,6 +88,7 @@ export function drawPosterior(svg, { stretches, goals, at, width }) {
     svg,
     h("rect", { class: "posterior-ground", width: right, height: HEIGHT - FOOT }),
     stretches.map((points) => goals.map((_, k) => area(points, k, x, y))),
+    passing(stretches, goals, x, y, right),
     labels(stretches, goals, y, right),
     h("line", { class: "posterior-now", x1: now, x2: now, y1: 0, y2: HEIGHT - FOOT + 3 }),
     now > 50 ? h("text", { x: 0, y: HEIGHT - 3 }, clock(from)) : null,
@@ -111,7 +115,7 @@ function labels(stretches, goals, y, right) {
   if (!last) return [];
   const named = goals
     .map((words, k) => ({ words, k, share: last.shares[k] ?? 0 }))
-    .filter(({ share }) => share >= 0.04)
+    .filter(({ share }) => share >= LABELLED)
     .map((one) => ({ ...one, y: y(below(last.shares, one.k) + one.share / 2) }));
   let lowest = HEIGHT - FOOT + LINE / 2;
   for (const one of named) lowest = one.at = Math.min(Math.max(one.y, 6), lowest - LINE);
@@ -120,6 +124,22 @@ function labels(stretches, goals, y, right) {
     h("line", { class: "posterior-leader", x1: right + 1, x2: right + 7, y1: one.y, y2: one.at - over }),
     h("text", { class: "posterior-label", x: right + 10, y: one.at - over + 4 }, short(one.words)),
   ]);
+}
+
+/** Words within the area of each goal that was likely for a while, and is not in the end. */
+function passing(stretches, goals, x, y, right) {
+  const points = stretches.flat();
+  const last = points.at(-1)?.shares ?? [];
+  return goals.map((words, k) => {
+    if ((last[k] ?? 0) >= LABELLED) return null;
+    const share = (one) => one.shares[k] ?? 0;
+    const peak = points.reduce((best, one) => (share(one) > share(best) ? one : best), points[0]);
+    if (!peak || share(peak) < WIDE) return null;
+    const half = (short(words).length * LETTER) / 2;
+    const at = Math.min(Math.max(x(peak.t), half + 2), right - half - 2);
+    const middle = y(below(peak.shares, k) + share(peak) / 2);
+    return h("text", { class: "posterior-passing", x: at, y: middle + 4, "text-anchor": "middle" }, short(words));
+  });
 }
 
 function short(words) {

@@ -99,11 +99,13 @@ function lay(parts, view, store) {
   if (longer) drawOverview(parts.overview, { ...what, width: parts.overviewBox.clientWidth });
 }
 
-/** The bar of what is under way reaches to now: drawn anew twice a second, not with every scene. */
+/** The bar of what is under way reaches to now; only once in a while does it get other words. */
 function growing(parts, view, store) {
-  const open = view.bars?.[view.bars.length - 1];
-  if (!open?.open || view.last - open.to < 0.5 || !view.width) return;
-  lay(parts, view, store);
+  const open = view.bars?.at(-1);
+  if (!open?.open || !view.width) return;
+  if (view.last - open.to > 1) lay(parts, view, store);
+  const wide = (Math.min(view.last, view.start + view.length) - Math.max(open.from, view.start)) / view.length;
+  if (wide > 0) parts.svg.querySelector(".bar-open rect")?.setAttribute("width", Math.max(wide * view.width - 1, 1));
 }
 
 function place(parts, view, store) {
