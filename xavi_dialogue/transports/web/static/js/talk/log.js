@@ -27,8 +27,10 @@ export class Log {
     if (quietly) this.turns.setAttribute("aria-busy", "true");
     this.turns.append(...elements);
     if (quietly) requestAnimationFrame(() => this.turns.removeAttribute("aria-busy"));
-    if (this.atEnd) this.toEnd();
-    else if (!quietly && elements.length > 0) this.more.hidden = false;
+    const last = elements[elements.length - 1];
+    if (this.atEnd && !quietly && last) this.toTop(last);
+    else if (this.atEnd) this.toEnd();
+    else if (!quietly && last) this.more.hidden = false;
   }
 
   clear() {
@@ -39,6 +41,12 @@ export class Log {
   /** Something has another height. */
   settle() {
     if (this.atEnd) this.toEnd();
+  }
+
+  /** To the end, or of a long turn to its beginning, which is read first. */
+  toTop(turn) {
+    this.toEnd();
+    if (turn.offsetHeight > this.scroller.clientHeight) this.scroller.scrollTop = turn.offsetTop;
   }
 
   toEnd() {

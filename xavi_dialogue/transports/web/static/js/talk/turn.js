@@ -54,7 +54,7 @@ export function createTurn(turn, around) {
       reply.kind === "answer" ? null : kindOf(reply),
       h("p", { class: "words", dir: "auto" }, h("span", { class: "unseen" }, `${KINDS[reply.kind] ?? "Answer"}: `), around.pointing.spoken(reply.text, turn.vehicles)),
       reply.choices.length > 0 ? choices(turn, around) : null,
-      reply.kind === "refusal" && reply.suggestions.length > 0 ? instead(reply.suggestions, around) : null,
+      reply.kind === "refusal" && reply.suggestions.length > 0 ? instead(reply, around) : null,
       meta(turn, around),
     ),
   );
@@ -76,8 +76,9 @@ function kindOf(reply) {
   return h("p", { class: "kind" }, icon, REASONS[reply.reason] ?? KINDS[reply.kind]);
 }
 
-function instead(questions, { ask }) {
-  return h("div", { class: "instead" }, h("p", {}, "You could ask"), chips(questions, ask, "You could ask"));
+function instead({ text, suggestions }, { ask }) {
+  const said = suggestions.some((one) => text.includes(one)); // the answer itself leads over to them
+  return h("div", { class: "instead" }, said ? null : h("p", {}, "You could ask"), chips(suggestions, ask, "You could ask"));
 }
 
 function choices({ n, reply }, { ask, newest }) {
