@@ -106,6 +106,10 @@ def test_the_token_goes_from_the_address_into_a_cookie() -> None:
     assert entered == Enter(cookie, "redirect")
     led = guard(TOKEN).judge(asked(f"/?token={TOKEN}", sec_fetch_site="cross-site"))
     assert led == Enter(cookie, "page")
+    unsaid = guard(TOKEN).judge(asked(f"/?token={TOKEN}", accept="text/html,*/*;q=0.8"))
+    assert unsaid == Enter(cookie, "page")
+    typed = asked(f"/?token={TOKEN}", sec_fetch_site="none", accept="text/html")
+    assert guard(TOKEN).judge(typed) == Enter(cookie, "redirect")
 
 
 def test_every_response_has_the_headers_once() -> None:

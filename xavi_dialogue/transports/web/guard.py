@@ -126,11 +126,13 @@ class Guard:
     def _enter(self, asked: Asked) -> Enter:
         """Let a browser in.
 
-        One that followed a link on a stranger's page would not show a cookie of this kind when it
-        is redirected, but does when our own page sends it on.
+        One that followed a link on a stranger's page, in a mail for instance, would not show a
+        cookie of this kind when it is redirected, but does when our own page sends it on. Over
+        plain HTTP browsers say where they were led from to loopback alone.
         """
         cookie = f"{self._cookie}={self._listen.token}; Path=/; HttpOnly; SameSite=Strict"
-        led = "cross-site" in asked.all("sec-fetch-site")
+        sites = asked.all("sec-fetch-site")
+        led = "cross-site" in sites or (not sites and "text/html" in "".join(asked.all("accept")))
         return Enter(cookie, "page" if led else "redirect")
 
 
