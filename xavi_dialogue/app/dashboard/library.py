@@ -89,7 +89,9 @@ class Library:
             return None
         found = {name: await self._trace(name) for name in traces_of(turn.reply)}
         known = {name: trace for name, trace in found.items() if trace is not None}
-        make = partial(of_turn, n, turn.reply, known)
+        taken = (self._record.up_to(trace.sim_time) for trace in known.values())
+        decided = {trace.trace_id: trace for trace in taken if trace is not None}
+        make = partial(of_turn, n, turn.reply, decided | known)
         if len(known) == len(found):
             return self._kept(("evidence", n), make)
         shown = make()  # what is missing may still come
