@@ -5,7 +5,6 @@ import { between } from "./span.js";
 import { clock, percent } from "./words.js";
 
 const BEFORE = 60; // [s] that are shown
-const AFTER = 15; // [s] of what came later, where it is known
 const SHORTEST = 10; // [s]
 const GAP = 3.5; // [s] without a word about the vehicle: it was not in view
 const HEIGHT = 84; // [px]
@@ -35,16 +34,14 @@ export class Places {
   }
 }
 
-/** [s] From when to when anything is looked for about a moment. */
-export function stretchFor(at, [first, last]) {
-  return [Math.max(first, at - BEFORE), Math.max(at, Math.min(last, at + AFTER))];
+/** [s] From when to when something is shown at a moment: what came later was not believed then. */
+export function stretchFor(at) {
+  return [at - BEFORE, at];
 }
 
-/** [s] From when to when the chart goes: while the vehicle was in view, and to the moment shown. */
-function spanOf(stretches, at) {
-  const from = Math.min(stretches[0]?.[0].t ?? at, at);
-  const to = Math.max(stretches.at(-1)?.at(-1).t ?? at, at);
-  return [from, Math.max(to, from + SHORTEST)];
+/** [s] When the chart begins: as soon as the vehicle was in view. */
+function beginOf(stretches, at) {
+  return Math.min(stretches[0]?.[0].t ?? at, at - SHORTEST);
 }
 
 /**
@@ -66,6 +63,7 @@ export function beliefsOf(decisions, vehicle, [from, to], places) {
     stretches[stretches.length - 1].push({ t, shares: Array.from(shares, (one) => one ?? 0) });
     before = t;
   }
+  if (to - before < GAP) stretches.at(-1).push({ ...stretches.at(-1).at(-1), t: to }); // still believed
   return stretches;
 }
 
@@ -75,25 +73,22 @@ export function beliefsOf(decisions, vehicle, [from, to], places) {
  * @param {{stretches: object[][], goals: string[], at: number, width: number}} what
  */
 export function drawPosterior(svg, { stretches, goals, at, width }) {
-  const [from, to] = spanOf(stretches, at);
+  const from = beginOf(stretches, at);
   const right = Math.max(width - LABELS, 60);
-  const x = (t) => ((t - from) / (to - from)) * right;
+  const x = (t) => ((t - from) / (at - from)) * right;
   const y = (share) => (1 - share) * (HEIGHT - FOOT);
   svg.setAttribute("width", width);
   svg.setAttribute("height", HEIGHT);
   svg.setAttribute("aria-label", inWords(stretches, goals));
-  const now = x(at);
-  const near = now > right - 34 ? "end" : "middle";
   fill(
     svg,
     h("rect", { class: "posterior-ground", width: right, height: HEIGHT - FOOT }),
     stretches.map((points) => goals.map((_, k) => area(points, k, x, y))),
     passing(stretches, goals, x, y, right),
     labels(stretches, goals, y, right),
-    h("line", { class: "posterior-now", x1: now, x2: now, y1: 0, y2: HEIGHT - FOOT + 3 }),
-    now > 50 ? h("text", { x: 0, y: HEIGHT - 3 }, clock(from)) : null,
-    h("text", { class: "posterior-at", x: Math.max(now, 12), y: HEIGHT - 3, "text-anchor": now < 12 ? "start" : near }, clock(at)),
-    now < right - 56 ? h("text", { x: right, y: HEIGHT - 3, "text-anchor": "end" }, clock(to)) : null,
+    h("line", { class: "posterior-now", x1: right, x2: right, y1: 0, y2: HEIGHT - FOOT + 3 }),
+    h("text", { x: 0, y: HEIGHT - 3 }, from < 0 ? "" : clock(from)),
+    h("text", { class: "posterior-at", x: right, y: HEIGHT - 3, "text-anchor": "end" }, clock(at)),
   );
 }
 
@@ -130,16 +125,23 @@ function labels(stretches, goals, y, right) {
 function passing(stretches, goals, x, y, right) {
   const points = stretches.flat();
   const last = points.at(-1)?.shares ?? [];
-  return goals.map((words, k) => {
-    if ((last[k] ?? 0) >= LABELLED) return null;
-    const share = (one) => one.shares[k] ?? 0;
-    const peak = points.reduce((best, one) => (share(one) > share(best) ? one : best), points[0]);
-    if (!peak || share(peak) < WIDE) return null;
-    const half = (short(words).length * LETTER) / 2;
-    const at = Math.min(Math.max(x(peak.t), half + 2), right - half - 2);
-    const middle = y(below(peak.shares, k) + share(peak) / 2);
-    return h("text", { class: "posterior-passing", x: at, y: middle + 4, "text-anchor": "middle" }, short(words));
-  });
+  const gone = goals.map((words, k) => ({ words: short(words), k })).filter(({ k }) => !((last[k] ?? 0) >= LABELLED));
+  const placed = [];
+  for (const one of gone.map((goal) => atPeak(goal, points, x, y, right)).filter(Boolean)) {
+    const free = placed.every((other) => Math.abs(other.x - one.x) > other.half + one.half + 4 || Math.abs(other.y - one.y) >= LINE);
+    if (free) placed.push(one);
+  }
+  return placed.map((one) => h("text", { class: "posterior-passing", x: one.x, y: one.y + 4, "text-anchor": "middle" }, one.words));
+}
+
+/** Where a goal was likeliest, and how much room its words take. */
+function atPeak({ words, k }, points, x, y, right) {
+  const share = (one) => one.shares[k] ?? 0;
+  const peak = points.reduce((best, one) => (share(one) > share(best) ? one : best), points[0]);
+  if (!peak || share(peak) < WIDE) return null;
+  const half = (words.length * LETTER) / 2;
+  const at = Math.min(Math.max(x(peak.t), x(points[0].t) + half + 2), right - half - 2);
+  return { words, half, x: at, y: y(below(peak.shares, k) + share(peak) / 2) };
 }
 
 function short(words) {

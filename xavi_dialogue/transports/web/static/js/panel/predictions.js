@@ -117,7 +117,7 @@ function goalRow() {
 function charts({ store, list, places }) {
   const width = Math.floor(list.firstElementChild?.querySelector(".goals").clientWidth ?? 0);
   if (!width) return;
-  const span = stretchFor(store.at, store.span);
+  const span = stretchFor(store.at);
   for (const li of list.children) {
     const vehicle = Number(li.dataset.vehicle);
     const stretches = beliefsOf(store.decisions, vehicle, span, places);
