@@ -34,6 +34,7 @@ from xavi_dialogue.transports.ride_file import RideFileError
 from xavi_dialogue.transports.roles import BadName
 from xavi_dialogue.transports.text import one_line
 from xavi_dialogue.transports.transcript import TranscriptError
+from xavi_dialogue.transports.web import MISSING
 from xavi_dialogue.transports.web.listen import ListenError
 
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
@@ -67,6 +68,8 @@ class Known:
 
 def failure(error: Exception) -> Known | None:
     """How to tell an error; None for a fault of our own, which deserves its traceback."""
+    if isinstance(error, ImportError) and str(error) == MISSING:
+        return Known(MISSING, ExitStatus.FAILED)
     for kinds, status in _STATUSES:
         if isinstance(error, kinds):
             return Known(one_line(str(error)), status)

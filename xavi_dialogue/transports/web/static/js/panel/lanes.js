@@ -46,20 +46,22 @@ function ruler({ start, length, width, lanes }, x, end) {
   return h("g", { class: "ruler" }, marks);
 }
 
+/** One macro action: pale as long as it was only meant, full from where it could not be taken back. */
 function bar(one, x, { lanes, width }) {
   const from = Math.max(x(one.from), 0);
   const to = Math.min(Math.max(x(one.to), from + 2), width);
   const height = lanes.ends.done - lanes.done - 4;
-  const words = clipped(doing(one.action), to - from - 12);
+  const length = Math.max(to - from - 1, 1);
   const calm = one.action === "continue";
+  const meant = calm ? length : Math.min(Math.max(x(one.committed ?? one.to) - from, 0), length);
+  const [at, room, where] = meant > length / 2 ? [0, meant, "on-meant"] : [meant, length - meant, "on-done"];
+  const words = clipped(doing(one.action), room - 12);
   return h(
     "g",
     { class: `bar${calm ? " bar-calm" : ""}${one.open ? " bar-open" : ""}`, transform: `translate(${from} ${lanes.done + 2})` },
-    h("rect", { width: Math.max(to - from - 1, 1), height, rx: 4 }),
-    one.committed !== null && x(one.committed) > from && x(one.committed) < to
-      ? h("line", { class: "bar-committed", x1: x(one.committed) - from, x2: x(one.committed) - from, y1: height - 6, y2: height })
-      : null,
-    words ? h("text", { x: 6, y: height / 2 + 4 }, words) : null,
+    h("rect", { class: "bar-meant", width: length, height, rx: 4 }),
+    one.committed !== null && meant < length ? h("rect", { class: "bar-done", x: meant, width: length - meant, height, rx: 4 }) : null,
+    words ? h("text", { class: where, x: at + 6, y: height / 2 + 4 }, words) : null,
   );
 }
 

@@ -105,7 +105,9 @@ function growing(parts, view, store) {
   if (!open?.open || !view.width) return;
   if (view.last - open.to > 1) lay(parts, view, store);
   const wide = (Math.min(view.last, view.start + view.length) - Math.max(open.from, view.start)) / view.length;
-  if (wide > 0) parts.svg.querySelector(".bar-open rect")?.setAttribute("width", Math.max(wide * view.width - 1, 1));
+  for (const part of wide > 0 ? parts.svg.querySelectorAll(".bar-open rect") : []) {
+    part.setAttribute("width", Math.max(wide * view.width - 1 - Number(part.getAttribute("x") ?? 0), 1));
+  }
 }
 
 function place(parts, view, store) {
