@@ -3,6 +3,7 @@
 const LONG = 11; // [px] no vehicle is drawn shorter, however far away
 const BROAD = 5; // [px] nor narrower
 const DETAIL = 20; // [px] of length from which on windows and lights are drawn
+const SMALL = 14; // [px] of length below which bodies are plain: hundreds of them are in view
 const BLINK = 0.8; // [s] period of indicators
 
 /** [px/m] The scale of a vehicle, which small ones on a far view get a larger one of. */
@@ -38,7 +39,7 @@ export function drawVehicle(context, view, vehicle, colours, t) {
   const [long, broad] = sizeOf(vehicle, view.scale);
   const paint = colours.paintOf(vehicle);
   const look = Object.hasOwn(LOOKS, vehicle.kind) ? LOOKS[vehicle.kind] : LOOKS.car; // the kind is told by a stranger
-  const pen = { context, colours, long, broad, paint, fine: long >= DETAIL && broad >= 8 };
+  const pen = { context, colours, long, broad, paint, fine: long >= DETAIL && broad >= 8, small: long < SMALL };
   look(pen);
   if (long >= 16) lights(pen, vehicle.signals, t);
 }
@@ -91,7 +92,14 @@ const LOOKS = {
   },
 };
 
-function body({ context, colours, paint }, x, y, long, broad, radius) {
+function body({ context, colours, paint, small }, x, y, long, broad, radius) {
+  if (small) {
+    context.fillStyle = colours.get("map-glass");
+    context.fillRect(x - 0.5, y - 0.5, long + 1, broad + 1);
+    context.fillStyle = colours.get(paint);
+    context.fillRect(x + 0.5, y + 0.5, long - 1, broad - 1);
+    return;
+  }
   rounded(context, x, y, long, broad, radius);
   context.fillStyle = colours.get(paint);
   context.fill();

@@ -1,6 +1,7 @@
 /** Labels that neither overlap each other nor leave the view; who has no room goes without. */
 
-const HEIGHT = 18; // [px]
+import { HEIGHT, Pills } from "./pills.js";
+
 const PAD = 6; // [px] left and right of the text
 const CELL = 64; // [px] of the grid by which neighbours are found
 const LONGEST = 64; // characters
@@ -12,6 +13,7 @@ const WIDE = [[0, -1], [0.5, -1], [-0.5, -1], [1, -1], [-1, -1], [0, 1], [0.5, 1
 export class Labels {
   constructor() {
     this.widths = new Map();
+    this.pills = new Pills();
     this.sides = new Map(); // where each label was, so that it does not hop about
     this.font = "";
   }
@@ -44,15 +46,13 @@ export class Labels {
   /** Draw all that find room; returns their texts. */
   draw(context) {
     this.view.screen(context);
-    context.textBaseline = "middle";
-    context.textAlign = "center";
     this.wanted.sort((a, b) => b.weight - a.weight || (a.key < b.key ? -1 : 1));
     const placed = [];
     for (const label of this.wanted) {
       const found = this.placed(context, label);
       if (found) placed.push(found);
     }
-    for (const [label, box] of placed) paint(context, label, box, this.fontOf(label));
+    for (const [label, box] of placed) this.pills.draw(context, label, this.fontOf(label), this.view.ratio, box);
     const kept = new Set(this.wanted.map((label) => label.key));
     for (const key of this.sides.keys()) if (!kept.has(key)) this.sides.delete(key);
     return placed.map(([label]) => label.text);
@@ -129,19 +129,4 @@ function cellOf(pixels, size) {
 
 function shorter({ short, ...label }) {
   return { ...label, text: short };
-}
-
-function paint(context, label, [left, top, right, bottom], font) {
-  context.beginPath();
-  context.roundRect(left, top, right - left, bottom - top, HEIGHT / 2);
-  context.fillStyle = label.ground;
-  context.fill();
-  if (label.edge) {
-    context.strokeStyle = label.edge;
-    context.lineWidth = 1;
-    context.stroke();
-  }
-  context.fillStyle = label.ink;
-  context.font = font;
-  context.fillText(label.text, (left + right) / 2, (top + bottom) / 2 + 0.5);
 }

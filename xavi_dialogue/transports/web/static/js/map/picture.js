@@ -6,7 +6,7 @@ import { meet } from "./lines.js";
 import { drawDecision } from "./plans.js";
 import { nameOf } from "./words.js";
 
-const LONG_NAMES = 3; // [px/m] from which on vehicles are called by their whole name
+const LONG_NAMES = 2.2; // [px/m] from which on vehicles are called by their whole name
 const CROWD = 40; // vehicles in view from which on they are not
 const OURS = { length: 4.8, width: 1.8 }; // [m] where our car is not in the scene
 
