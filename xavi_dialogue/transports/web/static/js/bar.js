@@ -1,5 +1,5 @@
 /** The top bar: whose car this is, who is there, what time it is. */
-import { clock, counted } from "./clock.js";
+import { clock } from "./clock.js";
 import { fill, h } from "./dom.js";
 import { createThemeSwitch } from "./theme.js";
 
@@ -8,8 +8,9 @@ const SHAPES = {
   there: () => h("circle", { cx: 6, cy: 6, r: 5 }),
   gone: () => h("path", { d: "M2 2 10 10M10 2 2 10" }),
   awaited: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
+  unknown: () => h("path", { d: "M2 6H10" }),
 };
-const SAYS = { there: "there", gone: "gone", awaited: "awaited" };
+const SAYS = { there: "there", gone: "gone", awaited: "awaited", unknown: "not known" }; // unknown: not connected
 
 /**
  * @param {HTMLElement} bar holds the heading
@@ -34,7 +35,7 @@ export function createBar(bar, store, help) {
     named(bar, scenario, store);
     showPresence(presence, store.status);
     dropped.hidden = !(store.status.dropped > 0);
-    say(dropped, `${counted(store.status.dropped, "scene")} dropped`);
+    fill(dropped, store.status.dropped, h("span", { class: "of" }, store.status.dropped === 1 ? " scene" : " scenes"), " dropped");
     moment();
   };
   for (const name of ["ride", "status"]) store.addEventListener(name, status);
@@ -67,7 +68,7 @@ function showPresence(list, status) {
   if (list.dataset.key === key) return;
   list.dataset.key = key;
   const who = [["car", status.car], ["service", status.service]];
-  fill(list, who.map(([name, there]) => presenceOf(name, status.connected ? there : "awaited")));
+  fill(list, who.map(([name, there]) => presenceOf(name, status.connected ? there : "unknown")));
 }
 
 function presenceOf(name, there) {

@@ -137,7 +137,8 @@ export class Connection extends EventTarget {
   lost(code, reason) {
     const told = CLOSED[code];
     this.unseen = [];
-    this.words = told?.told && reason ? reason : told?.words ?? null;
+    const before = this.attempt > 0 ? this.words : null; // what was said at first, not that it is so still
+    this.words = told?.told && reason ? reason : told?.words ?? before;
     this.store.status = { ...this.store.status, connected: false };
     if (told && !told.again) {
       this.become("refused");

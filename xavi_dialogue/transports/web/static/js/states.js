@@ -12,6 +12,11 @@ const STATES = {
     title: "The dashboard does not answer",
     says: () => ["It may have been stopped. Start it with ", code("xavi dashboard"), "; this page goes on trying and needs no reload."],
   },
+  refused: {
+    drawing: "unreachable",
+    title: "Not let in",
+    says: (_, connection) => [connection.words],
+  },
   hub: {
     drawing: "hub",
     title: "Waiting for the hub",
@@ -53,7 +58,8 @@ const STATES = {
  */
 export function stateOf(store, connection) {
   const { status, latest, welcome } = store;
-  if (!connection.ever) return connection.attempt > 0 || connection.state === "refused" ? "unreachable" : "connecting";
+  if (!connection.ever && connection.state === "refused") return "refused";
+  if (!connection.ever) return connection.attempt > 0 ? "unreachable" : "connecting";
   if (!status.connected) return null; // the notice says it
   if (status.hub !== "there") return latest ? "hubGone" : "hub";
   if (!latest) return status.car === "there" ? "arriving" : "car";
@@ -80,7 +86,7 @@ export function createStates({ card, strip }, store, connection) {
     card.hidden = !asCard;
     strip.hidden = name === null || asCard || dismissed === name;
     document.body.dataset.state = name ?? "well";
-    if (asCard) showCard(card, STATES[name], store);
+    if (asCard) showCard(card, STATES[name], store, connection);
     else if (!strip.hidden) showStrip(strip, STATES[name], store, () => ((dismissed = name), show()));
     else fill(strip);
   };
@@ -89,8 +95,8 @@ export function createStates({ card, strip }, store, connection) {
   show();
 }
 
-function showCard(card, { drawing, title, says }, store) {
-  const words = [h("h2", {}, title), h("p", {}, says(store))];
+function showCard(card, { drawing, title, says }, store, connection) {
+  const words = [h("h2", {}, title), h("p", {}, says(store, connection))];
   fill(card, h("div", { class: "state-card", role: "status" }, draw(drawing), words));
 }
 

@@ -32,9 +32,15 @@ export function difference(value, name) {
 
 /** An interval in words; both ends on one side are said in one breath. */
 export function between(low, high, name) {
-  const ends = [low, high].map((end) => (Number(magnitude(end, name)) === 0 ? 0 : end));
-  if (magnitude(ends[0], name) === magnitude(ends[1], name) && Math.sign(ends[0]) === Math.sign(ends[1])) return null;
-  if (ends[0] < 0 && ends[1] > 0) return `between ${difference(low, name)} and ${difference(high, name)}`;
+  const ends = alike(low, high, name);
+  if (ends[0] === ends[1]) return null;
+  if (ends[0] < 0 && ends[1] > 0) return `between ${difference(ends[0], name)} and ${difference(ends[1], name)}`;
   const sizes = ends.map(Math.abs).sort((a, b) => a - b);
   return `between ${magnitude(sizes[0], name)} and ${magnitude(sizes[1], name)} ${unit(name)}`;
+}
+
+/** Both ends to the digit that the larger one is told to. */
+function alike(low, high, name) {
+  const digits = name === "s" ? 1 : Math.min(Math.max(1 - Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high), 1e-9))), 0), 9);
+  return [low, high].map((end) => Number(end.toFixed(digits)) || 0); // and no minus zero
 }

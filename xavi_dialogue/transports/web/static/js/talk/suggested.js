@@ -3,6 +3,7 @@ import { fill, h } from "../dom.js";
 import { chips } from "./turn.js";
 
 const PAUSE = 300; // [ms] for which the moment rests before it is asked about
+const MOST = 4; // are shown, which takes two rows or three
 const SAME = 1; // [s] between a moment and the one that suggestions are about
 
 /**
@@ -15,7 +16,8 @@ export function createSuggested(store, connection, ask) {
   const element = h("div", { class: "suggested", hidden: true });
   let shown = "";
   const show = () => {
-    const { t, questions } = store.suggestions;
+    const { t } = store.suggestions;
+    const questions = store.suggestions.questions.slice(0, MOST);
     if (!store.live && Math.abs(t - store.held) > SAME) return; // about now, or where the reader was
     const key = JSON.stringify(questions);
     if (key === shown || (element.contains(document.activeElement) && questions.length === 0)) return;
