@@ -19,9 +19,10 @@ from xavi_dialogue.app.dashboard.words import (
     plan_words,
     way_words,
 )
-from xavi_dialogue.causal.model import plan_of
+from xavi_dialogue.causal.model import Actions, plan_of
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import Cause, Explanation
+from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.vehicles import number_of
 from xavi_dialogue.language.wording import lexicon
 from xavi_dialogue.transports.web.documents import CauseShown, EffectShown, EvidenceShown, Run, Side
@@ -79,8 +80,10 @@ def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceSh
         method=dashboard_words("method", evidence.method),
         rollouts=evidence.rollouts,
         distinct=evidence.distinct_samples,
-        factual=None if here is None else _side(here, in_lane),
-        counterfactual=None if there is None else _side(there, in_lane),
+        factual=None if here is None else _side(here, in_lane, "fact", explanation.factual[:1]),
+        counterfactual=None
+        if there is None
+        else _side(there, in_lane, _asked(reply.query), explanation.counterfactual),
         effects=_effects(explanation),
         causes=_causes(explanation, known),
         traces=names,
@@ -108,11 +111,22 @@ def _missing(
     return None
 
 
-def _side(found: Found, in_lane: bool) -> Side:
+def _asked(query: Query | None) -> str:
+    """As what the counterfactual came into it: asked about, or thought of beside what was asked."""
+    if query is None:
+        return "instead"
+    if query.intervention is not None or query.condition is not None:
+        return "then"
+    return "instead" if query.counterfactual is None else "asked"
+
+
+def _side(found: Found, in_lane: bool, title: str, brief: Actions) -> Side:
     """One side: its likeliest lines, and its rollouts with the likeliest situations first."""
     plan, trace = found.plan, found.trace
     ranked = sorted(zip(plan.weights, plan.results, strict=True), key=lambda pair: -pair[0])
     return Side(
+        title=dashboard_words("title", title),
+        brief=plan_words(brief, in_lane=in_lane),
         words=plan_words(plan.plan, in_lane=in_lane),
         outcomes=chances(plan),
         arrival=expected_arrival(trace, plan),

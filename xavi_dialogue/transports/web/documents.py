@@ -175,6 +175,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
 class Side(msgspec.Struct, frozen=True, kw_only=True):
     """What was done, or what would have been."""
 
+    title: str  # "my plan", "what you asked about", "what I would have done instead"
+    brief: str  # what tells it from the other side: "move to the left lane"
     words: str  # "change to the left lane, then turn left"
     outcomes: dict[str, float]
     arrival: float | None  # [s]

@@ -35,3 +35,8 @@ function add(element, children) {
     element.append(child instanceof Node ? child : String(child));
   }
 }
+
+/** The same words, as they begin a sentence. */
+export function capital(text) {
+  return text.slice(0, 1).toUpperCase() + text.slice(1);
+}

@@ -7,8 +7,8 @@ import { drawGhost } from "./bodies.js";
 const BUTTONS = 80; // [px] on the right, where labels have no room
 const REST = 1.2; // [s] at the end before the loop begins anew
 const SIDES = {
-  fact: { colour: "accent", dash: [], words: () => "what I did" },
-  ghost: { colour: "foil", dash: [9, 6], words: (side) => `what you asked about: ${side.words}`, short: "what you asked about" },
+  fact: { colour: "accent", dash: [], words: (side) => side.title },
+  ghost: { colour: "foil", dash: [9, 6], words: (side) => `${side.title}: ${side.brief}`, short: (side) => side.brief },
   preview: { colour: "foil", dash: [3, 5], words: (side) => side.words },
 };
 
@@ -120,7 +120,7 @@ function label(name, side, lines, { view, colours, labels }) {
   if (!best) return;
   const { colour, words, short } = SIDES[name];
   const look = { ink: colours.get("card"), ground: colours.get(colour), strong: true };
-  labels.add({ key: name, text: words(side), short, x: best.x, y: best.y, reach: 18, weight: 90, wide: true, below: other ? under(best.point, other.path) : name !== "fact", ...look });
+  labels.add({ key: name, text: words(side), short: short?.(side), x: best.x, y: best.y, reach: 18, weight: 90, wide: true, below: other ? under(best.point, other.path) : name !== "fact", ...look });
 }
 
 /** Whether a point lies south of a line, where its label does not cover it. */

@@ -11,10 +11,10 @@ const ENTRIES = [
   ["yields", "goes first: we give way", "strip", "warn"],
   ["view", "how far we see", "circle", "accent"],
   ["goal", "our destination", "flag", "accent"],
-  ["fact", "what I did", "line", "accent"],
-  ["ghost", "what you asked about", "dash", "foil"],
+  ["fact", "my plan then", "line", "accent"],
+  ["ghost", "what it is compared with", "dash", "foil"],
   ["preview", "the alternative looked at", "dots", "foil"],
-  ["cause", "a cause of what I did", "ring", "cause"],
+  ["cause", "a cause", "ring", "cause"],
   ["pointed", "spoken of or pointed at", "ring", "ink"],
 ];
 

@@ -1,6 +1,6 @@
 /** What the map shows, in words, for who cannot see it. */
 
-import { h } from "../dom.js";
+import { capital, h } from "../dom.js";
 import { cardInWords } from "./card.js";
 import { clock, laneInWords, speed, whereTo } from "./words.js";
 
@@ -62,8 +62,4 @@ function spaced(text) {
 
 function away(a, b) {
   return Math.hypot(a.x - b.x, a.y - b.y);
-}
-
-function capital(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }

@@ -1,6 +1,6 @@
 /** What an answer rests on, in a fold under it: outcomes, effects, causes, rollouts. */
 import { clock, counted } from "../clock.js";
-import { fill, h } from "../dom.js";
+import { capital, fill, h } from "../dom.js";
 import { createEffect } from "./effects.js";
 import { createOutcomes } from "./outcomes.js";
 import { createRuns } from "./runs.js";
@@ -43,8 +43,8 @@ function skeleton() {
 function shown(evidence, store, pointing) {
   const { factual, counterfactual, effects, causes } = evidence;
   const sides = [
-    factual ? ["What I did", "fact", factual] : null,
-    counterfactual ? ["What you asked about", "foil", counterfactual] : null,
+    factual ? [capital(factual.title), "fact", factual] : null,
+    counterfactual ? [capital(counterfactual.title), "foil", counterfactual] : null,
   ].filter(Boolean);
   return [
     basis(evidence, store),
