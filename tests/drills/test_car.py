@@ -215,6 +215,7 @@ def test_a_hub_that_is_killed_and_comes_back_finds_all_that_was_reported(tmp_pat
         with xavi(*serve), join(Link.to_hub(endpoint), PATIENCE) as bus:
             ear = Ear(bus)
             assert until(lambda: bool(ear.scenes and ear.traces and ear.events))
+            assert until(lambda: bool(ear.alive))
             assert ear.alive == [True]
             assert until(lambda: len(ear.traces) == ear.scenes[-1].traces)
             for reports in (ear.traces, ear.events):
@@ -264,8 +265,8 @@ def test_a_car_ends_when_told_to_in_every_state(state: str, number: int, tmp_pat
             assert until(lambda: ear.fares().counters["workers_idle"] == 1.0)
             threading.Thread(target=_plan_for_long, args=(ear,), daemon=True).start()
             assert until(lambda: ear.fares().counters["workers_idle"] == 0.0)
+        assert until(lambda: len(children(car.pid)) == 1)
         workers = children(car.pid)
-        assert len(workers) == 1
         car.send_signal(number)
         assert car.wait(PATIENCE) == 128 + number
         assert until(lambda: not any(map(there, workers)))

@@ -66,8 +66,8 @@ def test_a_recording_on_a_full_disk_ends_with_one_line_and_can_be_read(
         recorder = crew.xavi("record", str(file), "--connect", stage.endpoint)
         assert recorder.says("recording into")
         assert until(lambda: file.stat().st_size >= SOME)
-        full = file.stat().st_size
-        fill_disk(recorder, full)
+        fill_disk(recorder, file.stat().st_size)
+        full = file.stat().st_size  # it may have grown meanwhile, and does not from now on
         stage.car.order(f"until {HALT}")
         assert recorder.popen.wait(PATIENCE) == 1
         assert stage.ear.halted(HALT)

@@ -9,6 +9,8 @@ import pytest
 from tests.drills.bus import Ear, on_bus
 from tests.drills.processes import ENDED, Crew, Process, free_endpoint, until
 from tests.drills.stage import HALT, WHERE, WHY, staged
+from xavi_dialogue.transports.mcap_file import read
+from xavi_dialogue.transports.recording import Entry
 
 TERM, INT = signal.SIGTERM, signal.SIGINT
 CROWD = 300  # questions; none of them is answered before the signal comes
@@ -73,6 +75,7 @@ def test_recorder_and_player_end_with_all_in_the_file(
         recorder = crew.xavi("record", str(file), "--connect", stage.endpoint)
         assert until(lambda: "xavi/v1/car/alive/recorder" in stage.ear.alive), recorder.said
         assert until(lambda: stage.ear.fares("recorder")["messages"] >= len(stage.ear.traces) + 3)
+        assert until(lambda: told(file) == len(stage.ear.traces) + len(stage.ear.events))
         assert recorder.end(number) == 0, recorder.said
         decisions = [report.trace.trace_id for report in stage.ear.traces]
         assert stage.car.end(number) == 128 + number
@@ -92,6 +95,12 @@ def test_recorder_and_player_end_with_all_in_the_file(
         maps = Path(f"/proc/{early.pid}/maps")
         assert until(lambda maps=maps: "zenoh" in maps.read_text())
         assert early.end(number) in (0, *statuses(number)), early.said
+
+
+def told(file: Path) -> int:
+    """How many decisions and events are in a recording."""
+    keys = [piece.key for piece in read(file) if isinstance(piece, Entry)]
+    return sum(key.endswith(("/trace", "/event")) for key in keys)
 
 
 def play(crew: Crew, file: Path, endpoint: str) -> Process:

@@ -39,9 +39,11 @@ def test_a_planner_that_dies_once_costs_nothing_and_one_that_keeps_dying_its_evi
         over = threading.Event()
         hunt = threading.Thread(target=_hunt, args=(stage, over))
         hunt.start()
-        second = answer.get(timeout=IN_TIME)
-        over.set()
-        hunt.join()
+        try:
+            second = answer.get(timeout=IN_TIME)
+        finally:
+            over.set()
+            hunt.join()
         assert second.kind == "answer" or second.reason in ("planner-failed", "timed-out")
 
         third = stage.passenger("cy").ask(WHY, HALT)

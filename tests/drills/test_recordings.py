@@ -58,7 +58,7 @@ class Hub:
     def await_alive(self, component: str, vehicle: str = "car") -> None:
         seen: list[bool] = []
         self.bus.watch(Keys(vehicle).of(f"alive/{component}"), lambda _, up: seen.append(up))
-        wait(lambda: bool(seen))
+        wait(lambda: any(seen))
 
     def close(self) -> None:
         for process in self.running:

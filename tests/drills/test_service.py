@@ -87,7 +87,8 @@ def test_who_comes_late_gets_all_that_is_kept(crew: Crew, tmp_path: Path) -> Non
         assert late.traces == ear.traces
         assert late.events == ear.events
         assert len(late.traces) >= 9
-        assert late.alive >= {"xavi/v1/taxi/alive/car", "xavi/v1/taxi/alive/service"}
+        there = {f"xavi/v1/taxi/alive/{component}" for component in ("car", "service")}
+        assert until(lambda: late.alive >= there)
         assert Passenger(bus, "ada", "taxi").history() == said
 
 

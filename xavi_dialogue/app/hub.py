@@ -38,9 +38,9 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
     mind = make_mind()
     _warm(mind)
     with host(link) as bus:
-        note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service = Service(bus, mind, memory)
         service.open()
+        note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service.run(partial(_told_to_quit, orders))
     memory.close()
 
