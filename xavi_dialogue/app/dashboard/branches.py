@@ -2,7 +2,7 @@
 
 from planner.trace import Action, PlanTrace
 from xavi_dialogue.app.dashboard.lines import chance
-from xavi_dialogue.app.dashboard.words import deed, has_lane_change, hold_up_words
+from xavi_dialogue.app.dashboard.words import deed, has_lane_change, hold_up_words, refusals
 from xavi_dialogue.app.debug import tree
 from xavi_dialogue.transports.web.documents import Branch
 
@@ -50,4 +50,5 @@ def _branch(branch: tree.Branch, in_lane: bool, arrives: bool) -> Branch:
 
 
 def _refused(branch: tree.Branch) -> tuple[tuple[Action, str], ...]:
-    return tuple((action, reason) for reason, actions in branch.refused for action in actions)
+    refused = ((action, reason) for reason, actions in branch.refused for action in actions)
+    return refusals(refused, (child.actions[-1] for child in branch.children))

@@ -6,7 +6,13 @@ from sim.scene import Point
 from xavi_dialogue.app.dashboard.branches import branches, rounded
 from xavi_dialogue.app.dashboard.junction import right_of_way
 from xavi_dialogue.app.dashboard.lines import chance, likeliest, predicted
-from xavi_dialogue.app.dashboard.words import deed, goal_words, has_lane_change, plan_words
+from xavi_dialogue.app.dashboard.words import (
+    deed,
+    goal_words,
+    has_lane_change,
+    plan_words,
+    refusals,
+)
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.explain.ride import enough
@@ -61,8 +67,8 @@ def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
         seed=trace.seed,
         words=_capital(plan_words(_plan(trace))),
         plan=tuple(
-            (one.action, deed(one.action, in_lane=in_lane), one.value, one.visits)
-            for one in trace.plan
+            (one.action, deed(one.action, in_lane=in_lane and k == 0), one.value, one.visits)
+            for k, one in enumerate(trace.plan)
         ),
         under_way=None if trace.under_way is None else deed(trace.under_way.action),
         goal=None if known is None else _goal(trace, known),
@@ -71,7 +77,7 @@ def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
         alternatives=_alternatives(model, here, in_lane),
         predictions=tuple(_predicted(trace, one) for one in trace.predictions),
         root=branches(trace),
-        refused=_refused(trace),
+        refused=_refused(model),
         right_of_way=None if known is None else right_of_way(trace, known, _path(ego)),
         rollouts=len(trace.rollouts),
     )
@@ -171,7 +177,7 @@ def _alternatives(
         _untried(action, reason, in_lane)
         for action, reason in (
             *((action, None) for action, there in tried if there is None and (action,) != chosen),
-            *_refused(model.trace),
+            *_refused(model),
         )
     ]
     return (*first, *ranked, *rest)
@@ -227,8 +233,10 @@ def _later(there: Intervention, here: Intervention) -> TimeRange | None:
     )
 
 
-def _refused(trace: PlanTrace) -> tuple[tuple[Action, str], ...]:
-    return tuple((one.action, one.reason) for one in trace.not_applicable if not one.node)
+def _refused(model: CausalModel) -> tuple[tuple[Action, str], ...]:
+    absent = model.trace.not_applicable
+    refused = ((one.action, one.reason) for one in absent if not one.node)
+    return refusals(refused, model.options())
 
 
 def _goal(trace: PlanTrace, network: Network) -> Point | None:

@@ -43,14 +43,26 @@ def has_lane_change(actions: Iterable[str]) -> bool:
     return any(action in LANE_CHANGES for action in actions)
 
 
+def refusals(
+    refused: Iterable[tuple[Action, str]], tried: Iterable[Action]
+) -> tuple[tuple[Action, str], ...]:
+    """What could not be done, and why, but for what is called like something that was tried.
+
+    "Straight on" is one name for two macro actions, of which one or the other applies.
+    """
+    names = {deed(action) for action in tried}
+    return tuple((action, why) for action, why in refused if deed(action) not in names)
+
+
 def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
     """A plan: "move to the left lane, then turn left"; where there is none, the car stops.
 
     Args:
         plan: of the ego.
-        in_lane: see `deed`.
+        in_lane: see `deed`; of what is done first.
     """
-    said = [deed(action, in_lane=in_lane) for action in plain(plan) or ("stop",)]
+    actions = plain(plan) or ("stop",)
+    said = [deed(action, in_lane=in_lane and k == 0) for k, action in enumerate(actions)]
     return ", then ".join(words for words, _ in groupby(said))
 
 
