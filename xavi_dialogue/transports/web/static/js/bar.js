@@ -23,7 +23,8 @@ export function createBar(bar, store, help) {
   const time = h("span", { class: "time" });
   const mode = h("span", { class: "mode" });
   const dropped = h("p", { class: "dropped", hidden: true, title: "This page was too slow for them; nothing of the record is lost." });
-  const ask = h("button", { type: "button", class: "icon", "aria-label": "Help and keys", title: "Help and keys (?)", onclick: () => help.open() }, "?");
+  const helping = { type: "button", class: "icon", "aria-label": "Help and keys", title: "Help and keys (?)" };
+  const ask = h("button", { ...helping, onclick: () => help.open() }, "?");
   bar.append(scenario, presence, h("p", { class: "clock" }, time, mode), dropped, createThemeSwitch(), ask);
   const moment = () => {
     say(time, store.latest ? clock(store.at) : "–:––");

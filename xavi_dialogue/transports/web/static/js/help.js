@@ -16,6 +16,10 @@ const ROWS = [
   ["?", "this help"],
 ];
 
+const INTRODUCTION =
+  "Ask the car why it did something, what it does now, what others will do, or what would have happened otherwise. " +
+  "Drag the timeline to an earlier moment to ask about that. Nothing here steers the car.";
+
 /**
  * @param {HTMLDialogElement} dialog
  * @returns {{open: () => void, singleKeys: () => boolean}}
@@ -28,7 +32,7 @@ export function createHelp(dialog) {
   fill(
     dialog,
     h("h2", { id: "help-title" }, "What can be done here"),
-    h("p", {}, "Ask the car why it did something, what it does now, what others will do, or what would have happened otherwise. Drag the timeline to an earlier moment to ask about that. Nothing here steers the car."),
+    h("p", {}, INTRODUCTION),
     h("h3", {}, "Keys"),
     h("dl", { class: "keys" }, rows),
     h("label", { class: "check" }, box, "Single letters are shortcuts"),

@@ -10,7 +10,11 @@ const STATES = {
   unreachable: {
     drawing: "unreachable",
     title: "The dashboard does not answer",
-    says: () => ["It may have been stopped. Start it with ", code("xavi dashboard"), "; this page goes on trying and needs no reload."],
+    says: () => [
+      "It may have been stopped. Start it with ",
+      code("xavi dashboard"),
+      "; this page goes on trying and needs no reload.",
+    ],
   },
   refused: {
     drawing: "unreachable",
@@ -20,7 +24,11 @@ const STATES = {
   hub: {
     drawing: "hub",
     title: "Waiting for the hub",
-    says: () => ["Car, service and this page meet at a hub, and it is not there yet. A service brings one: ", code("xavi serve"), ". This page goes on by itself."],
+    says: () => [
+      "Car, service and this page meet at a hub, and it is not there yet. A service brings one: ",
+      code("xavi serve"),
+      ". This page goes on by itself.",
+    ],
   },
   hubGone: {
     drawing: "hub",
@@ -30,7 +38,15 @@ const STATES = {
   car: {
     drawing: "car",
     title: "Waiting for the car",
-    says: ({ welcome }) => ["Nobody by the name of ", h("b", {}, welcome?.vehicle ?? "car"), " drives yet. Start one with ", code("xavi drive --connect …"), ", or ", code("xavi dashboard --scenario s1"), " to have all in one."],
+    says: ({ welcome }) => [
+      "Nobody by the name of ",
+      h("b", {}, welcome?.vehicle ?? "car"),
+      " drives yet. Start one with ",
+      code("xavi drive --connect …"),
+      ", or ",
+      code("xavi dashboard --scenario s1"),
+      " to have all in one.",
+    ],
   },
   arriving: { drawing: "car", title: "The car is there", says: () => ["Its first scene is on its way."] },
   carGone: {
@@ -61,7 +77,8 @@ export function stateOf(store, connection) {
   if (!connection.ever && connection.state === "refused") return "refused";
   if (!connection.ever) return connection.attempt > 0 ? "unreachable" : "connecting";
   if (!status.connected) return null; // the notice says it
-  if (status.hub !== "there") return latest ? "hubGone" : "hub";
+  if (status.hub !== "there") return status.hub === "gone" && latest ? "hubGone" : "hub";
+  if (status.car === "awaited") return "car"; // also of a dashboard that was started anew
   if (!latest) return status.car === "there" ? "arriving" : "car";
   if (latest.state === "ended") return "over"; // also once the car has gone home after it
   if (status.car === "gone") return "carGone";

@@ -16,7 +16,15 @@ const NEAR = 0.9; // of what is allowed, from where it is counted
  * @returns {{element: HTMLElement, focus: () => void, say: (words: string) => void, giveBack: (text: string) => void}}
  */
 export function createComposer({ store, ask, cancel }) {
-  const input = h("textarea", { id: "question", rows: 1, autocomplete: "off", autocapitalize: "sentences", enterkeyhint: "send", "aria-describedby": "question-words question-count", placeholder: "Why did you …?" });
+  const input = h("textarea", {
+    id: "question",
+    rows: 1,
+    autocomplete: "off",
+    autocapitalize: "sentences",
+    enterkeyhint: "send",
+    "aria-describedby": "question-words question-count",
+    placeholder: "Why did you …?",
+  });
   const words = h("p", { class: "trouble", id: "question-words", role: "status" });
   const count = h("p", { class: "count", id: "question-count" });
   const about = h("div", { class: "about", hidden: true });

@@ -9,7 +9,7 @@ import { Questions } from "./questions.js";
 import { createSuggested } from "./suggested.js";
 import { createTurn } from "./turn.js";
 
-const SETTLING = 2500; // [ms] after a welcome in which the conversation so far comes
+const SETTLING = 2500; // [ms] after a welcome, and once the service is there, in which the conversation so far comes
 const MANY = 4; // turns at once: somebody's history, and no news
 
 /**
@@ -32,7 +32,7 @@ export function createConversation(element, store, connection) {
     return latest !== null;
   };
   const composer = createComposer({ store, ask, cancel });
-  const empty = h("div", { class: "nothing" }, draw("talk"), h("p", {}, h("b", {}, "Ask the car about its driving.")), h("p", { class: "soft" }, "It answers from its planner's own record, and says so where that does not bear an answer."));
+  const empty = createEmpty();
   const pending = createPending(questions, () => {
     empty.hidden = store.turns.length > 0 || questions.open.size > 0;
     log.settle();
@@ -49,13 +49,20 @@ export function createConversation(element, store, connection) {
   return { focus: composer.focus, ask };
 }
 
+function createEmpty() {
+  const words = "It answers from its planner's own record, and says so where that does not bear an answer.";
+  const head = h("p", {}, h("b", {}, "Ask the car about its driving."));
+  return h("div", { class: "nothing" }, draw("talk"), head, h("p", { class: "soft" }, words));
+}
+
 /** Turns as they come, whoever asked. */
 function followTurns({ element, store, connection, log, around, empty, pending }) {
   let shown = new Map(); // what each turn says, by number
   let settling = 0; // [ms] until when what comes is of before
   const render = () => {
     const early = performance.now() < settling;
-    if (early && store.turns.length === 0 && shown.size > 0) return; // a new dashboard is still reading up
+    const learning = early || store.status.service !== "there";
+    if (learning && store.turns.length === 0 && shown.size > 0) return; // a new dashboard is still reading up
     if (!agrees(shown, store.turns)) {
       shown = new Map();
       log.clear();
@@ -69,10 +76,16 @@ function followTurns({ element, store, connection, log, around, empty, pending }
     if (!quietly && more.length > 0) showOnMap(more[more.length - 1], around);
   };
   store.addEventListener("turns", render);
-  store.addEventListener("shown", () => markShown(element, store));
-  connection.addEventListener("welcome", () => {
+  for (const name of ["shown", "ride"]) store.addEventListener(name, () => markShown(element, store));
+  const settle = () => {
     settling = performance.now() + SETTLING;
     setTimeout(render, SETTLING + 10);
+  };
+  connection.addEventListener("welcome", settle);
+  let service = null;
+  store.addEventListener("status", () => {
+    if (store.status.service === "there" && service !== "there") settle(); // it remembers what was said
+    service = store.status.service;
   });
 }
 
@@ -131,7 +144,8 @@ function createAbsence(store, connection) {
     element.hidden = service === "there";
     if (service === "there") return fill(element);
     const title = service === "gone" ? "The dialogue service is gone." : "Waiting for the dialogue service.";
-    fill(element, draw("service"), h("p", {}, h("b", {}, title), " Nobody can answer until it is there; what you type stays here. It is started with ", h("code", {}, "xavi serve"), "."));
+    const words = " Nobody can answer until it is there; what you type stays here. It is started with ";
+    fill(element, draw("service"), h("p", {}, h("b", {}, title), words, h("code", {}, "xavi serve"), "."));
   };
   store.addEventListener("status", follow);
   connection.addEventListener("state", follow);

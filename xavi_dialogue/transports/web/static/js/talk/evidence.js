@@ -37,7 +37,8 @@ export function createEvidence(turn, store, pointing) {
 }
 
 function skeleton() {
-  return h("div", { role: "status" }, h("span", { class: "unseen" }, "Loading the evidence"), [1, 2, 3].map(() => h("span", { class: "awaited-line" })));
+  const lines = [1, 2, 3].map(() => h("span", { class: "awaited-line" }));
+  return h("div", { role: "status" }, h("span", { class: "unseen" }, "Loading the evidence"), lines);
 }
 
 function shown(evidence, store, pointing) {

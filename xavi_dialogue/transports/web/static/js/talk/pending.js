@@ -32,7 +32,8 @@ export function createPending(questions, changed) {
 function createRow(question, questions, list, changed) {
   const words = h("span", { role: "status" });
   const cancel = h("button", { type: "button", class: "quiet", onclick: () => questions.cancel(question.request) }, "Cancel");
-  const progress = h("div", { class: "progress", hidden: true }, h("span", { class: "dots", "aria-hidden": "true" }, [1, 2, 3].map(() => h("i"))), words, cancel);
+  const dots = h("span", { class: "dots", "aria-hidden": "true" }, [1, 2, 3].map(() => h("i")));
+  const progress = h("div", { class: "progress", hidden: true }, dots, words, cancel);
   const row = h("div", { class: "turn waiting", dataset: { text: question.text } }, bubble(question.text), progress);
   const show = () => {
     const waited = performance.now() - question.since;

@@ -30,8 +30,11 @@ export function createRuns(title, side, pointing) {
 }
 
 function row(run, pointing) {
-  const samples = run.samples.map(([vehicle, words, probability]) => h("div", {}, pointing.button(vehicle, String(vehicle)), ` ${words} `, h("span", { class: "soft" }, percent(probability))));
-  const held = run.held_up.map(([vehicle, how, seconds]) => h("div", {}, pointing.button(vehicle, String(vehicle)), ` ${how}, ${seconds.toFixed(1)} s`));
+  const named = (vehicle) => pointing.button(vehicle, String(vehicle));
+  const samples = run.samples.map(([vehicle, words, probability]) =>
+    h("div", {}, named(vehicle), ` ${words} `, h("span", { class: "soft" }, percent(probability))),
+  );
+  const held = run.held_up.map(([vehicle, how, seconds]) => h("div", {}, named(vehicle), ` ${how}, ${seconds.toFixed(1)} s`));
   const collided = run.collided_with === null || run.collided_with === undefined ? "" : ` with vehicle ${run.collided_with}`;
   return h(
     "tr",

@@ -52,7 +52,7 @@ export function createTurn(turn, around) {
       "div",
       { class: "reply" },
       reply.kind === "answer" ? null : kindOf(reply),
-      h("p", { class: "words", dir: "auto" }, h("span", { class: "unseen" }, `${KINDS[reply.kind] ?? "Answer"}: `), around.pointing.spoken(reply.text, turn.vehicles)),
+      h("p", { class: "words", dir: "auto" }, kindAloud(reply), around.pointing.spoken(reply.text, turn.vehicles)),
       reply.choices.length > 0 ? choices(turn, around) : null,
       reply.kind === "refusal" && reply.suggestions.length > 0 ? instead(reply, around) : null,
       meta(turn, around),
@@ -71,6 +71,10 @@ export function chips(questions, ask, label) {
   return h("ul", { class: "chips", "aria-label": label }, questions.map(one));
 }
 
+function kindAloud(reply) {
+  return h("span", { class: "unseen" }, `${KINDS[reply.kind] ?? "Answer"}: `);
+}
+
 function kindOf(reply) {
   const icon = h("svg", { viewBox: "0 0 24 24", "aria-hidden": "true" }, h("path", { d: ICONS[reply.kind] }));
   return h("p", { class: "kind" }, icon, REASONS[reply.reason] ?? KINDS[reply.kind]);
@@ -85,7 +89,8 @@ function choices({ n, reply }, { ask, newest }) {
   const one = (text, index) => {
     // A number means the latest choices only; those of before are asked for by their words.
     const say = () => ask(newest(n) ? String(index + 1) : text);
-    return h("li", {}, h("button", { type: "button", class: "choice", onclick: say }, h("span", { class: "pick" }, index + 1), h("span", {}, text)));
+    const words = [h("span", { class: "pick" }, index + 1), h("span", {}, text)];
+    return h("li", {}, h("button", { type: "button", class: "choice", onclick: say }, words));
   };
   return h("ol", { class: "choices", "aria-label": "What is meant" }, reply.choices.map(one));
 }
