@@ -20,13 +20,16 @@ export function createEvidence(turn, store, pointing) {
   const button = h("button", { type: "button", class: "quiet", "aria-expanded": "false", "aria-controls": fold.id }, "Evidence");
   const load = async () => {
     fill(fold, skeleton());
+    let words = null; // why there is nothing to show
+    const evidence = await store.evidenceOf(turn.n).catch((error) => void (words = error.message));
     try {
-      fill(fold, shown(await store.evidenceOf(turn.n), store, pointing));
-      fold.dataset.loaded = "yes";
-    } catch (error) {
-      const again = h("button", { type: "button", class: "quiet", onclick: load }, "Try again");
-      fill(fold, h("p", { class: "soft", role: "status" }, `${error.message} `, again));
+      if (evidence) fill(fold, shown(evidence, store, pointing));
+    } catch (fault) {
+      console.error(fault); // of ours: its words are for us
+      words = "This could not be shown.";
     }
+    if (words === null) fold.dataset.loaded = "yes";
+    else fill(fold, h("p", { class: "soft", role: "status" }, `${words} `, retry(load)));
   };
   button.addEventListener("click", () => {
     fold.hidden = !fold.hidden;
@@ -34,6 +37,10 @@ export function createEvidence(turn, store, pointing) {
     if (!fold.hidden && !fold.dataset.loaded) load();
   });
   return { button, fold };
+}
+
+function retry(load) {
+  return h("button", { type: "button", class: "quiet", onclick: load }, "Try again");
 }
 
 function skeleton() {
