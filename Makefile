@@ -9,13 +9,16 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat test drills lint format schema diagram judge bench fuzz clean runtime develop
+.PHONY: help chat dashboard test drills lint format schema diagram judge bench fuzz clean runtime develop
 
 help: ## show this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
 
 chat: runtime ## set up if need be, then ride and talk
 	@$(BIN)/xavi chat $(ARGS)
+
+dashboard: runtime ## set up if need be, then ride with a web page to look at
+	@$(BIN)/xavi dashboard $(ARGS)
 
 # The tests run even where lint finds fault, so that one run tells all; either failing fails it.
 test: develop ## everything that must hold: lint, types, tests
