@@ -9,10 +9,11 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat dashboard test drills lint format schema diagram judge bench fuzz clean runtime develop
+.PHONY: help chat dashboard test drills lint format schema diagram judge bench fuzz clean runtime \
+        develop browser test-browser screenshots
 
 help: ## show this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 chat: runtime ## set up if need be, then ride and talk
 	@$(BIN)/xavi chat $(ARGS)
@@ -24,11 +25,18 @@ dashboard: runtime ## set up if need be, then ride with a web page to look at
 test: develop ## everything that must hold: lint, types, tests
 	@status=0; \
 	$(MAKE) --no-print-directory lint || status=1; \
-	$(BIN)/python -m pytest -n 2 --dist loadfile --ignore=tests/drills $(ARGS) || status=1; \
+	$(BIN)/python -m pytest -n 2 --dist loadfile --ignore=tests/drills \
+		--ignore=tests/browser $(ARGS) || status=1; \
 	exit $$status
 
 drills: develop ## what goes wrong between real processes, tried out (docs/drills.md)
 	@$(BIN)/python -m pytest tests/drills -n 2 --dist worksteal $(ARGS)
+
+test-browser: browser ## the dashboard's page in a real browser
+	@$(BIN)/python -m pytest tests/browser -n 2 --dist loadfile $(ARGS)
+
+screenshots: browser ## take the pictures of the dashboard in docs/ anew
+	@$(BIN)/python -m tests.browser.shots docs
 
 lint: develop ## ruff and mypy
 	@$(BIN)/python -m ruff check
@@ -58,5 +66,5 @@ clean: ## remove the environment and every cache
 	rm -rf .venv .setup.lock build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-runtime develop:
+runtime develop browser:
 	@sh scripts/setup.sh $@

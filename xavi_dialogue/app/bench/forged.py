@@ -127,6 +127,7 @@ class ForgedCar:
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
         self._event = bus.publisher(keys.of("event"), keep=KEPT_EVENTS)
         self.ride = secrets.token_hex(4)
+        self.scenario: str | None = None  # by whose name the ride goes
         self.scenes = self.traces = self.events = 0
         self._first: str | None = None
 
@@ -154,6 +155,7 @@ class ForgedCar:
             plan=("continue",),
             traces=self.traces,
             events=self.events,
+            scenario=self.scenario,
         )
         self._scene.put(pack(report))
         self.scenes += 1
