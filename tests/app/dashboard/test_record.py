@@ -5,9 +5,11 @@ from dataclasses import replace
 from itertools import pairwise
 
 import msgspec
+import pytest
 
 from tests.fakes import s1_moments
 from tests.traces import s1_ride
+from xavi_dialogue.app.dashboard import past as past_module
 from xavi_dialogue.app.dashboard.past import Moments
 from xavi_dialogue.app.dashboard.record import Record
 from xavi_dialogue.app.dashboard.shelf import Shelf
@@ -16,6 +18,7 @@ from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.transports.bus import Keys
 from xavi_dialogue.transports.memory_bus import MemoryHub
 from xavi_dialogue.transports.messages import EventReport, SceneReport, TraceReport, unpack
+from xavi_dialogue.transports.web.documents import Past
 from xavi_dialogue.transports.web.wire import Decisions, Events, Ride, SceneShown
 
 KEYS = Keys()
@@ -34,6 +37,10 @@ def reports() -> list[Heard]:
         reporter.record(moment)
         reporter.show(moment, "ended" if moment.ending else "driving", 1.0)
     return said
+
+
+def past(record: Record) -> Past:
+    return msgspec.json.decode(record.past(), type=Past)
 
 
 def told(record: Record, heard: list[Heard]) -> Iterator[object]:
@@ -85,13 +92,13 @@ def test_another_ride_begins_anew() -> None:
     assert isinstance(messages[0], Ride)
     assert messages[0].ride == "other"
     assert record.decisions == record.happened == []
-    assert len(record.past().scenes) == 1
+    assert len(past(record).scenes) == 1
 
 
 def test_nothing_is_told_of_a_ride_that_nobody_has_seen() -> None:
     record = Record()
     assert record.all() == []
-    assert record.past().scenes == ()
+    assert past(record).scenes == ()
     trace = next(one for one in reports() if isinstance(one, TraceReport))
     record.hear(trace)
     assert record.ride is None
@@ -102,25 +109,39 @@ def test_what_was_missed_is_filled_in_from_histories() -> None:
     ego = trace.scene[0]
     moments.see(4.0, {0: ego})
     moments.learn(trace)
-    times = [time for time, _ in moments.kept]
-    assert times == sorted(times)
+    scenes = msgspec.json.decode(moments.document("r"), type=Past).scenes
+    times = [time for time, _ in scenes]
+    assert times == moments.times == sorted(times)
     assert times[0] == min(track.start for track in trace.history.values())
     assert times[-1] == 4.0
     assert min(b - a for a, b in pairwise(times)) > 0.15
-    first = dict(moments.kept)[times[0]]
-    assert [vehicle[0] for vehicle in first] == [
+    assert [vehicle[0] for vehicle in scenes[0][1]] == [
         vehicle for vehicle, track in sorted(trace.history.items()) if track.start <= times[0]
     ]
-    before = list(moments.kept)
+    before = moments.document("r")
     moments.learn(trace)
-    assert moments.kept == before
+    assert moments.document("r") == before
 
 
 def test_moments_that_come_too_often_or_late_are_left_out() -> None:
     moments, ego = Moments(), s1_ride().traces[0].scene[0]
     for time in (0.0, 0.1, 0.2, 0.3, 0.4, 0.1):
         moments.see(time, {0: replace(ego, speed=time)})
-    assert [time for time, _ in moments.kept] == [0.0, 0.2, 0.4]
+    assert moments.times == [0.0, 0.2, 0.4]
+
+
+def test_of_very_many_moments_the_latest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(past_module, "MAX_MOMENTS", 100)
+    moments, ego = Moments(), s1_ride().traces[0].scene[0]
+    for k in range(1000):
+        moments.see(0.2 * k, {0: ego})
+    assert 80 <= len(moments.times) <= 100
+    assert moments.times[-1] == 0.2 * 999
+    monkeypatch.setattr(past_module, "MAX_BYTES", 2000)
+    moments.see(1000.0, {0: ego})
+    for k in range(100):
+        moments.see(1001.0 + k, {0: ego})
+    assert len(moments.document("r")) < 2200
 
 
 def test_a_shelf_has_room_for_so_much() -> None:

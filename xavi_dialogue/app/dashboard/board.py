@@ -11,8 +11,6 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 
-import msgspec
-
 from xavi_dialogue import __version__
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.client import Client, ServiceLost
@@ -165,7 +163,7 @@ class Board:
 
     def past(self) -> bytes:
         """All moments so far."""
-        return msgspec.json.encode(self.record.past())
+        return self.record.past()
 
     def decision(self, name: str) -> bytes | None:
         """See Library."""

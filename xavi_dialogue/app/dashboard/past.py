@@ -7,38 +7,52 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import msgspec
+
 from planner.trace import SAMPLE_PERIOD, PlanTrace, Track
 from sim.scene import VehicleState
 from xavi_dialogue.app.dashboard.roads import seen
-from xavi_dialogue.transports.web.wire import Seen
 
 MAX_MOMENTS = 18_000  # an hour
+MAX_BYTES = 24 * 1024 * 1024  # of all moments, as JSON
 SPACING = 0.95 * SAMPLE_PERIOD  # [s] at least, between moments that are kept
 
 
 @dataclass
 class Moments:
-    """The moments of one ride, in order of time."""
+    """The moments of one ride, in order of time; as JSON, which takes a tenth of the memory."""
 
-    kept: list[tuple[float, tuple[Seen, ...]]] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)  # [s]
+    _packed: list[bytes] = field(default_factory=list)  # of each: its time, and who was seen
+    _taken: int = 0  # bytes
 
     def see(self, time: float, vehicles: Mapping[int, VehicleState]) -> None:
         """Keep what is seen at a time [s], unless so late a moment is known already."""
-        if self.kept and time < self.kept[-1][0] + SPACING:
-            return
-        self.kept.append((time, seen(vehicles)))
-        if len(self.kept) > MAX_MOMENTS:
-            del self.kept[: MAX_MOMENTS // 10]
+        if not self.times or time >= self.times[-1] + SPACING:
+            self._keep(len(self.times), time, vehicles)
 
     def learn(self, trace: PlanTrace) -> None:
         """Fill in, from the history of a decision, what was not seen."""
-        times = sorted({time for track in trace.history.values() for time in _times(track)})
-        for time in times:
-            index = bisect_right(self.kept, time, key=lambda moment: moment[0])
-            after = self.kept[index][0] if index < len(self.kept) else float("inf")
-            before = self.kept[index - 1][0] if index else float("-inf")
+        for time in sorted({time for track in trace.history.values() for time in _times(track)}):
+            index = bisect_right(self.times, time)
+            after = self.times[index] if index < len(self.times) else float("inf")
+            before = self.times[index - 1] if index else float("-inf")
             if time - before >= SPACING and after - time >= SPACING:
-                self.kept.insert(index, (time, seen(_as_of(trace, time))))
+                self._keep(index, time, _as_of(trace, time))
+
+    def document(self, ride: str) -> bytes:
+        """All moments: `documents.Past` as JSON."""
+        return b'{"ride":%b,"scenes":[%b]}' % (msgspec.json.encode(ride), b",".join(self._packed))
+
+    def _keep(self, index: int, time: float, vehicles: Mapping[int, VehicleState]) -> None:
+        packed = msgspec.json.encode((time, seen(vehicles)))
+        self.times.insert(index, time)
+        self._packed.insert(index, packed)
+        self._taken += len(packed)
+        if len(self.times) > MAX_MOMENTS or self._taken > MAX_BYTES:
+            oldest = len(self.times) // 10 + 1
+            self._taken -= sum(map(len, self._packed[:oldest]))
+            del self.times[:oldest], self._packed[:oldest]
 
 
 def _times(track: Track) -> list[float]:

@@ -19,7 +19,6 @@ from xavi_dialogue.app.rides import Rides
 from xavi_dialogue.dialogue.events import EventRecorded, Input, TraceRecorded
 from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.transports.messages import SceneReport
-from xavi_dialogue.transports.web.documents import Past
 from xavi_dialogue.transports.web.wire import (
     Decision,
     Decisions,
@@ -30,6 +29,7 @@ from xavi_dialogue.transports.web.wire import (
 )
 
 MAX_DECISIONS = 10_000  # that are told of in short
+MAX_EVENTS = 10_000
 
 
 @dataclass
@@ -103,10 +103,10 @@ class Record:
         index = bisect_right(self.decisions, time + EPSILON, key=lambda one: one.t) - 1
         return None if index < 0 else self.shelf.get(self.decisions[index].id)
 
-    def past(self) -> Past:
-        """All moments so far."""
+    def past(self) -> bytes:
+        """All moments so far: `documents.Past` as JSON."""
         ledger = self.rides.ledger
-        return Past(ride="" if ledger is None else ledger.ride, scenes=tuple(self.moments.kept))
+        return self.moments.document("" if ledger is None else ledger.ride)
 
     def _take(self, inputs: Iterable[Input]) -> list[Outgoing]:
         decisions: list[Decision] = []
@@ -121,6 +121,7 @@ class Record:
         self.decisions += decisions
         del self.decisions[:-MAX_DECISIONS]
         self.happened += events
+        del self.events[:-MAX_EVENTS], self.happened[:-MAX_EVENTS]
         told: list[Outgoing] = []
         if decisions:
             told.append(Decisions(decisions=tuple(decisions)))
