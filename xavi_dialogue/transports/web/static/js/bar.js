@@ -22,7 +22,11 @@ export function createBar(bar, store, help) {
   const presence = h("ul", { class: "presence", "aria-label": "Who is there" });
   const time = h("span", { class: "time" });
   const mode = h("span", { class: "mode" });
-  const dropped = h("p", { class: "dropped", hidden: true, title: "This page was too slow for them; nothing of the record is lost." });
+  const dropped = h("p", {
+    class: "dropped",
+    hidden: true,
+    title: "This page was too slow for them; nothing of the record is lost.",
+  });
   const helping = { type: "button", class: "icon", "aria-label": "Help and keys", title: "Help and keys (?)" };
   const ask = h("button", { ...helping, onclick: () => help.open() }, "?");
   bar.append(scenario, presence, h("p", { class: "clock" }, time, mode), dropped, createThemeSwitch(), ask);
@@ -36,7 +40,12 @@ export function createBar(bar, store, help) {
     named(bar, scenario, store);
     showPresence(presence, store.status);
     dropped.hidden = !(store.status.dropped > 0);
-    fill(dropped, store.status.dropped, h("span", { class: "of" }, store.status.dropped === 1 ? " scene" : " scenes"), " dropped");
+    fill(
+      dropped,
+      store.status.dropped,
+      h("span", { class: "of" }, store.status.dropped === 1 ? " scene" : " scenes"),
+      " dropped",
+    );
     moment();
   };
   for (const name of ["ride", "status"]) store.addEventListener(name, status);
@@ -68,8 +77,14 @@ function showPresence(list, status) {
   const key = JSON.stringify([status.connected, status.car, status.service]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
-  const who = [["car", status.car], ["service", status.service]];
-  fill(list, who.map(([name, there]) => presenceOf(name, status.connected ? there : "unknown")));
+  const who = [
+    ["car", status.car],
+    ["service", status.service],
+  ];
+  fill(
+    list,
+    who.map(([name, there]) => presenceOf(name, status.connected ? there : "unknown")),
+  );
 }
 
 function presenceOf(name, there) {

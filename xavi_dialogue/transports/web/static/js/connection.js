@@ -23,7 +23,10 @@ const CLOSED = {
   1009: { words: "A message was too large for the dashboard.", again: true, slow: true },
   1011: { words: "Something went wrong in the dashboard.", again: true, slow: true },
   1013: { words: "The dashboard is busy.", again: true, slow: true, told: true },
-  4401: { words: "The dashboard wants its token. Open the address that it printed where it was started.", again: false },
+  4401: {
+    words: "The dashboard wants its token. Open the address that it printed where it was started.",
+    again: false,
+  },
   4429: { words: "This page asked too much in too short a time.", again: true, slow: true, told: true },
 };
 
@@ -124,7 +127,8 @@ export class Connection extends EventTarget {
   /** Tell that a scene is on the screen, so that a slow page gets fewer. */
   acknowledge(seq) {
     this.unseen.push(seq);
-    if (document.hidden) this.drawn(); // nothing is drawn, and there is nothing to wait for
+    if (document.hidden)
+      this.drawn(); // nothing is drawn, and there is nothing to wait for
     else if (this.unseen.length === 1) requestAnimationFrame(() => this.drawn());
   }
 
@@ -138,7 +142,7 @@ export class Connection extends EventTarget {
     const told = CLOSED[code];
     this.unseen = [];
     const before = this.attempt > 0 ? this.words : null; // what was said at first, not that it is so still
-    this.words = told?.told && reason ? reason : told?.words ?? before;
+    this.words = told?.told && reason ? reason : (told?.words ?? before);
     this.store.status = { ...this.store.status, connected: false };
     if (told && !told.again) {
       this.become("refused");

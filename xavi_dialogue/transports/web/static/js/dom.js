@@ -1,7 +1,20 @@
 /** Elements made in one go; text is always text, never markup. */
 
 const SVG = "http://www.w3.org/2000/svg";
-const DRAWN = new Set(["svg", "g", "path", "line", "rect", "circle", "text", "title", "polyline", "use", "defs", "symbol"]);
+const DRAWN = new Set([
+  "svg",
+  "g",
+  "path",
+  "line",
+  "rect",
+  "circle",
+  "text",
+  "title",
+  "polyline",
+  "use",
+  "defs",
+  "symbol",
+]);
 
 /**
  * Make an element.

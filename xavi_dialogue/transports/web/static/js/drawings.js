@@ -4,11 +4,18 @@ import { h } from "./dom.js";
 const CAR = "M22 46v-7l5-3 5-9h22l8 9 9 3v7z";
 
 function drawing(name, ...shapes) {
-  return h("svg", { class: `drawing ${name}`, viewBox: "0 0 96 64", "aria-hidden": "true", focusable: "false" }, shapes);
+  return h(
+    "svg",
+    { class: `drawing ${name}`, viewBox: "0 0 96 64", "aria-hidden": "true", focusable: "false" },
+    shapes,
+  );
 }
 
 const road = (dashes = "8 6") => h("path", { class: "soft", d: "M4 54H92", "stroke-dasharray": dashes });
-const wheels = (kind = "full") => [h("circle", { class: kind, cx: 33, cy: 47, r: 5 }), h("circle", { class: kind, cx: 61, cy: 47, r: 5 })];
+const wheels = (kind = "full") => [
+  h("circle", { class: kind, cx: 33, cy: 47, r: 5 }),
+  h("circle", { class: kind, cx: 61, cy: 47, r: 5 }),
+];
 
 const DRAWINGS = {
   connecting: () =>
@@ -67,13 +74,20 @@ const DRAWINGS = {
     drawing(
       "service",
       h("path", { d: "M10 12h40a5 5 0 0 1 5 5v16a5 5 0 0 1-5 5H28l-9 8v-8h-9a5 5 0 0 1-5-5V17a5 5 0 0 1 5-5z" }),
-      h("path", { class: "soft", d: "M62 24h24a5 5 0 0 1 5 5v14a5 5 0 0 1-5 5h-3v8l-8-8H62a5 5 0 0 1-5-5", "stroke-dasharray": "4 4" }),
+      h("path", {
+        class: "soft",
+        d: "M62 24h24a5 5 0 0 1 5 5v14a5 5 0 0 1-5 5h-3v8l-8-8H62a5 5 0 0 1-5-5",
+        "stroke-dasharray": "4 4",
+      }),
       h("path", { class: "soft", d: "M66 36h.5m7 0h.5m7 0h.5" }),
     ),
   talk: () =>
     drawing(
       "talk",
-      h("path", { class: "accent", d: "M38 6h44a6 6 0 0 1 6 6v14a6 6 0 0 1-6 6h-8l-8 7v-7H38a6 6 0 0 1-6-6V12a6 6 0 0 1 6-6z" }),
+      h("path", {
+        class: "accent",
+        d: "M38 6h44a6 6 0 0 1 6 6v14a6 6 0 0 1-6 6h-8l-8 7v-7H38a6 6 0 0 1-6-6V12a6 6 0 0 1 6-6z",
+      }),
       h("path", { class: "accent", d: "M56 16a4 4 0 1 1 5 4c-1 .4-1 1-1 2m0 4v.4" }),
       h("path", { d: "M10 30h14m-14 0a4 4 0 0 0-4 4v14a4 4 0 0 0 4 4h4v7l8-7h26a4 4 0 0 0 4-4v-5" }),
       h("path", { class: "soft", d: "M14 40h20m-20 6h12" }),

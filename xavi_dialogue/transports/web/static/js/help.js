@@ -28,7 +28,18 @@ export function createHelp(dialog) {
   const box = h("input", { type: "checkbox", id: "single-keys" });
   box.checked = recall(KEY) !== "off";
   box.addEventListener("change", () => remember(KEY, box.checked ? null : "off"));
-  const rows = ROWS.map(([keys, does]) => h("div", {}, h("dt", {}, keys.split(" ").map((key) => h("kbd", {}, key))), h("dd", {}, does)));
+  const rows = ROWS.map(([keys, does]) =>
+    h(
+      "div",
+      {},
+      h(
+        "dt",
+        {},
+        keys.split(" ").map((key) => h("kbd", {}, key)),
+      ),
+      h("dd", {}, does),
+    ),
+  );
   fill(
     dialog,
     h("h2", { id: "help-title" }, "What can be done here"),

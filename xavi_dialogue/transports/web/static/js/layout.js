@@ -44,7 +44,8 @@ function turnTabs(event, chosen, tabs, show) {
   if (step === undefined) return;
   event.preventDefault();
   const index = IDS.indexOf(chosen) + step;
-  const wrapped = Math.abs(step) === 1 ? (index + IDS.length) % IDS.length : Math.min(Math.max(index, 0), IDS.length - 1);
+  const wrapped =
+    Math.abs(step) === 1 ? (index + IDS.length) % IDS.length : Math.min(Math.max(index, 0), IDS.length - 1);
   show(IDS[wrapped]);
   tabs[IDS[wrapped]].focus();
 }

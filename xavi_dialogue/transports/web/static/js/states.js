@@ -118,6 +118,10 @@ function showCard(card, { drawing, title, says }, store, connection) {
 }
 
 function showStrip(strip, { drawing, title, says }, store, dismiss) {
-  const close = h("button", { type: "button", class: "icon", "aria-label": "Hide this", title: "Hide this", onclick: dismiss }, "×");
+  const close = h(
+    "button",
+    { type: "button", class: "icon", "aria-label": "Hide this", title: "Hide this", onclick: dismiss },
+    "×",
+  );
   fill(strip, draw(drawing), h("p", {}, h("b", {}, title), " ", says(store)), close);
 }

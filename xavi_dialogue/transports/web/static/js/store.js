@@ -74,7 +74,7 @@ export class Store extends EventTarget {
 
   /** [s] The moment that is shown. */
   get at() {
-    return this.live ? this.latest?.t ?? 0 : this.held;
+    return this.live ? (this.latest?.t ?? 0) : this.held;
   }
 
   /** [s] from when to when there is anything to show. */
@@ -173,7 +173,8 @@ export class Store extends EventTarget {
 
   keep(scene) {
     const last = this.past[this.past.length - 1];
-    if (last && scene.t < last.t) this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
+    if (last && scene.t < last.t)
+      this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
     else if (last && scene.t - last.t < SPACING) return;
     this.past.push(scene);
     if (this.past.length > MAX_SCENES) this.past.splice(0, 1000);

@@ -131,11 +131,15 @@ function lights({ context, colours, long, broad }, signals, t) {
   const size = Math.max(broad * 0.24, 2.2);
   if (signals.includes("brake")) {
     context.fillStyle = colours.get("map-brake");
-    for (const side of [-1, 1]) context.fillRect(-long / 2 - 0.5, side * (broad / 2 - size * 0.6) - size / 2, size * 0.8, size);
+    for (const side of [-1, 1])
+      context.fillRect(-long / 2 - 0.5, side * (broad / 2 - size * 0.6) - size / 2, size * 0.8, size);
   }
   if (t % BLINK > BLINK * 0.65) return;
   context.fillStyle = colours.get("map-indicator");
-  for (const [signal, side] of [["left", -1], ["right", 1]]) {
+  for (const [signal, side] of [
+    ["left", -1],
+    ["right", 1],
+  ]) {
     if (!signals.includes(signal)) continue;
     for (const x of [-long / 2 + size * 0.3, long / 2 - size * 0.6]) {
       context.beginPath();

@@ -3,9 +3,27 @@
 import { h } from "../dom.js";
 
 const TOKENS = [
-  "card", "edge", "ink", "ink-soft", "accent", "accent-ink", "foil", "cause", "other", "bad", "warn",
-  "ground", "road", "road-junction", "marking", "focus",
-  "map-glass", "map-brake", "map-indicator", "map-kerb", "map-grid",
+  "card",
+  "edge",
+  "ink",
+  "ink-soft",
+  "accent",
+  "accent-ink",
+  "foil",
+  "cause",
+  "other",
+  "bad",
+  "warn",
+  "ground",
+  "road",
+  "road-junction",
+  "marking",
+  "focus",
+  "map-glass",
+  "map-brake",
+  "map-indicator",
+  "map-kerb",
+  "map-grid",
 ];
 const PAINTS = ["white", "grey", "black", "red", "orange", "yellow", "green", "blue", "purple", "brown"];
 

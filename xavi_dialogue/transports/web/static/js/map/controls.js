@@ -27,11 +27,15 @@ function button(icon, label, keys, onclick, extra = {}) {
 export function createControls(on) {
   const follow = button("follow", "Follow our car", "F", on.follow, { "aria-pressed": "true" });
   const both = button("both", "Show both lines whole", "", on.both, { hidden: true });
-  const element = h("div", { class: "map-controls", role: "group", "aria-label": "Map" },
-    both, follow,
+  const element = h(
+    "div",
+    { class: "map-controls", role: "group", "aria-label": "Map" },
+    both,
+    follow,
     button("in", "Zoom in", "+", on.zoomIn),
     button("out", "Zoom out", "-", on.zoomOut),
-    button("fit", "Show everything", "0", on.fit));
+    button("fit", "Show everything", "0", on.fit),
+  );
   const length = h("span", {});
   const bar = h("div", { class: "map-scale", role: "img", "aria-label": "Scale" }, length, h("i", {}));
   let shown = null;
@@ -77,7 +81,11 @@ function told(store) {
   const { latest, status } = store;
   if (!store.live) {
     const ago = latest.t - store.at;
-    return [clock(store.at), ago < 0.05 ? "the latest moment" : `${ago < 10 ? ago.toFixed(1) : Math.round(ago)} s ago`, "held"];
+    return [
+      clock(store.at),
+      ago < 0.05 ? "the latest moment" : `${ago < 10 ? ago.toFixed(1) : Math.round(ago)} s ago`,
+      "held",
+    ];
   }
   if (!status.connected) return ["not connected", `last heard at ${clock(latest.t)}`, "gone"];
   if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t)}`, "gone"];

@@ -11,12 +11,16 @@ const WHEEL = 0.0016; // log of zoom per pixel of the wheel
  */
 export function listen(canvas, on) {
   pointers(canvas, on);
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-    const turned = Math.max(Math.min(event.deltaY * lines, 240), -240);
-    on.zoom(Math.exp(-turned * WHEEL * (event.ctrlKey ? 4 : 1)), event.offsetX, event.offsetY);
-  }, { passive: false });
+  canvas.addEventListener(
+    "wheel",
+    (event) => {
+      event.preventDefault();
+      const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+      const turned = Math.max(Math.min(event.deltaY * lines, 240), -240);
+      on.zoom(Math.exp(-turned * WHEEL * (event.ctrlKey ? 4 : 1)), event.offsetX, event.offsetY);
+    },
+    { passive: false },
+  );
   canvas.addEventListener("dblclick", (event) => on.zoom(event.shiftKey ? 0.5 : 2, event.offsetX, event.offsetY));
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || (event.altKey && !"[]".includes(event.key))) return;
@@ -35,7 +39,7 @@ const KEYS = {
   "+": (on) => on.zoomIn(),
   "=": (on) => on.zoomIn(),
   "-": (on) => on.zoomOut(),
-  "0": (on) => on.fit(),
+  0: (on) => on.fit(),
   f: (on) => on.follow(),
   F: (on) => on.follow(),
   "]": (on) => on.next(1),

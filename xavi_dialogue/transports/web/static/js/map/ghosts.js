@@ -21,7 +21,10 @@ export function linesOf(evidence) {
 /** [left, bottom, right, top] of what is compared; null where there is nothing. */
 export function boundsOfEvidence(evidence) {
   const { fact, ghost } = linesOf(evidence);
-  return boundsOf([...fact.slice(0, 1), ...ghost.slice(0, 1)].map((line) => line.path), 8);
+  return boundsOf(
+    [...fact.slice(0, 1), ...ghost.slice(0, 1)].map((line) => line.path),
+    8,
+  );
 }
 
 /**
@@ -39,10 +42,13 @@ export function drawEvidence(evidence, elapsed, pen, size) {
   const since = elapsed === null ? null : elapsed % (longest + REST);
   for (const name of ["fact", "ghost"]) {
     const own = lines[name];
-    own.slice().reverse().forEach((line, i) => {
-      const main = i === own.length - 1;
-      drawLine(line, SIDES[name], pen, main ? 1 : 0.3 * line.probability + 0.1, main);
-    });
+    own
+      .slice()
+      .reverse()
+      .forEach((line, i) => {
+        const main = i === own.length - 1;
+        drawLine(line, SIDES[name], pen, main ? 1 : 0.3 * line.probability + 0.1, main);
+      });
     if (!own.length) continue;
     kinds.add(name);
     ghostCars(own[0], SIDES[name], since, pen, size, name === "ghost");
@@ -96,7 +102,8 @@ function ghostCars(line, side, since, { context, view, colours }, size, each) {
   let last = null;
   for (let second = 0; each && second <= duration(line); second += 1) {
     const car = at(second);
-    if (last && Math.hypot(car.x - last.x, car.y - last.y) * view.scale < Math.max(size.length * view.scale, 11) * 1.15) continue;
+    if (last && Math.hypot(car.x - last.x, car.y - last.y) * view.scale < Math.max(size.length * view.scale, 11) * 1.15)
+      continue;
     drawGhost(context, view, car, colours, { colour: side.colour, fill: 0.12, line: 0.45 });
     last = car;
   }
@@ -120,7 +127,18 @@ function label(name, side, lines, { view, colours, labels }) {
   if (!best) return;
   const { colour, words, short } = SIDES[name];
   const look = { ink: colours.get("card"), ground: colours.get(colour), strong: true };
-  labels.add({ key: name, text: words(side), short: short?.(side), x: best.x, y: best.y, reach: 18, weight: 90, wide: true, below: other ? under(best.point, other.path) : name !== "fact", ...look });
+  labels.add({
+    key: name,
+    text: words(side),
+    short: short?.(side),
+    x: best.x,
+    y: best.y,
+    reach: 18,
+    weight: 90,
+    wide: true,
+    below: other ? under(best.point, other.path) : name !== "fact",
+    ...look,
+  });
 }
 
 /** Whether a point lies south of a line, where its label does not cover it. */
@@ -135,6 +153,7 @@ function under(point, path) {
 
 function apart(point, path) {
   let least = Infinity;
-  for (let i = 0; i < path.length; i += 2) least = Math.min(least, Math.hypot(path[i] - point.x, path[i + 1] - point.y));
+  for (let i = 0; i < path.length; i += 2)
+    least = Math.min(least, Math.hypot(path[i] - point.x, path[i + 1] - point.y));
   return least;
 }

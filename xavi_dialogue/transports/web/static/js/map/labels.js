@@ -7,8 +7,28 @@ const CELL = 64; // [px] of the grid by which neighbours are found
 const LONGEST = 64; // characters
 
 /** Places of a label around what it names, the best first: x, y from -1 to 1; halves overlap it. */
-const SIDES = [[0, -1], [1, 0], [-1, 0], [0, 1], [1, -1], [-1, -1], [1, 1], [-1, 1]];
-const WIDE = [[0, -1], [0.5, -1], [-0.5, -1], [1, -1], [-1, -1], [0, 1], [0.5, 1], [-0.5, 1], [1, 1], [-1, 1]];
+const SIDES = [
+  [0, -1],
+  [1, 0],
+  [-1, 0],
+  [0, 1],
+  [1, -1],
+  [-1, -1],
+  [1, 1],
+  [-1, 1],
+];
+const WIDE = [
+  [0, -1],
+  [0.5, -1],
+  [-0.5, -1],
+  [1, -1],
+  [-1, -1],
+  [0, 1],
+  [0.5, 1],
+  [-0.5, 1],
+  [1, 1],
+  [-1, 1],
+];
 
 export class Labels {
   constructor() {

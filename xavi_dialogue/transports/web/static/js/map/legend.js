@@ -20,7 +20,11 @@ const ENTRIES = [
 
 const DRAWINGS = {
   line: () => h("path", { d: "M2 8h20M18 4l6 4-6 4" }),
-  fade: () => [h("path", { d: "M2 8h8" }), h("path", { d: "M10 8h8", opacity: 0.6 }), h("path", { d: "M18 8h8", opacity: 0.3 })],
+  fade: () => [
+    h("path", { d: "M2 8h8" }),
+    h("path", { d: "M10 8h8", opacity: 0.6 }),
+    h("path", { d: "M18 8h8", opacity: 0.3 }),
+  ],
   strip: () => h("path", { class: "map-strip", d: "M2 8h24" }),
   circle: () => h("circle", { class: "map-thin", cx: 14, cy: 8, r: 7 }),
   flag: () => [h("path", { d: "M9 15V2" }), h("path", { class: "map-filled", d: "M9 2h11v7H9z" })],
@@ -56,6 +60,10 @@ export function createLegend(changed, folded) {
 }
 
 function entry([, words, drawing, colour]) {
-  const swatch = h("svg", { viewBox: "0 0 28 16", class: `map-swatch map-is-${colour}`, "aria-hidden": "true" }, DRAWINGS[drawing]());
+  const swatch = h(
+    "svg",
+    { viewBox: "0 0 28 16", class: `map-swatch map-is-${colour}`, "aria-hidden": "true" },
+    DRAWINGS[drawing](),
+  );
   return h("li", {}, swatch, words);
 }

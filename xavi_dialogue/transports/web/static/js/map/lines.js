@@ -49,7 +49,10 @@ export function pointAt(line, index) {
 /** [rad] Heading of a line near a point, over stretches in which it stands still. */
 export function headingAt(line, i) {
   const last = count(line) - 1;
-  for (const [from, to, step] of [[i, last, 1], [i, 0, -1]]) {
+  for (const [from, to, step] of [
+    [i, last, 1],
+    [i, 0, -1],
+  ]) {
     for (let k = from + step; step > 0 ? k <= to : k >= to; k += step) {
       const x = (line[2 * k] - line[2 * i]) * step;
       const y = (line[2 * k + 1] - line[2 * i + 1]) * step;
@@ -95,7 +98,8 @@ export function beforeEnd(line, distance) {
 export function lastWithin(line, [left, bottom, right, top]) {
   for (let i = count(line) - 1; i >= 0; i -= 1) {
     const [x, y] = [line[2 * i], line[2 * i + 1]];
-    if (x >= left && x <= right && y >= bottom && y <= top) return { x, y, heading: headingAt(line, i), end: i === count(line) - 1 };
+    if (x >= left && x <= right && y >= bottom && y <= top)
+      return { x, y, heading: headingAt(line, i), end: i === count(line) - 1 };
   }
   return null;
 }

@@ -23,9 +23,19 @@ import { View } from "./view.js";
 
 const BUSY = 14; // [ms] a frame that takes longer is drawn at most 30 times a second
 const SPARE = 30; // [ms]
-const NOTHING = { vehicles: [], labels: [], ghost: 0, fact: 0, predictions: 0, yields: 0, preview: false, kinds: new Set() };
-const LABEL = "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, "
-  + "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
+const NOTHING = {
+  vehicles: [],
+  labels: [],
+  ghost: 0,
+  fact: 0,
+  predictions: 0,
+  yields: 0,
+  preview: false,
+  kinds: new Set(),
+};
+const LABEL =
+  "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, " +
+  "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
 
 /**
  * Make the map.
@@ -55,7 +65,13 @@ class LiveMap {
   constructor(element, store) {
     this.element = element;
     this.store = store;
-    this.canvas = h("canvas", { tabindex: 0, role: "application", "aria-roledescription": "map", "aria-label": LABEL, "aria-describedby": "map-in-words" });
+    this.canvas = h("canvas", {
+      tabindex: 0,
+      role: "application",
+      "aria-roledescription": "map",
+      "aria-label": LABEL,
+      "aria-describedby": "map-in-words",
+    });
     this.context = this.canvas.getContext("2d", { alpha: false });
     this.view = new View();
     this.following = new Following(this.view);
@@ -79,10 +95,15 @@ class LiveMap {
   }
 
   build() {
-    this.steering = new Steering(this.view, this.following, () => this.ego, (following) => {
-      this.controls.following(following);
-      this.request();
-    });
+    this.steering = new Steering(
+      this.view,
+      this.following,
+      () => this.ego,
+      (following) => {
+        this.controls.following(following);
+        this.request();
+      },
+    );
     const { steering } = this;
     this.steered = {
       zoomIn: () => steering.zoomIn(),
@@ -90,7 +111,10 @@ class LiveMap {
       fit: () => steering.fit(this.everything),
       follow: () => steering.follow(!this.following.on),
     };
-    this.controls = createControls({ ...this.steered, both: () => steering.fit(boundsOfEvidence(this.store.evidence)) });
+    this.controls = createControls({
+      ...this.steered,
+      both: () => steering.fit(boundsOfEvidence(this.store.evidence)),
+    });
     const moved = () => {
       this.taken = null;
       this.request();
@@ -100,8 +124,16 @@ class LiveMap {
     this.summary = createSummary("map-in-words");
     this.pointing = new Pointing(this.store, this.view, this.summary, () => this.request());
     this.element.classList.add("map");
-    this.element.append(this.canvas, this.badge.element, this.legend.element, this.controls.bar,
-      this.controls.element, this.pointing.card.element, this.summary.element, this.summary.said);
+    this.element.append(
+      this.canvas,
+      this.badge.element,
+      this.legend.element,
+      this.controls.bar,
+      this.controls.element,
+      this.pointing.card.element,
+      this.summary.element,
+      this.summary.said,
+    );
     this.colours = new Colours(this.element);
   }
 
@@ -189,7 +221,8 @@ class LiveMap {
   measure() {
     const { clientWidth, clientHeight } = this.element;
     const first = this.view.width === 0;
-    if (!clientWidth || !clientHeight || !this.view.resize(clientWidth, clientHeight, window.devicePixelRatio || 1)) return;
+    if (!clientWidth || !clientHeight || !this.view.resize(clientWidth, clientHeight, window.devicePixelRatio || 1))
+      return;
     this.canvas.width = Math.round(clientWidth * this.view.ratio);
     this.canvas.height = Math.round(clientHeight * this.view.ratio);
     if (first) this.view.scale = this.view.usual;
@@ -227,7 +260,8 @@ class LiveMap {
     const settling = this.backdropNow(began);
     this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
     this.around(began);
-    if (this.scene && this.store.live) this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
+    if (this.scene && this.store.live)
+      this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
     this.pace.frame(began, performance.now());
     if (settling || this.moving(began)) this.request();
   }
@@ -275,16 +309,19 @@ class LiveMap {
     const about = (turn?.vehicles ?? []).filter((id) => id !== 0 && !causes.has(id)); // these have their ring
     this.taken ??= this.measured();
     this.labels.begin(view, this.colours.font, this.taken);
-    return drawPicture({
-      ...this.scene,
-      detail: this.deciding.detail,
-      evidence,
-      preview: store.preview,
-      elapsed: view.still.matches ? null : (now - this.compared) / 1000,
-      causes,
-      pointed: new Set([...store.pointed, ...about]),
-      chosen: this.pointing.id,
-    }, { context: this.context, view, colours: this.colours, labels: this.labels, roads: this.roads });
+    return drawPicture(
+      {
+        ...this.scene,
+        detail: this.deciding.detail,
+        evidence,
+        preview: store.preview,
+        elapsed: view.still.matches ? null : (now - this.compared) / 1000,
+        causes,
+        pointed: new Set([...store.pointed, ...about]),
+        chosen: this.pointing.id,
+      },
+      { context: this.context, view, colours: this.colours, labels: this.labels, roads: this.roads },
+    );
   }
 
   /** What stands around and over the canvas. */
@@ -304,16 +341,25 @@ class LiveMap {
   inWords() {
     const { store } = this;
     const words = store.decisionAt(store.at)?.words ?? "";
-    return { ...this.scene, live: store.live, state: store.latest.state, gone: store.status.car === "gone", roads: this.roads, words };
+    return {
+      ...this.scene,
+      live: store.live,
+      state: store.latest.state,
+      gone: store.status.car === "gone",
+      roads: this.roads,
+      words,
+    };
   }
 
   measured() {
     const origin = this.element.getBoundingClientRect();
     const over = [this.badge.element, this.legend.element, this.controls.element, this.controls.bar];
-    return over.filter((one) => one.offsetWidth > 0).map((one) => {
-      const box = one.getBoundingClientRect();
-      return [box.left - origin.left, box.top - origin.top, box.right - origin.left, box.bottom - origin.top];
-    });
+    return over
+      .filter((one) => one.offsetWidth > 0)
+      .map((one) => {
+        const box = one.getBoundingClientRect();
+        return [box.left - origin.left, box.top - origin.top, box.right - origin.left, box.bottom - origin.top];
+      });
   }
 
   shown() {
@@ -322,7 +368,9 @@ class LiveMap {
     return {
       t: this.scene?.t ?? null,
       ...drawn,
-      pointed: [...new Set([...pointed, ...(turns.find((one) => one.n === turn)?.vehicles ?? [])])].filter((id) => id !== 0),
+      pointed: [...new Set([...pointed, ...(turns.find((one) => one.n === turn)?.vehicles ?? [])])].filter(
+        (id) => id !== 0,
+      ),
       causes: (evidence?.causes ?? []).map((cause) => cause.vehicle),
       follow: this.following.on,
       scale: this.view.scale,

@@ -62,9 +62,15 @@ export function giveWay(context, view, { x, y }, colours) {
 /** Where a line ends in a collision. */
 export function crash(context, view, { x, y }, colours) {
   const [px, py] = view.toScreen(x, y);
-  for (const [width, colour] of [[6, colours.get("card")], [3, colours.get("bad")]]) {
+  for (const [width, colour] of [
+    [6, colours.get("card")],
+    [3, colours.get("bad")],
+  ]) {
     context.beginPath();
-    for (const [dx, dy] of [[7, 7], [7, -7]]) {
+    for (const [dx, dy] of [
+      [7, 7],
+      [7, -7],
+    ]) {
       context.moveTo(px - dx, py - dy);
       context.lineTo(px + dx, py + dy);
     }

@@ -109,7 +109,12 @@ function alike(a, b) {
   if (a.vehicles.length !== b.vehicles.length) return false;
   return a.vehicles.every((one, i) => {
     const other = b.vehicles[i];
-    return one.id === other.id && Math.abs(one.x - other.x) < 1e-3 && Math.abs(one.y - other.y) < 1e-3
-      && Math.abs(one.heading - other.heading) < 1e-3 && one.signals.join() === other.signals.join();
+    return (
+      one.id === other.id &&
+      Math.abs(one.x - other.x) < 1e-3 &&
+      Math.abs(one.y - other.y) < 1e-3 &&
+      Math.abs(one.heading - other.heading) < 1e-3 &&
+      one.signals.join() === other.signals.join()
+    );
   });
 }

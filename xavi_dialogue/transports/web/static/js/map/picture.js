@@ -83,12 +83,21 @@ function name(vehicle, scene, { view, colours, labels }, long) {
   const ours = vehicle.id === 0;
   const blamed = scene.causes.has(vehicle.id);
   const ground = blamed ? "cause" : "accent";
-  const look = ours || blamed
-    ? { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(ground), strong: true }
-    : { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
+  const look =
+    ours || blamed
+      ? { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(ground), strong: true }
+      : { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
   const weight = ours ? 80 : ringed || scene.chosen === vehicle.id ? 70 : 20 - vehicle.id / 1e6;
   const text = ours ? "us" : long || ringed ? nameOf(vehicle.id) : String(vehicle.id);
-  labels.add({ key: `vehicle ${vehicle.id}`, text, x, y, reach: reach + (ringed ? 4 + 4 * ringed : 0), weight, ...look });
+  labels.add({
+    key: `vehicle ${vehicle.id}`,
+    text,
+    x,
+    y,
+    reach: reach + (ringed ? 4 + 4 * ringed : 0),
+    weight,
+    ...look,
+  });
 }
 
 /** [px] Half the width and height of the box around a vehicle. */

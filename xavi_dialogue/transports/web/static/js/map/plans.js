@@ -45,7 +45,10 @@ function plan({ detail, t, quiet }, { context, view, colours }, drawn) {
   context.lineCap = "round";
   context.lineJoin = "round";
   const path = pathOf(line);
-  for (const [colour, alpha, width] of [["card", 0.55, 6], ["accent", quiet ? 0.4 : 0.95, 3.5]]) {
+  for (const [colour, alpha, width] of [
+    ["card", 0.55, 6],
+    ["accent", quiet ? 0.4 : 0.95, 3.5],
+  ]) {
     context.strokeStyle = colours.get(colour, quiet && colour === "card" ? 0 : alpha);
     context.lineWidth = width / view.scale;
     context.stroke(path);
@@ -83,7 +86,15 @@ function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
   if (end.end) arrowHead(pen.context, pen.view, end, pen.colours.get("other", 0.35 + 0.65 * goal.probability), 7);
   const { colours } = pen;
   const look = { ink: colours.get("other"), ground: colours.get("card", 0.92), edge: colours.get("other", 0.5) };
-  pen.labels.add({ key: `goal ${one.vehicle} ${goal.words} ${goal.place}`, text: percent(goal.probability), x, y, reach: 9, weight: 40 + goal.probability, ...look });
+  pen.labels.add({
+    key: `goal ${one.vehicle} ${goal.words} ${goal.place}`,
+    text: percent(goal.probability),
+    x,
+    y,
+    reach: 9,
+    weight: 40 + goal.probability,
+    ...look,
+  });
 }
 
 /** A path that is broad and plain where it begins, thin and pale where it ends. */
@@ -130,7 +141,12 @@ function rightOfWay({ detail, vehicles }, { context, view, colours, roads }, dra
 }
 
 function boxOf(link, roads) {
-  return boundsOf(link.via.map((id) => roads.lanes.get(id)?.line ?? []), 1) ?? [Infinity, Infinity, -Infinity, -Infinity];
+  return (
+    boundsOf(
+      link.via.map((id) => roads.lanes.get(id)?.line ?? []),
+      1,
+    ) ?? [Infinity, Infinity, -Infinity, -Infinity]
+  );
 }
 
 /** Where a sign stands: to the right of a lane's end. */

@@ -33,7 +33,8 @@ export class Pointing {
     for (const vehicle of this.vehicles) {
       const [x, y] = this.view.toScreen(...middleOf(vehicle));
       const away = Math.hypot(x - px, y - py);
-      if (away < Math.max(radiusOf(vehicle, this.view.scale), NEAR) && !(best?.away <= away)) best = { id: vehicle.id, away };
+      if (away < Math.max(radiusOf(vehicle, this.view.scale), NEAR) && !(best?.away <= away))
+        best = { id: vehicle.id, away };
     }
     return best?.id ?? null;
   }

@@ -5,7 +5,11 @@ import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./li
 const DASH = [3, 4.5]; // [m]
 const LINE = 0.14; // [m] width of markings
 const KERB = 0.35; // [m] on each side
-const TURN = new Map([["left", 1], ["right", -1], ["turnaround", 1]]);
+const TURN = new Map([
+  ["left", 1],
+  ["right", -1],
+  ["turnaround", 1],
+]);
 
 /** Scales [px/m] from which on things are drawn: below, they would only be clutter. */
 const FROM = { sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
@@ -144,12 +148,19 @@ function arrow(lane, ways) {
     const back = way === "turnaround" ? -0.9 : 0.4;
     const tip = side ? [back, side * 0.85] : [1.6, 0];
     const angle = side ? side * (way === "turnaround" ? Math.PI : Math.PI / 2) : 0;
-    const bend = side ? [[0.1, 0], [0.4, side * 0.25], [Math.max(back, 0.4), side * 0.6]] : [[0, 0]];
+    const bend = side
+      ? [
+          [0.1, 0],
+          [0.4, side * 0.25],
+          [Math.max(back, 0.4), side * 0.6],
+        ]
+      : [[0, 0]];
     lines.push([...bend, tip].flatMap((point) => place(...point)));
-    const corner = (along, across) => place(
-      tip[0] + along * Math.cos(angle) - across * Math.sin(angle),
-      tip[1] + along * Math.sin(angle) + across * Math.cos(angle),
-    );
+    const corner = (along, across) =>
+      place(
+        tip[0] + along * Math.cos(angle) - across * Math.sin(angle),
+        tip[1] + along * Math.sin(angle) + across * Math.cos(angle),
+      );
     trace(heads, [...corner(side ? 0.6 : 1.1, 0), ...corner(-0.1, 0.45), ...corner(-0.1, -0.45)], true);
   }
   return { path: pathOf(...lines), heads, width: 0.2, lane: null, box: [x - 4, y - 4, x + 4, y + 4] };

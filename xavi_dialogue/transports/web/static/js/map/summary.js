@@ -48,9 +48,14 @@ export function inWords(picture) {
 
 function opening({ live, t, gone, state, roads }, ego) {
   const lane = roads?.laneAt(ego.x - Math.cos(ego.heading), ego.y - Math.sin(ego.heading));
-  const where = !lane ? "" : lane.internal ? " within a junction" : spaced(laneInWords(lane.index, roads.lanesOf.get(lane.edge).length));
+  const where = !lane
+    ? ""
+    : lane.internal
+      ? " within a junction"
+      : spaced(laneInWords(lane.index, roads.lanesOf.get(lane.edge).length));
   const moves = ego.speed < 0.3 ? `stand${where}` : `drive at ${speed(ego.speed)}${where}`;
-  if (gone && live) return `The car is not heard of any more; last, at ${clock(t)}, we ${ego.speed < 0.3 ? "stood" : `drove at ${speed(ego.speed)}`}${where}.`;
+  if (gone && live)
+    return `The car is not heard of any more; last, at ${clock(t)}, we ${ego.speed < 0.3 ? "stood" : `drove at ${speed(ego.speed)}`}${where}.`;
   if (!live) return `At ${clock(t)}: we ${moves}.`;
   if (state === "ended") return "The ride is over.";
   return ego.speed < 0.3 ? `We are standing${where}.` : `We are driving at ${speed(ego.speed)}${where}.`;

@@ -30,7 +30,16 @@ export function looksOf({ kind, colour }) {
   return words.length > 40 ? `${words.slice(0, 39)}…` : words;
 }
 
-const AROUND = ["ahead of us", "ahead to the left", "to our left", "behind to the left", "behind us", "behind to the right", "to our right", "ahead to the right"];
+const AROUND = [
+  "ahead of us",
+  "ahead to the left",
+  "to our left",
+  "behind to the left",
+  "behind us",
+  "behind to the right",
+  "to our right",
+  "ahead to the right",
+];
 
 /** "20 m ahead of us": from our front bumper to that of another vehicle. */
 export function whereTo(ego, other) {

@@ -29,8 +29,20 @@ export function createAlternatives(store) {
     const range = scaleFor(times);
     say(scale, times.length ? `±${range} s` : "");
     table.hidden = !tried.length;
-    steady(body, tried, (one) => one.action, (one) => row(one, preview), (tr, one) => drawRow(tr, one, range));
-    steady(barred, untried(decision), ([reason]) => reason, () => h("li"), said);
+    steady(
+      body,
+      tried,
+      (one) => one.action,
+      (one) => row(one, preview),
+      (tr, one) => drawRow(tr, one, range),
+    );
+    steady(
+      barred,
+      untried(decision),
+      ([reason]) => reason,
+      () => h("li"),
+      said,
+    );
     barred.hidden = !barred.children.length;
     preview.offer(tried);
   }

@@ -38,7 +38,14 @@ function branchRow() {
     held: h("ul", { class: "branch-held small" }),
     refused: h("p", { class: "branch-refused small" }),
   };
-  const head = h("div", { class: "branch-head" }, h("span", { class: "branch-fold", "aria-hidden": "true" }), parts.words, parts.mark, parts.visits);
+  const head = h(
+    "div",
+    { class: "branch-head" },
+    h("span", { class: "branch-fold", "aria-hidden": "true" }),
+    parts.words,
+    parts.mark,
+    parts.visits,
+  );
   const row = h("div", { class: "branch" }, head, parts.outcomes, parts.facts, parts.held, parts.refused);
   row.parts = parts;
   return row;
@@ -59,7 +66,13 @@ function drawBranch(row, branch, open) {
 
 function lines(list, texts) {
   list.hidden = !texts.length;
-  steady(list, texts, (text) => text, () => h("li"), say);
+  steady(
+    list,
+    texts,
+    (text) => text,
+    () => h("li"),
+    say,
+  );
 }
 
 function visitsOf({ visits, forced }) {
@@ -87,5 +100,7 @@ function notThen(refused) {
 
 function nameOf(branch) {
   const chosen = branch.chosen ? ", my plan" : "";
-  return [`${upper(branch.words)}${chosen}`, visitsOf(branch), ...factsOf(branch), ...branch.held_up.map(heldUp)].join(", ");
+  return [`${upper(branch.words)}${chosen}`, visitsOf(branch), ...factsOf(branch), ...branch.held_up.map(heldUp)].join(
+    ", ",
+  );
 }

@@ -39,10 +39,21 @@ export function createDecision(element, store) {
 
 function assemble(element, store) {
   const panel = {
-    element, head: createHead(store), alternatives: createAlternatives(store), predictions: createPredictions(store),
-    branches: createBranches(), notice: h("div", { class: "decision-notice", role: "status" }),
+    element,
+    head: createHead(store),
+    alternatives: createAlternatives(store),
+    predictions: createPredictions(store),
+    branches: createBranches(),
+    notice: h("div", { class: "decision-notice", role: "status" }),
     again: h("button", { type: "button" }, "Try again"),
-    state: "none", shown: null, full: false, asked: null, busy: false, at: 0, moved: 0, timer: 0,
+    state: "none",
+    shown: null,
+    full: false,
+    asked: null,
+    busy: false,
+    at: 0,
+    moved: 0,
+    timer: 0,
   };
   panel.sections = {
     alternatives: section("What else I could have done", panel.alternatives.element),
@@ -121,7 +132,8 @@ function draw(panel, state, store, decision = null, whole = null) {
   set(panel.element, "data-state", state);
   set(panel.element, "aria-busy", state === "loading" ? "true" : null);
   if (state !== "loading" || !known) panel.head.show(decision, whole);
-  for (const [name, part] of Object.entries(panel.sections)) part.hidden = !known && (name !== "predictions" || !decision);
+  for (const [name, part] of Object.entries(panel.sections))
+    part.hidden = !known && (name !== "predictions" || !decision);
   notice(panel, state, store);
   if (state === "none" || state === "loading") return;
   panel.shown = decision.id;
@@ -136,25 +148,34 @@ function draw(panel, state, store, decision = null, whole = null) {
 /** What is told of others where the decision itself is gone: what came with it in short. */
 function fromBeliefs({ beliefs }) {
   const goal = ([words, probability]) => ({ kind: words, words, place: "", probability });
-  return beliefs.map(({ vehicle, goals }) => ({ vehicle, goals: goals.map(goal).sort((a, b) => b.probability - a.probability) }));
+  return beliefs.map(({ vehicle, goals }) => ({
+    vehicle,
+    goals: goals.map(goal).sort((a, b) => b.probability - a.probability),
+  }));
 }
 
 /** Vehicles by how much they were in our way: right of way first, then who held up rollouts. */
 function inTheWay({ right_of_way: right, root }) {
   const shares = new Map();
   for (const branch of root)
-    for (const [vehicle, , share] of branch.held_up) shares.set(vehicle, (shares.get(vehicle) ?? 0) + share * (branch.visits + branch.forced));
+    for (const [vehicle, , share] of branch.held_up)
+      shares.set(vehicle, (shares.get(vehicle) ?? 0) + share * (branch.visits + branch.forced));
   const holding = [...shares].sort((a, b) => b[1] - a[1]).map(([vehicle]) => vehicle);
   return [...new Set([...(right?.vehicles ?? []), ...holding])];
 }
 
 function notice(panel, state, store) {
   const first = panel.shown === null;
-  const nothing = store.latest ? "I have not decided anything yet. My first decision will be here in a moment." : "As soon as the car drives, what it decides and why will be here.";
+  const nothing = store.latest
+    ? "I have not decided anything yet. My first decision will be here in a moment."
+    : "As soon as the car drives, what it decides and why will be here.";
   const said = {
     none: [fork(), h("p", { class: "decision-empty" }, "No decision yet"), h("p", { class: "quiet" }, nothing)],
     loading: first ? [h("span", { class: "unseen" }, "Fetching the decision"), skeleton()] : [],
-    gone: [h("p", {}, "The record of this decision is not here any more."), h("p", { class: "quiet" }, "What it came to, and what I expected of the others, is still known.")],
+    gone: [
+      h("p", {}, "The record of this decision is not here any more."),
+      h("p", { class: "quiet" }, "What it came to, and what I expected of the others, is still known."),
+    ],
     failed: [h("p", {}, "The record of this decision could not be fetched."), panel.again],
   };
   if (panel.noticed === `${state} ${first} ${nothing}`) return;
@@ -166,13 +187,25 @@ function notice(panel, state, store) {
 /** A way that parts in three, one of them taken. */
 function fork() {
   const way = (d, name) => h("path", { class: name, d });
-  const ways = [way("M60,70 V44 C60,30 28,34 28,12", "fork"), way("M60,70 V44 C60,30 92,34 92,12", "fork"), way("M60,70 V12", "fork fork-taken")];
-  return h("svg", { class: "decision-fork", viewBox: "0 0 120 76", width: 120, height: 76, "aria-hidden": "true" }, ways);
+  const ways = [
+    way("M60,70 V44 C60,30 28,34 28,12", "fork"),
+    way("M60,70 V44 C60,30 92,34 92,12", "fork"),
+    way("M60,70 V12", "fork fork-taken"),
+  ];
+  return h(
+    "svg",
+    { class: "decision-fork", viewBox: "0 0 120 76", width: 120, height: 76, "aria-hidden": "true" },
+    ways,
+  );
 }
 
 function skeleton() {
   const widths = ["60", "90", "75", "40", "85", "55"];
-  return h("div", { class: "skeleton", "aria-hidden": "true" }, widths.map((width) => h("div", { dataset: { width } })));
+  return h(
+    "div",
+    { class: "skeleton", "aria-hidden": "true" },
+    widths.map((width) => h("div", { dataset: { width } })),
+  );
 }
 
 function moveCharts(panel, store) {

@@ -52,7 +52,13 @@ function draw(parts, decision, whole) {
   const plan = decision ? (whole?.plan.map(([, said]) => said) ?? []) : [];
   steps.hidden = plan.length < 2;
   const items = plan.map((said, k) => [`${k} ${said}`, said]);
-  steady(steps, items, ([key]) => key, () => h("li"), (li, [, said]) => say(li, said));
+  steady(
+    steps,
+    items,
+    ([key]) => key,
+    () => h("li"),
+    (li, [, said]) => say(li, said),
+  );
   way.hidden = !whole?.under_way;
   say(way, `Under way, and to be finished first: ${whole?.under_way ?? ""}.`);
   facts.hidden = !whole;

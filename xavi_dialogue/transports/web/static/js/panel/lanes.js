@@ -5,7 +5,12 @@ import { between, tickFor } from "./span.js";
 import { clock, doing } from "./words.js";
 
 const LETTER = 6.6; // [px] about as wide as a letter of a bar is
-const MARKS = { "gave-way": "M-6,-5 H6 L0,6 Z", arrived: "M-1,7 V-7 H8 L5,-3 L8,1 H1 V7 Z", collided: "M-6,-6 L6,6 M6,-6 L-6,6", ended: "M-4,-5 H5 V5 H-4 Z" };
+const MARKS = {
+  "gave-way": "M-6,-5 H6 L0,6 Z",
+  arrived: "M-1,7 V-7 H8 L5,-3 L8,1 H1 V7 Z",
+  collided: "M-6,-6 L6,6 M6,-6 L-6,6",
+  ended: "M-4,-5 H5 V5 H-4 Z",
+};
 
 /** Heights [px] of the lanes, by how much room there is. */
 export function lanesFor(width) {
@@ -58,9 +63,14 @@ function bar(one, x, { lanes, width }) {
   const words = clipped(doing(one.action), room - 12);
   return h(
     "g",
-    { class: `bar${calm ? " bar-calm" : ""}${one.open ? " bar-open" : ""}`, transform: `translate(${from} ${lanes.done + 2})` },
+    {
+      class: `bar${calm ? " bar-calm" : ""}${one.open ? " bar-open" : ""}`,
+      transform: `translate(${from} ${lanes.done + 2})`,
+    },
     h("rect", { class: "bar-meant", width: length, height, rx: 4 }),
-    one.committed !== null && meant < length ? h("rect", { class: "bar-done", x: meant, width: length - meant, height, rx: 4 }) : null,
+    one.committed !== null && meant < length
+      ? h("rect", { class: "bar-done", x: meant, width: length - meant, height, rx: 4 })
+      : null,
     words ? h("text", { class: where, x: at + 6, y: height / 2 + 4 }, words) : null,
   );
 }
@@ -108,8 +118,23 @@ export function drawOverview(svg, { width, first, lasts, start, length, decision
     svg,
     bars
       .filter((one) => one.action !== "continue")
-      .map((one) => h("rect", { class: "overview-bar", x: x(one.from), y: 4, width: Math.max(x(one.to) - x(one.from), 1), height: 12 })),
+      .map((one) =>
+        h("rect", {
+          class: "overview-bar",
+          x: x(one.from),
+          y: 4,
+          width: Math.max(x(one.to) - x(one.from), 1),
+          height: 12,
+        }),
+      ),
     lines.length ? h("path", { class: "overview-changed", d: lines.map((at) => `M${at},2 V18`).join(" ") }) : null,
-    h("rect", { class: "overview-window", x: x(start) + 1, y: 1, width: Math.max(x(start + length) - x(start) - 2, 4), height: 18, rx: 4 }),
+    h("rect", {
+      class: "overview-window",
+      x: x(start) + 1,
+      y: 1,
+      width: Math.max(x(start + length) - x(start) - 2, 4),
+      height: 18,
+      rx: 4,
+    }),
   );
 }

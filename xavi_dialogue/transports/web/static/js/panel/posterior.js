@@ -128,10 +128,14 @@ function passing(stretches, goals, x, y, right) {
   const gone = goals.map((words, k) => ({ words: short(words), k })).filter(({ k }) => !((last[k] ?? 0) >= LABELLED));
   const placed = [];
   for (const one of gone.map((goal) => atPeak(goal, points, x, y, right)).filter(Boolean)) {
-    const free = placed.every((other) => Math.abs(other.x - one.x) > other.half + one.half + 4 || Math.abs(other.y - one.y) >= LINE);
+    const free = placed.every(
+      (other) => Math.abs(other.x - one.x) > other.half + one.half + 4 || Math.abs(other.y - one.y) >= LINE,
+    );
     if (free) placed.push(one);
   }
-  return placed.map((one) => h("text", { class: "posterior-passing", x: one.x, y: one.y + 4, "text-anchor": "middle" }, one.words));
+  return placed.map((one) =>
+    h("text", { class: "posterior-passing", x: one.x, y: one.y + 4, "text-anchor": "middle" }, one.words),
+  );
 }
 
 /** Where a goal was likeliest, and how much room its words take. */

@@ -40,7 +40,13 @@ function render(here) {
   const sorted = ranked(here);
   const shown = here.all ? sorted : sorted.slice(0, FIRST);
   none.hidden = sorted.length > 0;
-  steady(list, shown, (one) => one.vehicle, (one) => card(here, one.vehicle), (li, one) => drawCard(here, li, one));
+  steady(
+    list,
+    shown,
+    (one) => one.vehicle,
+    (one) => card(here, one.vehicle),
+    (li, one) => drawCard(here, li, one),
+  );
   more.hidden = predictions.length <= FIRST;
   say(more, here.all ? `Show the ${FIRST} that matter most` : `Show all ${predictions.length}`);
   set(more, "aria-expanded", String(here.all));
@@ -99,19 +105,34 @@ function drawCard({ store, places }, li, { vehicle, goals }) {
   set(li, "data-pointed", store.pointed.has(vehicle) ? "yes" : null);
   if (!store.pointed.has(vehicle)) set(head.firstElementChild, "aria-pressed", "false");
   const alike = ({ words }) => goals.filter((goal) => goal.words === words).length > 1;
-  const named = goals.map((goal) => ({ ...goal, full: alike(goal) && goal.place ? `${goal.words}: ${goal.place}` : goal.words }));
-  steady(list, named, (goal) => `${goal.kind} ${goal.place}`, goalRow, (row, goal) => {
-    const [words, bar, share] = row.children;
-    say(words, goal.full);
-    set(words, "title", goal.place || null);
-    set(row, "data-long", goal.full.length > 22 ? "yes" : null);
-    drawShare(bar, goal.probability, places.of(vehicle, goal.words) % 6);
-    say(share, percent(goal.probability));
-  });
+  const named = goals.map((goal) => ({
+    ...goal,
+    full: alike(goal) && goal.place ? `${goal.words}: ${goal.place}` : goal.words,
+  }));
+  steady(
+    list,
+    named,
+    (goal) => `${goal.kind} ${goal.place}`,
+    goalRow,
+    (row, goal) => {
+      const [words, bar, share] = row.children;
+      say(words, goal.full);
+      set(words, "title", goal.place || null);
+      set(row, "data-long", goal.full.length > 22 ? "yes" : null);
+      drawShare(bar, goal.probability, places.of(vehicle, goal.words) % 6);
+      say(share, percent(goal.probability));
+    },
+  );
 }
 
 function goalRow() {
-  return h("li", { class: "goal" }, h("span", { class: "goal-words" }), shareBar("goal-bar"), h("span", { class: "figure" }));
+  return h(
+    "li",
+    { class: "goal" },
+    h("span", { class: "goal-words" }),
+    shareBar("goal-bar"),
+    h("span", { class: "figure" }),
+  );
 }
 
 function charts({ store, list, places }) {

@@ -104,10 +104,19 @@ function meant(here, event) {
     if (turn) return { t: turn.t, turn };
   } else if (y >= view.lanes.decided) {
     const around = between(store.decisions, t - near, t + near);
-    const decision = closest(around.filter((one) => one.changed), t, near) ?? closest(around, t, near);
+    const decision =
+      closest(
+        around.filter((one) => one.changed),
+        t,
+        near,
+      ) ?? closest(around, t, near);
     if (decision) return { t: decision.t, decision };
   } else if (y >= view.lanes.done) {
-    const event = closest(store.events.filter((one) => one.kind === "gave-way"), t, near);
+    const event = closest(
+      store.events.filter((one) => one.kind === "gave-way"),
+      t,
+      near,
+    );
     const bar = view.bars?.[lastUpTo(view.bars, t, (one) => one.from)];
     return { t, event, bar: bar && t <= bar.to ? bar : null };
   }
@@ -129,7 +138,11 @@ function tipAt(here, event) {
 
 function wordsOf({ decision, turn, bar, event }) {
   if (turn) return [`Asked at ${clock(turn.t)}`, turn.text];
-  if (decision) return [`Decision ${decision.number} at ${clock(decision.t, 1)}${decision.changed ? ", another plan" : ""}`, decision.words];
+  if (decision)
+    return [
+      `Decision ${decision.number} at ${clock(decision.t, 1)}${decision.changed ? ", another plan" : ""}`,
+      decision.words,
+    ];
   if (event) return [`At ${clock(event.t, 1)}`, event.words];
   if (bar) return [`From ${clock(bar.from, 1)} ${bar.open ? "on" : `to ${clock(bar.to, 1)}`}`, bar.words];
   return [];

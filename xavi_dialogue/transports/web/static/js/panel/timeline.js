@@ -52,16 +52,40 @@ function build() {
   const tip = h("div", { class: "timeline-tip", "aria-hidden": "true", hidden: true });
   const track = h(
     "div",
-    { class: "timeline-track", role: "slider", tabindex: "0", "aria-label": "Moment of the ride", "aria-orientation": "horizontal" },
-    inForce, svg, playhead, tip,
+    {
+      class: "timeline-track",
+      role: "slider",
+      tabindex: "0",
+      "aria-label": "Moment of the ride",
+      "aria-orientation": "horizontal",
+    },
+    inForce,
+    svg,
+    playhead,
+    tip,
   );
   const names = ["What I did", "Decisions", "Asked"].map((name) => h("span", {}, name));
   const overview = h("svg", { class: "timeline-overview", height: 20, "aria-hidden": "true" });
   const overviewAt = h("div", { class: "timeline-overview-at" });
   return {
-    play, back, now, words, svg, inForce, playhead, tip, track, overview, overviewAt,
+    play,
+    back,
+    now,
+    words,
+    svg,
+    inForce,
+    playhead,
+    tip,
+    track,
+    overview,
+    overviewAt,
     bar: h("div", { class: "timeline-bar" }, play, now, words, back),
-    body: h("div", { class: "timeline-body" }, h("div", { class: "timeline-names", "aria-hidden": "true" }, names), track),
+    body: h(
+      "div",
+      { class: "timeline-body" },
+      h("div", { class: "timeline-names", "aria-hidden": "true" }, names),
+      track,
+    ),
     overviewBox: h("div", { class: "timeline-overview-box", hidden: true }, overview, overviewAt),
     names,
   };
@@ -71,7 +95,15 @@ function render(parts, view, store, player) {
   const [first, last] = store.span;
   const width = Math.floor(parts.track.clientWidth);
   const length = lengthFor(width, last - first + 1);
-  const moved = startFor({ ...view, start: length === view.length ? view.start : null, length, first, last, at: store.at, live: store.live });
+  const moved = startFor({
+    ...view,
+    start: length === view.length ? view.start : null,
+    length,
+    first,
+    last,
+    at: store.at,
+    live: store.live,
+  });
   if (moved !== view.start || length !== view.length || width !== view.width) view.stale = true;
   Object.assign(view, { start: moved, length, width, first, last, lasts: Math.max(last, moved + length) - first });
   if (view.stale && width) lay(parts, view, store);

@@ -56,7 +56,10 @@ export function signed(t) {
 
 /** "3.2", with a true minus. */
 export function fixed(value) {
-  return value.toFixed(1).replace(/^-(?=0\.0$)/, "").replace("-", "−");
+  return value
+    .toFixed(1)
+    .replace(/^-(?=0\.0$)/, "")
+    .replace("-", "−");
 }
 
 /** "1 rollout", "12 rollouts" */

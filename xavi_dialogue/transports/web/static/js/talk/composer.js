@@ -38,7 +38,10 @@ export function createComposer({ store, ask, cancel }) {
     grow(input);
     const left = longest() - [...input.value].length; // characters, not halves of them
     const near = left < longest() * (1 - NEAR);
-    fill(count, near ? (left < 0 ? `${counted(-left, "character")} too many` : `${counted(left, "character")} left`) : null);
+    fill(
+      count,
+      near ? (left < 0 ? `${counted(-left, "character")} too many` : `${counted(left, "character")} left`) : null,
+    );
     count.classList.toggle("over", left < 0);
   };
   const write = (text) => {
@@ -102,7 +105,8 @@ function grow(input) {
   input.style.height = "auto";
   const style = getComputedStyle(input);
   const line = parseFloat(style.lineHeight) || 20;
-  const around = input.offsetHeight - input.clientHeight + parseFloat(style.paddingTop) + parseFloat(style.paddingBottom);
+  const around =
+    input.offsetHeight - input.clientHeight + parseFloat(style.paddingTop) + parseFloat(style.paddingBottom);
   const wanted = input.scrollHeight + input.offsetHeight - input.clientHeight;
   input.style.height = `${Math.min(wanted, LINES * line + around)}px`;
   input.style.overflowY = wanted > LINES * line + around ? "auto" : "hidden";

@@ -71,7 +71,10 @@ function followTurns({ element, store, connection, log, around, empty, pending }
     const quietly = more.length > MANY || (early && pending.childElementCount === 0);
     for (const { n, text, reply } of more) shown.set(n, said(text, reply));
     for (const { text } of more) hideWaiting(pending, text);
-    log.add(more.map((turn) => createTurn(turn, around)), quietly);
+    log.add(
+      more.map((turn) => createTurn(turn, around)),
+      quietly,
+    );
     empty.hidden = store.turns.length > 0 || pending.childElementCount > 0;
     if (!quietly && more.length > 0) showOnMap(more[more.length - 1], around);
   };
@@ -120,7 +123,8 @@ function markShown(element, store) {
 /** What becomes of this page's own questions. */
 function followQuestions({ store, questions, composer, log, around }) {
   questions.addEventListener("settled", ({ detail: { question, n, reply } }) => {
-    const is = (one) => (n === null ? one.reply.text === reply?.text && one.reply.sim_time === reply.sim_time : one.n === n);
+    const is = (one) =>
+      n === null ? one.reply.text === reply?.text && one.reply.sim_time === reply.sim_time : one.n === n;
     const turn = store.turns.findLast(is); // also where its number could not be told, as of a choice
     if (turn && store.turn !== turn.n) showOnMap(turn, around); // it came with the greeting after a break
     if (turn || !reply) return;

@@ -16,8 +16,18 @@ let made = 0;
  */
 export function createEvidence(turn, store, pointing) {
   made += 1;
-  const fold = h("div", { class: "evidence", id: `evidence-${made}`, role: "region", "aria-label": "Evidence", hidden: true });
-  const button = h("button", { type: "button", class: "quiet", "aria-expanded": "false", "aria-controls": fold.id }, "Evidence");
+  const fold = h("div", {
+    class: "evidence",
+    id: `evidence-${made}`,
+    role: "region",
+    "aria-label": "Evidence",
+    hidden: true,
+  });
+  const button = h(
+    "button",
+    { type: "button", class: "quiet", "aria-expanded": "false", "aria-controls": fold.id },
+    "Evidence",
+  );
   const load = async () => {
     fill(fold, skeleton());
     let words = null; // why there is nothing to show
@@ -58,20 +68,36 @@ function shown(evidence, store, pointing) {
     basis(evidence, store),
     evidence.missing ? h("p", { class: "missing" }, evidence.missing) : null,
     sides.map(([title, kind, side]) => sideOf(title, kind, side)),
-    effects.length > 0 ? [h("h3", {}, "What that would have changed"), h("ul", { class: "effects" }, effects.map(createEffect))] : null,
-    causes.length > 0 ? [h("h3", {}, "Because of"), h("ul", { class: "causes" }, causes.map((cause) => causeOf(cause, pointing)))] : null,
+    effects.length > 0
+      ? [h("h3", {}, "What that would have changed"), h("ul", { class: "effects" }, effects.map(createEffect))]
+      : null,
+    causes.length > 0
+      ? [
+          h("h3", {}, "Because of"),
+          h(
+            "ul",
+            { class: "causes" },
+            causes.map((cause) => causeOf(cause, pointing)),
+          ),
+        ]
+      : null,
     sides.map(([title, , side]) => (side.runs.length > 0 ? createRuns(title, side, pointing) : null)),
   ];
 }
 
 function basis({ method, rollouts, distinct, t }, store) {
-  const when = h("button", { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) }, clock(t));
+  const when = h(
+    "button",
+    { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) },
+    clock(t),
+  );
   const count = rollouts > 0 ? `: ${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}` : "";
   return h("p", { class: "basis" }, `From ${method}${count}. Decision at `, when);
 }
 
 function sideOf(title, kind, side) {
-  const arrival = side.arrival === null ? null : h("span", { class: "arrival" }, `${side.arrival.toFixed(1)} s to the goal`);
+  const arrival =
+    side.arrival === null ? null : h("span", { class: "arrival" }, `${side.arrival.toFixed(1)} s to the goal`);
   return h(
     "div",
     { class: `outcome-side ${kind}` },
@@ -84,11 +110,20 @@ function sideOf(title, kind, side) {
 
 function causeOf(cause, pointing) {
   const rest = [cause.how, cause.checked].filter(Boolean);
-  const influence = cause.influence === null ? null : h("span", { class: "soft" }, `influence on the choice ${cause.influence.toFixed(2)} bit`);
+  const influence =
+    cause.influence === null
+      ? null
+      : h("span", { class: "soft" }, `influence on the choice ${cause.influence.toFixed(2)} bit`);
   return h(
     "li",
     {},
-    h("p", {}, pointing.button(cause.vehicle, `vehicle ${cause.vehicle}`), ` ${cause.words} `, h("b", {}, percent(cause.probability))),
+    h(
+      "p",
+      {},
+      pointing.button(cause.vehicle, `vehicle ${cause.vehicle}`),
+      ` ${cause.words} `,
+      h("b", {}, percent(cause.probability)),
+    ),
     rest.map((words) => h("p", { class: "soft" }, pointing.spoken(words, [cause.vehicle]))),
     influence,
   );

@@ -41,6 +41,9 @@ export function between(low, high, name) {
 
 /** Both ends to the digit that the larger one is told to. */
 function alike(low, high, name) {
-  const digits = name === "s" ? 1 : Math.min(Math.max(1 - Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high), 1e-9))), 0), 9);
+  const digits =
+    name === "s"
+      ? 1
+      : Math.min(Math.max(1 - Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high), 1e-9))), 0), 9);
   return [low, high].map((end) => Number(end.toFixed(digits)) || 0); // and no minus zero
 }

@@ -8,8 +8,17 @@ export class Log {
   /** @param {...HTMLElement} below what scrolls with the turns, under them */
   constructor(...below) {
     this.turns = h("div", { class: "log", role: "log", "aria-live": "polite", "aria-label": "What was said" });
-    this.scroller = h("div", { class: "scroller", tabindex: 0, role: "group", "aria-label": "Questions and answers" }, this.turns, below);
-    this.more = h("button", { type: "button", class: "main more", hidden: true, onclick: () => this.toEnd() }, "New answer ↓");
+    this.scroller = h(
+      "div",
+      { class: "scroller", tabindex: 0, role: "group", "aria-label": "Questions and answers" },
+      this.turns,
+      below,
+    );
+    this.more = h(
+      "button",
+      { type: "button", class: "main more", hidden: true, onclick: () => this.toEnd() },
+      "New answer ↓",
+    );
     this.element = h("div", { class: "said" }, this.scroller, this.more);
     this.atEnd = true;
     this.scroller.addEventListener("scroll", () => this.scrolled(), { passive: true });

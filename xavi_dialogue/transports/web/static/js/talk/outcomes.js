@@ -20,8 +20,14 @@ export function createOutcomes(outcomes) {
   const known = Object.entries(outcomes).filter(([, share]) => share > 0);
   if (known.length === 0) return null;
   known.sort(([a], [b]) => ORDER.indexOf(a) - ORDER.indexOf(b));
-  const bar = h("div", { class: "shares", "aria-hidden": "true" }, known.map(([outcome, share]) => shareOf(outcome, share)));
-  const words = known.map(([outcome, share]) => h("li", { dataset: { outcome } }, `${outcomeWords(outcome)} `, h("b", {}, percent(share))));
+  const bar = h(
+    "div",
+    { class: "shares", "aria-hidden": "true" },
+    known.map(([outcome, share]) => shareOf(outcome, share)),
+  );
+  const words = known.map(([outcome, share]) =>
+    h("li", { dataset: { outcome } }, `${outcomeWords(outcome)} `, h("b", {}, percent(share))),
+  );
   return h("div", { class: "ends" }, bar, h("ul", {}, words));
 }
 

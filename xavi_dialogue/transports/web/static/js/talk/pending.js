@@ -31,14 +31,26 @@ export function createPending(questions, changed) {
 
 function createRow(question, questions, list, changed) {
   const words = h("span", { role: "status" });
-  const cancel = h("button", { type: "button", class: "quiet", onclick: () => questions.cancel(question.request) }, "Cancel");
-  const dots = h("span", { class: "dots", "aria-hidden": "true" }, [1, 2, 3].map(() => h("i")));
+  const cancel = h(
+    "button",
+    { type: "button", class: "quiet", onclick: () => questions.cancel(question.request) },
+    "Cancel",
+  );
+  const dots = h(
+    "span",
+    { class: "dots", "aria-hidden": "true" },
+    [1, 2, 3].map(() => h("i")),
+  );
   const progress = h("div", { class: "progress", hidden: true }, dots, words, cancel);
   const row = h("div", { class: "turn waiting", dataset: { text: question.text } }, bubble(question.text), progress);
   const show = () => {
     const waited = performance.now() - question.since;
     progress.hidden = waited < QUIET && question.sent;
-    const text = !question.sent ? "The connection is lost; it is asked again …" : waited < LONG ? "Thinking …" : "Planning this again …";
+    const text = !question.sent
+      ? "The connection is lost; it is asked again …"
+      : waited < LONG
+        ? "Thinking …"
+        : "Planning this again …";
     if (!progress.hidden && words.textContent !== text) words.textContent = text;
   };
   const timers = [QUIET, LONG].map((after) => setTimeout(() => (show(), changed()), after + 5));

@@ -13,7 +13,11 @@ const FIRST = 10;
  */
 export function createRuns(title, side, pointing) {
   const body = h("tbody", {});
-  const show = (count) => fill(body, side.runs.slice(0, count).map((run) => row(run, pointing)));
+  const show = (count) =>
+    fill(
+      body,
+      side.runs.slice(0, count).map((run) => row(run, pointing)),
+    );
   const more = h("button", { type: "button", class: "quiet" }, `Show all ${side.runs.length}`);
   more.addEventListener("click", () => {
     show(side.runs.length);
@@ -21,12 +25,28 @@ export function createRuns(title, side, pointing) {
     more.remove();
   });
   const columns = ["Rollout", "What the others did", "Outcome", "Time", "Held up by"];
-  const head = h("thead", {}, h("tr", {}, columns.map((name) => h("th", { scope: "col" }, name))));
-  const count = side.runs.length < side.rollouts ? `${side.runs.length} of ${counted(side.rollouts, "rollout")}` : counted(side.rollouts, "rollout");
+  const head = h(
+    "thead",
+    {},
+    h(
+      "tr",
+      {},
+      columns.map((name) => h("th", { scope: "col" }, name)),
+    ),
+  );
+  const count =
+    side.runs.length < side.rollouts
+      ? `${side.runs.length} of ${counted(side.rollouts, "rollout")}`
+      : counted(side.rollouts, "rollout");
   const caption = h("caption", {}, `${title}: ${count}`);
   show(FIRST);
   const table = h("table", { class: "runs" }, caption, head, body);
-  return h("div", { class: "wide", role: "region", "aria-label": `Rollouts: ${title}`, tabindex: 0 }, table, side.runs.length > FIRST ? more : null);
+  return h(
+    "div",
+    { class: "wide", role: "region", "aria-label": `Rollouts: ${title}`, tabindex: 0 },
+    table,
+    side.runs.length > FIRST ? more : null,
+  );
 }
 
 function row(run, pointing) {
@@ -34,8 +54,11 @@ function row(run, pointing) {
   const samples = run.samples.map(([vehicle, words, probability]) =>
     h("div", {}, named(vehicle), ` ${words} `, h("span", { class: "soft" }, percent(probability))),
   );
-  const held = run.held_up.map(([vehicle, how, seconds]) => h("div", {}, named(vehicle), ` ${how}, ${seconds.toFixed(1)} s`));
-  const collided = run.collided_with === null || run.collided_with === undefined ? "" : ` with vehicle ${run.collided_with}`;
+  const held = run.held_up.map(([vehicle, how, seconds]) =>
+    h("div", {}, named(vehicle), ` ${how}, ${seconds.toFixed(1)} s`),
+  );
+  const collided =
+    run.collided_with === null || run.collided_with === undefined ? "" : ` with vehicle ${run.collided_with}`;
   return h(
     "tr",
     { dataset: { outcome: run.outcome } },

@@ -82,7 +82,12 @@ function kindOf(reply) {
 
 function instead({ text, suggestions }, { ask }) {
   const said = suggestions.some((one) => text.includes(one)); // the answer itself leads over to them
-  return h("div", { class: "instead" }, said ? null : h("p", {}, "You could ask"), chips(suggestions, ask, "You could ask"));
+  return h(
+    "div",
+    { class: "instead" },
+    said ? null : h("p", {}, "You could ask"),
+    chips(suggestions, ask, "You could ask"),
+  );
 }
 
 function choices({ n, reply }, { ask, newest }) {
@@ -98,7 +103,8 @@ function choices({ n, reply }, { ask, newest }) {
 function meta(turn, { store, pointing }) {
   const { n, reply } = turn;
   const moment = n === null ? null : momentOf(reply.sim_time, store);
-  const took = typeof reply.timing_ms === "number" ? h("span", { class: "took" }, `in ${lasted(reply.timing_ms)}`) : null;
+  const took =
+    typeof reply.timing_ms === "number" ? h("span", { class: "took" }, `in ${lasted(reply.timing_ms)}`) : null;
   const map = n !== null && (turn.evidence || turn.vehicles.length > 0) ? onMap(turn, store, pointing) : null;
   const evidence = n !== null && turn.evidence ? createEvidence(turn, store, pointing) : null;
   return [h("div", { class: "meta" }, moment, took, map, evidence?.button), evidence?.fold];
@@ -106,7 +112,12 @@ function meta(turn, { store, pointing }) {
 
 function momentOf(t, store) {
   const title = "Go to the moment it was asked about";
-  return h("button", { type: "button", class: "moment", title, onclick: () => store.seek(t) }, h("span", { class: "unseen" }, "Go to "), clock(t));
+  return h(
+    "button",
+    { type: "button", class: "moment", title, onclick: () => store.seek(t) },
+    h("span", { class: "unseen" }, "Go to "),
+    clock(t),
+  );
 }
 
 function onMap(turn, store, pointing) {
@@ -116,5 +127,9 @@ function onMap(turn, store, pointing) {
     store.show(off ? null : turn.n);
   };
   const pressed = String(store.turn === turn.n);
-  return h("button", { type: "button", class: "quiet on-map", "aria-pressed": pressed, dataset: { show: turn.n }, onclick: toggle }, "Show on the map");
+  return h(
+    "button",
+    { type: "button", class: "quiet on-map", "aria-pressed": pressed, dataset: { show: turn.n }, onclick: toggle },
+    "Show on the map",
+  );
 }
