@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.app import car, recorder, service
 from xavi_dialogue.app.alive import MEMORY
+from xavi_dialogue.app.dashboard import board
 from xavi_dialogue.app.logs import Lines, Telling
 
 
@@ -61,6 +62,6 @@ def test_the_log_line_shown_is_one(page: str) -> None:
 
 def test_every_counter_is_in_the_table(page: str) -> None:
     told = set()
-    for row in re.findall(r"^\| (`.*?`) \| (?:service|car|recorder|each)", page, re.MULTILINE):
+    for row in re.findall(r"^\| (`.*?`) \| (?:service|car|recorder|dashboard|each)", page, re.MULTILINE):
         told |= set(re.findall(r"`(\w+)`", row))
-    assert told >= {*service.COUNTERS, *car.COUNTERS, *recorder.COUNTERS, MEMORY}
+    assert told >= {*service.COUNTERS, *car.COUNTERS, *recorder.COUNTERS, *board.COUNTERS, MEMORY}
