@@ -128,7 +128,7 @@ def test_the_report_as_json_and_for_people() -> None:
         bench="dashboard",
         scenario="town",
         figures=(figure("3 vehicles", "ms", [80.0, 120.0]),),
-        frames=(Frames(3, 20.0, 200, 199, 1, 59.9, 1.2),),
+        frames=(Frames(3, 20.0, 200, 199, 1, 59.9, 1.2, 8.0),),
         vehicles=60,
         memory=(Memory(0.0, 90.0, 3.0), Memory(10.0, 95.0, 4.0)),
         dropped=2,

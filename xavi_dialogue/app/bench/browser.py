@@ -55,7 +55,9 @@ class Window:
         return self.page.evaluate(program)
 
     def until(self, condition: str) -> None:
-        """Wait until an expression of the page is true.
+        """Wait until a function of the page returns what is true.
+
+        It has to be a function: pages whose content security policy forbids `eval` know no other.
 
         Raises:
             NoBrowser: it is not, within a minute.
