@@ -34,31 +34,40 @@ PICTURES: dict[str, dict[str, Any]] = {
     },
 }
 MOST = 400_000  # bytes of a picture
+TWO_FRAMES = """() => new Promise((tell) =>
+  requestAnimationFrame(() => requestAnimationFrame(tell)))"""
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
-def take(browser: Browser, address: str, context: dict[str, Any]) -> bytes:
-    """A picture of the page after a question; nothing in it moves."""
+def ride(browser: Browser, address: str) -> int:
+    """Have the ride driven, and ask; the number of the turn."""
+    screen = Screen(browser.new_page())
+    screen.page.goto(address)
+    screen.until_over()
+    turn = screen.ask_and_hear(QUESTION)
+    screen.page.close()
+    return int(turn["n"])
+
+
+def take(browser: Browser, address: str, turn: int, context: dict[str, Any]) -> bytes:
+    """A picture of the page that shows a turn, at a moment of the ride; nothing in it moves."""
     page = browser.new_context(**context, reduced_motion="reduce").new_page()
     screen = Screen(page)
     page.goto(address)
     screen.until_over()
     screen.until("() => window.xavi.store.roads !== null")
-    asked = [turn for turn in screen.turns() if turn["text"] == QUESTION]
-    turn = asked[0] if asked else screen.ask_and_hear(QUESTION)
+    screen.button("Hide this", "#strip").click()
     screen.ask_page("time => window.xavi.store.seek(time)", MOMENT)
-    screen.ask_page("number => window.xavi.store.show(number)", turn["n"])
-    evidence = screen.turn(turn["n"]).get_by_role("button", name="Evidence")
-    evidence.click()
-    expect(screen.turn(turn["n"]).get_by_role("table").first).to_be_attached()
+    screen.ask_page("number => window.xavi.store.show(number)", turn)
+    article = screen.turn(turn)
+    article.get_by_role("button", name="Evidence").click()
+    expect(article.get_by_role("table").first).to_be_attached()
     screen.until_map("map.ghost > 0")
-    article = screen.turn(turn["n"])
-    article.evaluate("one => one.scrollIntoView({block: 'start'})")
+    article.locator(".reply").evaluate("one => one.scrollIntoView({block: 'start'})")
     page.mouse.move(1, 1)
     page.evaluate("document.activeElement.blur()")
     screen.until("() => document.fonts.status === 'loaded'")
-    frames = "() => new Promise((tell) => requestAnimationFrame(() => requestAnimationFrame(tell)))"
-    page.evaluate(frames)
+    page.evaluate(TWO_FRAMES)
     picture = page.screenshot()
     assert screen.faults() == []
     page.context.close()
@@ -92,8 +101,9 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=program(), args=options())
         try:
             shown = dashboard(crew, *S1, "--speed", "0")
+            turn = ride(browser, shown.address)
             for name, context in PICTURES.items():
-                picture = packed(take(browser, shown.address, context))
+                picture = packed(take(browser, shown.address, turn, context))
                 assert len(picture) <= MOST, f"{name} has {len(picture)} bytes"
                 (folder / f"{name}.png").write_bytes(picture)
                 sys.stderr.write(f"{folder / name}.png: {len(picture)} bytes\n")
