@@ -1,6 +1,6 @@
 /** The top bar: whose car this is, who is there, what time it is. */
-import { clock } from "./clock.js";
-import { fill, h } from "./dom.js";
+import { fill, h, say } from "./dom.js";
+import { clock } from "./figures.js";
 import { createThemeSwitch } from "./theme.js";
 
 // Told apart by shape as well as by colour: full, cut through, open.
@@ -90,9 +90,4 @@ function showPresence(list, status) {
 function presenceOf(name, there) {
   const shape = h("svg", { viewBox: "0 0 12 12", "aria-hidden": "true" }, SHAPES[there]());
   return h("li", { dataset: { there } }, shape, h("span", {}, name, h("span", { class: "says" }, ` ${SAYS[there]}`)));
-}
-
-/** Change a text only where it differs: scenes come ten times a second. */
-function say(element, text) {
-  if (element.textContent !== text) element.textContent = text;
 }

@@ -36,7 +36,7 @@ const CLOSED = {
  * @param {number} random in [0, 1): spreads many pages that lost the same server
  * @returns {number} [s] from 0.5 to 10
  */
-export function pauseBefore(attempt, random) {
+function pauseBefore(attempt, random) {
   const longest = Math.min(LONGEST_PAUSE, FIRST_PAUSE * 2 ** Math.min(attempt, 10));
   return Math.max(FIRST_PAUSE, longest * (0.6 + 0.4 * random));
 }

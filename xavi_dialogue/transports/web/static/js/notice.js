@@ -1,5 +1,5 @@
 /** The bar that says that the connection is lost, and that it is back. */
-import { fill, h } from "./dom.js";
+import { fill, h, say } from "./dom.js";
 
 const BACK = 3000; // [ms] for which "Back." stands
 
@@ -13,7 +13,7 @@ export function createNotice(element, connection) {
   const tick = () => {
     const left = Math.max(1, Math.ceil((connection.retryAt - performance.now()) / 1000));
     const words = connection.state === "connecting" ? " Trying again …" : ` Trying again in ${left} s.`;
-    if (count.textContent !== words) count.textContent = words;
+    say(count, words);
   };
   const show = (kind, ...children) => {
     element.dataset.kind = kind;

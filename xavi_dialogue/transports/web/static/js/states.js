@@ -72,7 +72,7 @@ const STATES = {
  * @param {{state: string, ever: boolean, attempt: number}} connection
  * @returns {string|null} a name of STATES; null: all is well
  */
-export function stateOf(store, connection) {
+function stateOf(store, connection) {
   const { status, latest, welcome } = store;
   if (!connection.ever && connection.state === "refused") return "refused";
   if (!connection.ever) return connection.attempt > 0 ? "unreachable" : "connecting";

@@ -37,7 +37,7 @@ export function lastUpTo(items, t, time = (item) => item.t) {
 }
 
 /** A vehicle of a scene, from the array that it is on the wire. */
-export function vehicleOf([id, x, y, heading, speed, length, width, kind, colour, signals]) {
+function vehicleOf([id, x, y, heading, speed, length, width, kind, colour, signals]) {
   return { id, x, y, heading, speed, length, width, kind, colour, signals };
 }
 

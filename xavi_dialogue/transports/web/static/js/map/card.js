@@ -1,7 +1,9 @@
 /** The small card of a vehicle: what it is, how fast, what it is expected to do. */
 
 import { fill, h } from "../dom.js";
-import { looksOf, nameOf, percent, speed } from "./words.js";
+import { percent, speed } from "../figures.js";
+import { capital, nameOf } from "../words.js";
+import { looksOf } from "./words.js";
 
 const EDGE = 8; // [px] kept from the sides of the map
 const NAME = 28; // [px] kept from the vehicle, for its name
@@ -9,7 +11,7 @@ const NAME = 28; // [px] kept from the vehicle, for its name
 /** "red car, 30 km/h; turns left: 80 %, ...", for who cannot see the card. */
 export function cardInWords(vehicle, goals) {
   const expected = goals.map(([words, p]) => `${words}: ${percent(p)}`).join(", ");
-  const name = vehicle.id === 0 ? "Our car" : `Vehicle ${vehicle.id}`;
+  const name = vehicle.id === 0 ? "Our car" : capital(nameOf(vehicle.id));
   return `${name}, ${looksOf(vehicle)}, ${speed(vehicle.speed)}.${expected ? ` Expected: ${expected}.` : ""}`;
 }
 

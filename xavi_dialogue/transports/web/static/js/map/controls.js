@@ -1,7 +1,7 @@
 /** Buttons of the map, its scale bar, and the badge that tells which moment is shown. */
 
 import { fill, h } from "../dom.js";
-import { clock } from "./words.js";
+import { clock } from "../figures.js";
 
 const ICONS = {
   in: "M12 5v14M5 12h14",
@@ -82,15 +82,15 @@ function told(store) {
   if (!store.live) {
     const ago = latest.t - store.at;
     return [
-      clock(store.at),
+      clock(store.at, 1),
       ago < 0.05 ? "the latest moment" : `${ago < 10 ? ago.toFixed(1) : Math.round(ago)} s ago`,
       "held",
     ];
   }
-  if (!status.connected) return ["not connected", `last heard at ${clock(latest.t)}`, "gone"];
-  if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t)}`, "gone"];
-  if (latest.state === "ended") return ["ride over", clock(latest.t), "still"];
-  if (latest.state === "paused") return ["paused", clock(latest.t), "still"];
+  if (!status.connected) return ["not connected", `last heard at ${clock(latest.t, 1)}`, "gone"];
+  if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t, 1)}`, "gone"];
+  if (latest.state === "ended") return ["ride over", clock(latest.t, 1), "still"];
+  if (latest.state === "paused") return ["paused", clock(latest.t, 1), "still"];
   const speed = latest.speed > 0 ? `${Number(latest.speed.toFixed(latest.speed < 1 ? 2 : 1))}×` : "as fast as can be";
-  return ["live", `${clock(latest.t)} · ${speed}`, "live"];
+  return ["live", `${clock(latest.t, 1)} · ${speed}`, "live"];
 }

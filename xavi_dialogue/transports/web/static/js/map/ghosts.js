@@ -13,7 +13,7 @@ const SIDES = {
 };
 
 /** Lines of evidence that are on the map: {fact, ghost}, each a list of Drives. */
-export function linesOf(evidence) {
+function linesOf(evidence) {
   const usable = (side) => (side?.lines ?? []).filter((line) => count(line.path) > 1);
   return { fact: usable(evidence?.factual), ghost: usable(evidence?.counterfactual) };
 }

@@ -4,7 +4,7 @@ import { drawRing, drawVehicle, middleOf, radiusOf } from "./bodies.js";
 import { drawEvidence, drawPreview } from "./ghosts.js";
 import { meet } from "./lines.js";
 import { drawDecision } from "./plans.js";
-import { nameOf } from "./words.js";
+import { nameOf } from "../words.js";
 
 const LONG_NAMES = 2.2; // [px/m] from which on vehicles are called by their whole name
 const CROWD = 40; // vehicles in view from which on they are not

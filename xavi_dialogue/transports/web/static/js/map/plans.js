@@ -3,7 +3,7 @@
 import { beforeEnd, boundsOf, count, lastWithin, lengthOf, meet, pathOf, pointAt, remaining } from "./lines.js";
 import { arrowHead, flag, giveWay } from "./marks.js";
 import { middleOf } from "./bodies.js";
-import { percent } from "./words.js";
+import { percent } from "../figures.js";
 
 const FEW = 4; // vehicles whose predictions are all labelled
 const LIKELY = 0.05; // probability from which on a goal is labelled

@@ -1,8 +1,10 @@
 /** What the map shows, in words, for who cannot see it. */
 
-import { capital, h } from "../dom.js";
+import { h, say } from "../dom.js";
+import { clock, speed } from "../figures.js";
+import { capital, nameOf } from "../words.js";
 import { cardInWords } from "./card.js";
-import { clock, laneInWords, speed, whereTo } from "./words.js";
+import { laneInWords, whereTo } from "./words.js";
 
 const PAUSE = 3000; // [ms] between changes
 const NAMED = 4; // vehicles, the nearest
@@ -23,8 +25,7 @@ export function createSummary(id) {
     due: (now) => now - last >= PAUSE,
     update(picture, now) {
       last = now;
-      const text = inWords(picture);
-      if (element.textContent !== text) element.textContent = text;
+      say(element, inWords(picture));
     },
     say(vehicle, goals) {
       said.textContent = vehicle ? cardInWords(vehicle, goals) : "";
@@ -38,7 +39,7 @@ export function inWords(picture) {
   if (!ego) return "There is nothing on the map yet.";
   const others = picture.vehicles.filter((vehicle) => vehicle.id !== 0);
   const near = others.sort((a, b) => away(ego, a) - away(ego, b));
-  const told = near.slice(0, NAMED).map((one) => `vehicle ${one.id} is ${whereTo(ego, one)}, at ${speed(one.speed)}`);
+  const told = near.slice(0, NAMED).map((one) => `${nameOf(one.id)} is ${whereTo(ego, one)}, at ${speed(one.speed)}`);
   const more = near.length - told.length;
   const rest = more > 0 ? ` ${more} more ${more === 1 ? "vehicle is" : "vehicles are"} farther away.` : "";
   const list = told.length ? ` ${capital(told.join("; "))}.${rest}` : " There is nobody else in sight.";
@@ -55,8 +56,8 @@ function opening({ live, t, gone, state, roads }, ego) {
       : spaced(laneInWords(lane.index, roads.lanesOf.get(lane.edge).length));
   const moves = ego.speed < 0.3 ? `stand${where}` : `drive at ${speed(ego.speed)}${where}`;
   if (gone && live)
-    return `The car is not heard of any more; last, at ${clock(t)}, we ${ego.speed < 0.3 ? "stood" : `drove at ${speed(ego.speed)}`}${where}.`;
-  if (!live) return `At ${clock(t)}: we ${moves}.`;
+    return `The car is not heard of any more; last, at ${clock(t, 1)}, we ${ego.speed < 0.3 ? "stood" : `drove at ${speed(ego.speed)}`}${where}.`;
+  if (!live) return `At ${clock(t, 1)}: we ${moves}.`;
   if (state === "ended") return "The ride is over.";
   return ego.speed < 0.3 ? `We are standing${where}.` : `We are driving at ${speed(ego.speed)}${where}.`;
 }

@@ -1,28 +1,4 @@
-/** Figures and places in words. */
-
-/** "12 %", "under 1 %"; never more exact than it is known. */
-export function percent(p) {
-  if (p > 0 && p < 0.01) return "under 1 %";
-  if (p < 1 && p > 0.99) return "over 99 %";
-  return `${Math.round(p * 100)} %`;
-}
-
-/** "0:12.4" of seconds. */
-export function clock(t) {
-  const tenths = Math.round(Math.max(t, 0) * 10);
-  const [minutes, rest] = [Math.floor(tenths / 600), tenths % 600];
-  return `${minutes}:${rest < 100 ? "0" : ""}${(rest / 10).toFixed(1)}`;
-}
-
-/** "30 km/h" of a speed [m/s]. */
-export function speed(v) {
-  return `${Math.round(v * 3.6)} km/h`;
-}
-
-/** "vehicle 1", or who else it is. */
-export function nameOf(id) {
-  return id === 0 ? "us" : `vehicle ${id}`;
-}
+/** Looks and places in words. */
 
 /** "red car"; what is not known is left out. */
 export function looksOf({ kind, colour }) {

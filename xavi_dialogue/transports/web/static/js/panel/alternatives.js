@@ -1,9 +1,11 @@
 /** What could be done first, side by side; looking at one shows its line on the map. */
 
-import { h } from "../dom.js";
-import { drawOutcomes, drawRange, outcomeBar, rangeBar, scaleFor } from "./bars.js";
-import { say, set, steady } from "./steady.js";
-import { fixed, many, outcomesInWords, seconds, signed, upper } from "./words.js";
+import { h, say, set } from "../dom.js";
+import { between, counted, difference, seconds } from "../figures.js";
+import { drawOutcomes, outcomeBar } from "../outcomes.js";
+import { capital, outcomesInWords } from "../words.js";
+import { drawRange, rangeBar, scaleFor } from "./bars.js";
+import { steady } from "./steady.js";
 
 /**
  * @param {Store} store
@@ -27,7 +29,7 @@ export function createAlternatives(store) {
     const tried = decision.alternatives.filter((one) => one.rollouts > 0);
     const times = tried.map((one) => one.time).filter(Boolean);
     const range = scaleFor(times);
-    say(scale, times.length ? `±${range} s` : "");
+    say(scale, times.length ? `bars to ±${range} s` : "");
     table.hidden = !tried.length;
     steady(
       body,
@@ -108,12 +110,12 @@ function row({ action }, preview) {
 
 function drawRow(tr, one, scale) {
   const { name, mark, count, outcomes, verdict, range, time, bounds } = tr.parts;
-  say(name, upper(one.words));
+  say(name, capital(one.words));
   set(name, "title", one.line ? "Show its line on the map" : "Its line is not in the record");
   set(name, "data-line", one.line ? "yes" : "no");
   mark.hidden = !one.chosen;
   set(tr, "data-chosen", one.chosen ? "yes" : null);
-  say(count, `${many(one.rollouts, "rollout")}, ${many(one.distinct, "sample")}`);
+  say(count, `${counted(one.rollouts, "rollout")}, ${counted(one.distinct, "sample")}`);
   drawOutcomes(outcomes, one.outcomes);
   say(verdict, outcomesInWords(one.outcomes) || "not known");
   drawRange(range, one.time, scale);
@@ -123,14 +125,13 @@ function drawRow(tr, one, scale) {
 }
 
 function spread({ low, high }) {
-  if (fixed(low) === fixed(high)) return "in all samples";
-  return `${fixed(low)} to ${fixed(high)} s`;
+  return between(low, high, "s") ?? "in all samples";
 }
 
 function timeWords(one) {
-  if (one.chosen && one.arrival !== null) return `takes ${seconds(one.arrival)}`;
+  if (one.chosen && one.arrival !== null) return `there in ${seconds(one.arrival)}`;
   if (one.chosen) return one.outcomes.done > 0 ? "the others are measured by this" : "does not get there";
-  return one.time ? signed(one.time.delta) : "cannot be told";
+  return one.time ? difference(one.time.delta, "s") : "cannot be told";
 }
 
 /** Which alternative is looked at: the one pointed at or focused, else the one that was kept. */

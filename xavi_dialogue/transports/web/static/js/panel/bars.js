@@ -1,7 +1,6 @@
 /** Small bars beside figures; the figure always stands beside them in words. */
 
 import { h } from "../dom.js";
-import { OUTCOMES } from "./words.js";
 
 const SCALES = [1, 2, 5, 10, 20, 30, 60, 120]; // [s]
 
@@ -15,21 +14,6 @@ export function drawShare(bar, share, tint = null) {
   const full = bar.firstElementChild;
   full.style.width = `${wide(share)}%`;
   if (tint !== null) full.dataset.tint = tint;
-}
-
-/** A stacked bar of outcomes, each with a pattern of its own: update with `drawOutcomes`. */
-export function outcomeBar() {
-  const pieces = OUTCOMES.map(({ key }) => h("div", { class: `outcome outcome-${key}` }));
-  return h("div", { class: "outcomes", "aria-hidden": "true" }, pieces);
-}
-
-/** @param {Object<string, number>} outcomes probability of each */
-export function drawOutcomes(bar, outcomes) {
-  OUTCOMES.forEach(({ key }, k) => {
-    const share = outcomes[key] ?? 0;
-    bar.children[k].style.width = `${wide(share)}%`;
-    bar.children[k].hidden = share <= 0;
-  });
 }
 
 function wide(share) {

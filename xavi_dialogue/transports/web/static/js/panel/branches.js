@@ -1,10 +1,11 @@
 /** The branches of the search: how often each was tried, what it was worth, who was in the way. */
 
-import { h } from "../dom.js";
-import { drawOutcomes, outcomeBar } from "./bars.js";
-import { say, steady } from "./steady.js";
+import { h, say } from "../dom.js";
+import { counted, fixed, percent, seconds } from "../figures.js";
+import { drawOutcomes, outcomeBar } from "../outcomes.js";
+import { capital, doing, nameOf, outcomesInWords } from "../words.js";
+import { steady } from "./steady.js";
 import { createTree } from "./tree.js";
-import { doing, fixed, many, named, outcomesInWords, percent, seconds, upper } from "./words.js";
 
 /** @returns {{element: HTMLElement, update: (decision: object) => void}} */
 export function createBranches() {
@@ -13,7 +14,7 @@ export function createBranches() {
     row: branchRow,
     draw: drawBranch,
     key: (branch) => branch.action,
-    name: nameOf,
+    name: inWords,
     children: (branch) => branch.children,
     open: (branch) => branch.chosen,
   });
@@ -53,7 +54,7 @@ function branchRow() {
 
 function drawBranch(row, branch, open) {
   const { words, mark, visits, outcomes, facts, held, refused } = row.parts;
-  say(words, upper(branch.words));
+  say(words, capital(branch.words));
   mark.hidden = !branch.chosen;
   say(visits, visitsOf(branch));
   drawOutcomes(outcomes, branch.outcomes);
@@ -76,19 +77,19 @@ function lines(list, texts) {
 }
 
 function visitsOf({ visits, forced }) {
-  return forced ? `${visits} + ${forced} forced` : many(visits, "visit");
+  return forced ? `${visits} + ${forced} forced` : counted(visits, "visit");
 }
 
 function factsOf(branch) {
   return [
     outcomesInWords(branch.outcomes),
-    branch.arrival === null ? null : `takes ${seconds(branch.arrival)}`,
+    branch.arrival === null ? null : `there in ${seconds(branch.arrival)}`,
     branch.value === null ? null : `value ${fixed(branch.value)}`,
   ].filter(Boolean);
 }
 
 function heldUp([vehicle, how, share]) {
-  return `Held up in ${percent(share)} by ${named(vehicle)} ${how}`; // "... vehicle 1 going first"
+  return `Held up in ${percent(share)} by ${nameOf(vehicle)} ${how}`; // "... vehicle 1 going first"
 }
 
 /** "Not possible then: change left (there is no lane to the left); stop (...)" */
@@ -98,9 +99,12 @@ function notThen(refused) {
   return `Not possible then: ${[...reasons].map(([why, actions]) => `${actions.join(", ")} (${why})`).join("; ")}`;
 }
 
-function nameOf(branch) {
+function inWords(branch) {
   const chosen = branch.chosen ? ", my plan" : "";
-  return [`${upper(branch.words)}${chosen}`, visitsOf(branch), ...factsOf(branch), ...branch.held_up.map(heldUp)].join(
-    ", ",
-  );
+  return [
+    `${capital(branch.words)}${chosen}`,
+    visitsOf(branch),
+    ...factsOf(branch),
+    ...branch.held_up.map(heldUp),
+  ].join(", ");
 }

@@ -1,12 +1,12 @@
 /** The decision in force at the moment shown: its plan, what else there was, and why. */
 
-import { h, fill } from "../dom.js";
+import { eachFrame, fill, h, set } from "../dom.js";
+import { createAwaited } from "../awaited.js";
 import { createAlternatives } from "./alternatives.js";
 import { createBranches } from "./branches.js";
 import { createHead } from "./head.js";
 import { createPredictions } from "./predictions.js";
 import { staying } from "./staying.js";
-import { eachFrame, set } from "./steady.js";
 
 const LIVE_EACH = 950; // [ms] between decisions while they come by themselves
 const HELD_EACH = 120; // [ms] while the reader goes through time
@@ -171,7 +171,7 @@ function notice(panel, state, store) {
     : "As soon as the car drives, what it decides and why will be here.";
   const said = {
     none: [fork(), h("p", { class: "decision-empty" }, "No decision yet"), h("p", { class: "quiet" }, nothing)],
-    loading: first ? [h("span", { class: "unseen" }, "Fetching the decision"), skeleton()] : [],
+    loading: first ? [createAwaited("Fetching the decision", 6)] : [],
     gone: [
       h("p", {}, "The record of this decision is not here any more."),
       h("p", { class: "quiet" }, "What it came to, and what I expected of the others, is still known."),
@@ -196,15 +196,6 @@ function fork() {
     "svg",
     { class: "decision-fork", viewBox: "0 0 120 76", width: 120, height: 76, "aria-hidden": "true" },
     ways,
-  );
-}
-
-function skeleton() {
-  const widths = ["60", "90", "75", "40", "85", "55"];
-  return h(
-    "div",
-    { class: "skeleton", "aria-hidden": "true" },
-    widths.map((width) => h("div", { dataset: { width } })),
   );
 }
 

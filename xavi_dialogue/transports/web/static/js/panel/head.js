@@ -1,8 +1,9 @@
 /** The head of the decision panel: what was decided when, in words and in steps. */
 
-import { h } from "../dom.js";
-import { say, set, steady } from "./steady.js";
-import { clock, lower, many } from "./words.js";
+import { h, say, set } from "../dom.js";
+import { clock, counted } from "../figures.js";
+import { lower } from "../words.js";
+import { steady } from "./steady.js";
 
 /**
  * @param {Store} store
@@ -62,7 +63,7 @@ function draw(parts, decision, whole) {
   way.hidden = !whole?.under_way;
   say(way, `Under way, and to be finished first: ${whole?.under_way ?? ""}.`);
   facts.hidden = !whole;
-  if (whole) say(facts, counted(whole));
+  if (whole) say(facts, basis(whole));
 }
 
 function sentence({ t, words, changed }) {
@@ -70,9 +71,9 @@ function sentence({ t, words, changed }) {
   return changed ? `At ${clock(t)} I decided to ${plan}.` : `At ${clock(t)} I kept to my plan: ${plan}.`;
 }
 
-function counted({ rollouts, alternatives }) {
+function basis({ rollouts, alternatives }) {
   const chosen = alternatives.find((one) => one.chosen);
-  const all = `I tried ${many(rollouts, "rollout")} of what may happen`;
+  const all = `I tried ${counted(rollouts, "rollout")} of what may happen`;
   if (!chosen?.rollouts) return `${all}.`;
-  return `${all}; ${chosen.rollouts} began with this plan, in ${many(chosen.distinct, "distinct sample")}.`;
+  return `${all}; ${chosen.rollouts} began with this plan, in ${counted(chosen.distinct, "distinct sample")}.`;
 }

@@ -1,8 +1,9 @@
 /** The lanes of the timeline, drawn as SVG for the stretch shown: only what is in it. */
 
-import { h, fill } from "../dom.js";
+import { fill, h } from "../dom.js";
+import { clock } from "../figures.js";
+import { doing } from "../words.js";
 import { between, tickFor } from "./span.js";
-import { clock, doing } from "./words.js";
 
 const LETTER = 6.6; // [px] about as wide as a letter of a bar is
 const MARKS = {
@@ -45,10 +46,10 @@ function ruler({ start, length, width, lanes }, x, end) {
   const marks = [];
   for (let t = Math.ceil(start / each) * each; t <= end; t += each) {
     const at = x(t);
-    marks.push(h("line", { class: "ruler-line", x1: at, x2: at, y1: lanes.done - 4, y2: lanes.height }));
-    if (at < width - 30) marks.push(h("text", { class: "ruler-time", x: at + 3, y: lanes.done - 5 }, clock(t)));
+    marks.push(h("line", { class: "lane-second", x1: at, x2: at, y1: lanes.done - 4, y2: lanes.height }));
+    if (at < width - 30) marks.push(h("text", { x: at + 3, y: lanes.done - 5 }, clock(t)));
   }
-  return h("g", { class: "ruler" }, marks);
+  return h("g", { class: "lane-ruler" }, marks);
 }
 
 /** One macro action: pale as long as it was only meant, full from where it could not be taken back. */
@@ -64,12 +65,12 @@ function bar(one, x, { lanes, width }) {
   return h(
     "g",
     {
-      class: `bar${calm ? " bar-calm" : ""}${one.open ? " bar-open" : ""}`,
+      class: `lane-bar${calm ? " lane-calm" : ""}${one.open ? " lane-open" : ""}`,
       transform: `translate(${from} ${lanes.done + 2})`,
     },
-    h("rect", { class: "bar-meant", width: length, height, rx: 4 }),
+    h("rect", { class: "lane-meant", width: length, height, rx: 4 }),
     one.committed !== null && meant < length
-      ? h("rect", { class: "bar-done", x: meant, width: length - meant, height, rx: 4 })
+      ? h("rect", { class: "lane-done", x: meant, width: length - meant, height, rx: 4 })
       : null,
     words ? h("text", { class: where, x: at + 6, y: height / 2 + 4 }, words) : null,
   );
@@ -85,16 +86,16 @@ function mark(event, x, lanes) {
   const path = MARKS[event.kind];
   if (!path) return null;
   const middle = (lanes.done + lanes.ends.done) / 2;
-  return h("path", { class: `mark mark-${event.kind}`, d: path, transform: `translate(${x(event.t)} ${middle})` });
+  return h("path", { class: `lane-mark lane-${event.kind}`, d: path, transform: `translate(${x(event.t)} ${middle})` });
 }
 
 function tick(decision, x, lanes) {
   const at = x(decision.t);
   const bottom = lanes.ends.decided - 3;
-  if (!decision.changed) return h("line", { class: "tick", x1: at, x2: at, y1: bottom - 8, y2: bottom });
+  if (!decision.changed) return h("line", { class: "lane-tick", x1: at, x2: at, y1: bottom - 8, y2: bottom });
   return h(
     "g",
-    { class: "tick tick-changed", dataset: { decision: decision.id } },
+    { class: "lane-tick lane-changed", dataset: { decision: decision.id } },
     h("line", { x1: at, x2: at, y1: lanes.decided + 6, y2: bottom }),
     h("circle", { cx: at, cy: lanes.decided + 7, r: 4 }),
   );
@@ -103,7 +104,7 @@ function tick(decision, x, lanes) {
 function asked(turn, x, { lanes, shown }) {
   const middle = (lanes.asked + lanes.height) / 2;
   const path = "M-5,-5 H5 V3 H0 L-3,6 V3 H-5 Z"; // a speech bubble
-  const name = `asked${turn.n === shown ? " asked-shown" : ""}`;
+  const name = `lane-asked${turn.n === shown ? " lane-shown" : ""}`;
   return h("path", { class: name, d: path, transform: `translate(${x(turn.t)} ${middle})`, dataset: { turn: turn.n } });
 }
 
@@ -120,16 +121,18 @@ export function drawOverview(svg, { width, first, lasts, start, length, decision
       .filter((one) => one.action !== "continue")
       .map((one) =>
         h("rect", {
-          class: "overview-bar",
+          class: "timeline-overview-bar",
           x: x(one.from),
           y: 4,
           width: Math.max(x(one.to) - x(one.from), 1),
           height: 12,
         }),
       ),
-    lines.length ? h("path", { class: "overview-changed", d: lines.map((at) => `M${at},2 V18`).join(" ") }) : null,
+    lines.length
+      ? h("path", { class: "timeline-overview-changed", d: lines.map((at) => `M${at},2 V18`).join(" ") })
+      : null,
     h("rect", {
-      class: "overview-window",
+      class: "timeline-overview-window",
       x: x(start) + 1,
       y: 1,
       width: Math.max(x(start + length) - x(start) - 2, 4),

@@ -1,8 +1,8 @@
 /** How the probabilities of a vehicle's goals moved in time: a stacked chart, labelled in words. */
 
-import { h, fill } from "../dom.js";
+import { fill, h } from "../dom.js";
+import { clock, percent } from "../figures.js";
 import { between } from "./span.js";
-import { clock, percent } from "./words.js";
 
 const BEFORE = 60; // [s] that are shown
 const SHORTEST = 10; // [s]

@@ -1,10 +1,12 @@
 /** What the other vehicles are expected to do, those that matter first. */
 
-import { h } from "../dom.js";
+import { h, say, set } from "../dom.js";
+import { percent } from "../figures.js";
+import { pointingOf } from "../pointing.js";
+import { capital, nameOf } from "../words.js";
 import { drawShare, shareBar } from "./bars.js";
 import { beliefsOf, drawPosterior, Places, stretchFor } from "./posterior.js";
-import { say, set, steady } from "./steady.js";
-import { named, percent, upper } from "./words.js";
+import { steady } from "./steady.js";
 
 const FIRST = 6; // vehicles that are shown at once
 
@@ -15,7 +17,7 @@ const FIRST = 6; // vehicles that are shown at once
  *   `update`: others are expected to do other things; `move`: another moment, or others pointed at
  */
 export function createPredictions(store) {
-  const list = h("ul", { class: "vehicles" });
+  const list = h("ul", { class: "others" });
   const more = h("button", { type: "button", class: "show-all", hidden: true });
   const none = h("p", { class: "quiet" }, "Nobody else was in view.");
   const here = { store, list, more, none, all: false, predictions: [], near: [], places: new Places(), order: [] };
@@ -68,33 +70,21 @@ function ranked({ store, predictions, near, list }) {
 }
 
 function card({ store }, vehicle) {
-  const name = h("button", { type: "button", class: "vehicle-name", "aria-pressed": "false" }, upper(named(vehicle)));
+  const name = h("button", { type: "button", class: "other-name", "aria-pressed": "false" }, capital(nameOf(vehicle)));
   const li = h(
     "li",
-    { class: "vehicle", dataset: { vehicle } },
-    h("div", { class: "vehicle-head" }, name, h("span", { class: "badge badge-cause", hidden: true }, "a cause")),
+    { class: "other", dataset: { vehicle } },
+    h("div", { class: "other-head" }, name, h("span", { class: "badge badge-cause", hidden: true }, "a cause")),
     h("ul", { class: "goals" }),
     h("svg", { class: "posterior", role: "img" }),
   );
-  let before = null; // who was pointed at
-  const enter = () => {
-    before ??= [...store.pointed];
-    store.point([vehicle]);
-  };
-  const leave = () => {
-    if (before) store.point(before);
-    before = null;
-  };
+  const pointing = pointingOf(store);
+  const [enter, leave] = [() => pointing.near(vehicle), () => pointing.away()];
   li.addEventListener("pointerenter", (event) => event.pointerType === "mouse" && enter());
   li.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && leave());
   name.addEventListener("focus", () => name.matches(":focus-visible") && enter());
   name.addEventListener("blur", leave);
-  name.addEventListener("click", () => {
-    const kept = name.getAttribute("aria-pressed") === "true";
-    before = kept ? [] : [vehicle]; // what is pointed at when it is left
-    store.point(before);
-    set(name, "aria-pressed", String(!kept));
-  });
+  name.addEventListener("click", () => pointing.toggle(vehicle));
   return li;
 }
 
@@ -103,7 +93,7 @@ function drawCard({ store, places }, li, { vehicle, goals }) {
   const cause = (store.evidence?.causes ?? []).some((one) => one.vehicle === vehicle);
   head.lastElementChild.hidden = !cause;
   set(li, "data-pointed", store.pointed.has(vehicle) ? "yes" : null);
-  if (!store.pointed.has(vehicle)) set(head.firstElementChild, "aria-pressed", "false");
+  set(head.firstElementChild, "aria-pressed", String(pointingOf(store).kept.has(vehicle)));
   const alike = ({ words }) => goals.filter((goal) => goal.words === words).length > 1;
   const named = goals.map((goal) => ({
     ...goal,

@@ -2,8 +2,8 @@
 
 import { lastUpTo } from "../store.js";
 import { fill, h } from "../dom.js";
+import { clock } from "../figures.js";
 import { between, nearest } from "./span.js";
-import { clock, lower } from "./words.js";
 
 const STILL = 5; // [px] a pointer that moved less has clicked
 const NEAR = 9; // [px] from what is meant

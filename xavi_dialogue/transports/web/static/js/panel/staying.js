@@ -1,6 +1,6 @@
 /** Where the reader has scrolled to stays in sight, whatever above it grows, shrinks or moves. */
 
-const KINDS = ["summary", "[role=treeitem] > .branch", "tr[data-action]", ".vehicle"]; // the steadiest first
+const KINDS = ["summary", "[role=treeitem] > .branch", "tr[data-action]", ".other"]; // the steadiest first
 
 /**
  * Change what is in a scrolled element, and keep what the reader looks at where it is: what has the

@@ -42,30 +42,3 @@ function refuge(parent) {
   const around = parent.closest("[role=treeitem]") ?? parent.querySelector("[role=treeitem], button");
   return around ?? parent.closest("details")?.querySelector("summary");
 }
-
-/** Set text only where it is another one, so that a selection of the reader stays. */
-export function say(element, text) {
-  const words = String(text ?? "");
-  if (element.textContent !== words) element.textContent = words;
-  return element;
-}
-
-/** Set an attribute only where it changes; null takes it away. */
-export function set(element, name, value) {
-  if (value === null || value === undefined || value === false) element.removeAttribute(name);
-  else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, String(value));
-  return element;
-}
-
-/** A function that runs `work` once in the coming frame, however often it is called. */
-export function eachFrame(work) {
-  let asked = false;
-  return () => {
-    if (asked) return;
-    asked = true;
-    requestAnimationFrame(() => {
-      asked = false;
-      work();
-    });
-  };
-}

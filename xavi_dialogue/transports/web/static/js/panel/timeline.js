@@ -1,12 +1,12 @@
 /** The ride in time: what was done, decided and asked, and the moment that is shown. */
 
-import { h, fill } from "../dom.js";
+import { eachFrame, fill, h, say, set } from "../dom.js";
+import { clock, seconds } from "../figures.js";
+import { lower } from "../words.js";
 import { drawLanes, drawOverview, lanesFor } from "./lanes.js";
 import { createPlayer } from "./player.js";
 import { createScrubbing } from "./scrubbing.js";
 import { lengthFor, manoeuvres, startFor } from "./span.js";
-import { eachFrame, say, set } from "./steady.js";
-import { clock, lower, seconds } from "./words.js";
 
 const SAID_EACH = 1000; // [ms] at most so often a screen reader is told where live is
 const TICKING = ["ride", "decisions", "events", "turns", "shown", "moment", "scene", "status"];
@@ -137,7 +137,7 @@ function growing(parts, view, store) {
   if (!open?.open || !view.width) return;
   if (view.last - open.to > 1) lay(parts, view, store);
   const wide = (Math.min(view.last, view.start + view.length) - Math.max(open.from, view.start)) / view.length;
-  for (const part of wide > 0 ? parts.svg.querySelectorAll(".bar-open rect") : []) {
+  for (const part of wide > 0 ? parts.svg.querySelectorAll(".lane-open rect") : []) {
     part.setAttribute("width", Math.max(wide * view.width - 1 - Number(part.getAttribute("x") ?? 0), 1));
   }
 }

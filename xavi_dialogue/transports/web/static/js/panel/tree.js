@@ -1,7 +1,7 @@
 /** A tree to open and fold, by pointer and keyboard; what is folded is not in the page at all. */
 
-import { h } from "../dom.js";
-import { set, steady } from "./steady.js";
+import { h, set } from "../dom.js";
+import { steady } from "./steady.js";
 
 /**
  * @template T

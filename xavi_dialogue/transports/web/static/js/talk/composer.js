@@ -1,6 +1,6 @@
 /** Where questions are typed. */
-import { clock, counted } from "../clock.js";
-import { fill, h } from "../dom.js";
+import { fill, h, say } from "../dom.js";
+import { clock, counted } from "../figures.js";
 import { ofTab, recall, remember } from "../remembered.js";
 
 const LINES = 4;
@@ -33,7 +33,7 @@ export function createComposer({ store, ask, cancel }) {
   const form = h("form", { class: "composer" }, about, words, h("div", { class: "line" }, label, input, button), count);
   const earlier = createEarlier(store, input);
   const longest = () => store.welcome?.max_text ?? DEFAULT_MAX;
-  const say = (text) => fill(words, text);
+  const tell = (text) => fill(words, text);
   const changed = () => {
     grow(input);
     const left = longest() - [...input.value].length; // characters, not halves of them
@@ -51,14 +51,14 @@ export function createComposer({ store, ask, cancel }) {
   const submit = () => {
     const text = input.value.trim();
     if (text === "") return;
-    if ([...text].length > longest()) return say(`That is too long: ${counted(longest(), "character")} at most.`);
-    say("");
-    if (!ask(text)) return say("Not connected at the moment. Your question stays here.");
+    if ([...text].length > longest()) return tell(`That is too long: ${counted(longest(), "character")} at most.`);
+    tell("");
+    if (!ask(text)) return tell("Not connected at the moment. Your question stays here.");
     earlier.reset();
     write("");
   };
   form.addEventListener("submit", (event) => (event.preventDefault(), submit()));
-  input.addEventListener("input", () => (earlier.reset(), say(""), changed()));
+  input.addEventListener("input", () => (earlier.reset(), tell(""), changed()));
   input.addEventListener("keydown", (event) => typed(event, { submit, cancel, earlier, write }));
   addEventListener("pagehide", () => remember(DRAFT, input.value || null, ofTab));
   followMoment(store, about);
@@ -66,7 +66,7 @@ export function createComposer({ store, ask, cancel }) {
   return {
     element: form,
     focus: () => input.focus(),
-    say,
+    say: tell,
     giveBack: (text) => input.value.trim() === "" && write(text),
   };
 }
@@ -119,8 +119,7 @@ function followMoment(store, about) {
   fill(about, h("span", {}, "Asking about ", time), back);
   const follow = () => {
     if (about.hidden !== store.live) about.hidden = store.live;
-    const text = clock(store.held);
-    if (!store.live && time.textContent !== text) time.textContent = text;
+    if (!store.live) say(time, clock(store.held));
   };
   for (const name of ["moment", "ride"]) store.addEventListener(name, follow);
   follow();

@@ -1,11 +1,12 @@
 /** The conversation with the car. */
-import { h, fill } from "../dom.js";
+import { fill, h } from "../dom.js";
 import { draw } from "../drawings.js";
+import { pointingOf } from "../pointing.js";
 import { createComposer } from "./composer.js";
 import { Log } from "./log.js";
 import { createPending } from "./pending.js";
-import { Pointing } from "./pointing.js";
 import { Questions } from "./questions.js";
+import { Spoken } from "./spoken.js";
 import { createSuggested } from "./suggested.js";
 import { createTurn } from "./turn.js";
 
@@ -39,8 +40,9 @@ export function createConversation(element, store, connection) {
   });
   const log = new Log(pending, empty, createSuggested(store, connection, ask));
   fill(element, h("div", { class: "talk" }, log.element, createAbsence(store, connection), composer.element));
-  const pointing = new Pointing(store, element);
-  const around = { store, pointing, ask, newest: (n) => store.turns[store.turns.length - 1]?.n === n };
+  const pointing = pointingOf(store);
+  const spoken = new Spoken(pointing, element);
+  const around = { store, pointing, spoken, ask, newest: (n) => store.turns[store.turns.length - 1]?.n === n };
   followTurns({ element, store, connection, log, around, empty, pending });
   followQuestions({ store, questions, composer, log, around });
   element.addEventListener("keydown", (event) => {

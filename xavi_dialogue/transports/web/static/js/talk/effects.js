@@ -1,7 +1,6 @@
 /** An effect with its interval: a dot with a whisker around zero, and in words. */
-import { counted } from "../clock.js";
 import { h } from "../dom.js";
-import { between, difference } from "./figures.js";
+import { between, counted, difference } from "../figures.js";
 
 const WIDTH = 240;
 const HEIGHT = 28;

@@ -1,20 +1,21 @@
 /** What an answer rests on, in a fold under it: outcomes, effects, causes, rollouts. */
-import { clock, counted } from "../clock.js";
-import { capital, fill, h } from "../dom.js";
+import { createAwaited } from "../awaited.js";
+import { fill, h } from "../dom.js";
+import { clock, counted, percent, seconds } from "../figures.js";
+import { createOutcomes } from "../outcomes.js";
+import { capital, nameOf } from "../words.js";
 import { createEffect } from "./effects.js";
-import { createOutcomes } from "./outcomes.js";
 import { createRuns } from "./runs.js";
-import { percent } from "./figures.js";
 
 let made = 0;
 
 /**
  * @param {{n: number}} turn
  * @param {import("../store.js").Store} store
- * @param {import("./pointing.js").Pointing} pointing
+ * @param {import("./spoken.js").Spoken} spoken
  * @returns {{button: HTMLElement, fold: HTMLElement}}
  */
-export function createEvidence(turn, store, pointing) {
+export function createEvidence(turn, store, spoken) {
   made += 1;
   const fold = h("div", {
     class: "evidence",
@@ -29,11 +30,11 @@ export function createEvidence(turn, store, pointing) {
     "Evidence",
   );
   const load = async () => {
-    fill(fold, skeleton());
+    fill(fold, createAwaited("Loading the evidence"));
     let words = null; // why there is nothing to show
     const evidence = await store.evidenceOf(turn.n).catch((error) => void (words = error.message));
     try {
-      if (evidence) fill(fold, shown(evidence, store, pointing));
+      if (evidence) fill(fold, shown(evidence, store, spoken));
     } catch (fault) {
       console.error(fault); // of ours: its words are for us
       words = "This could not be shown.";
@@ -53,12 +54,7 @@ function retry(load) {
   return h("button", { type: "button", class: "quiet", onclick: load }, "Try again");
 }
 
-function skeleton() {
-  const lines = [1, 2, 3].map(() => h("span", { class: "awaited-line" }));
-  return h("div", { role: "status" }, h("span", { class: "unseen" }, "Loading the evidence"), lines);
-}
-
-function shown(evidence, store, pointing) {
+function shown(evidence, store, spoken) {
   const { factual, counterfactual, effects, causes } = evidence;
   const sides = [
     factual ? [capital(factual.title), "fact", factual] : null,
@@ -77,11 +73,11 @@ function shown(evidence, store, pointing) {
           h(
             "ul",
             { class: "causes" },
-            causes.map((cause) => causeOf(cause, pointing)),
+            causes.map((cause) => causeOf(cause, spoken)),
           ),
         ]
       : null,
-    sides.map(([title, , side]) => (side.runs.length > 0 ? createRuns(title, side, pointing) : null)),
+    sides.map(([title, , side]) => (side.runs.length > 0 ? createRuns(title, side, spoken) : null)),
   ];
 }
 
@@ -96,8 +92,7 @@ function basis({ method, rollouts, distinct, t }, store) {
 }
 
 function sideOf(title, kind, side) {
-  const arrival =
-    side.arrival === null ? null : h("span", { class: "arrival" }, `${side.arrival.toFixed(1)} s to the goal`);
+  const arrival = side.arrival === null ? null : h("span", { class: "arrival" }, `there in ${seconds(side.arrival)}`);
   return h(
     "div",
     { class: `outcome-side ${kind}` },
@@ -108,7 +103,7 @@ function sideOf(title, kind, side) {
   );
 }
 
-function causeOf(cause, pointing) {
+function causeOf(cause, spoken) {
   const rest = [cause.how, cause.checked].filter(Boolean);
   const influence =
     cause.influence === null
@@ -120,11 +115,11 @@ function causeOf(cause, pointing) {
     h(
       "p",
       {},
-      pointing.button(cause.vehicle, `vehicle ${cause.vehicle}`),
+      spoken.button(cause.vehicle, nameOf(cause.vehicle)),
       ` ${cause.words} `,
       h("b", {}, percent(cause.probability)),
     ),
-    rest.map((words) => h("p", { class: "soft" }, pointing.spoken(words, [cause.vehicle]))),
+    rest.map((words) => h("p", { class: "soft" }, spoken.text(words, [cause.vehicle]))),
     influence,
   );
 }

@@ -1,5 +1,5 @@
 /** Questions that wait for an answer, each with its progress. */
-import { h } from "../dom.js";
+import { h, say } from "../dom.js";
 import { question as bubble } from "./turn.js";
 
 const QUIET = 200; // [ms] in which most answers come; nothing flickers for them
@@ -51,7 +51,7 @@ function createRow(question, questions, list, changed) {
       : waited < LONG
         ? "Thinking …"
         : "Planning this again …";
-    if (!progress.hidden && words.textContent !== text) words.textContent = text;
+    if (!progress.hidden) say(words, text);
   };
   const timers = [QUIET, LONG].map((after) => setTimeout(() => (show(), changed()), after + 5));
   list.append(row);

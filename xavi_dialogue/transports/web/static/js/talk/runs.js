@@ -1,22 +1,21 @@
 /** A table of rollouts: what the others did in each, and what came of it. */
-import { counted } from "../clock.js";
 import { fill, h } from "../dom.js";
-import { outcomeWords } from "./outcomes.js";
-import { percent } from "./figures.js";
+import { counted, percent, seconds } from "../figures.js";
+import { nameOf, outcomeWords } from "../words.js";
 
 const FIRST = 10;
 
 /**
  * @param {string} title
  * @param {{runs: any[], rollouts: number}} side
- * @param {import("./pointing.js").Pointing} pointing
+ * @param {import("./spoken.js").Spoken} spoken
  */
-export function createRuns(title, side, pointing) {
+export function createRuns(title, side, spoken) {
   const body = h("tbody", {});
   const show = (count) =>
     fill(
       body,
-      side.runs.slice(0, count).map((run) => row(run, pointing)),
+      side.runs.slice(0, count).map((run) => row(run, spoken)),
     );
   const more = h("button", { type: "button", class: "quiet" }, `Show all ${side.runs.length}`);
   more.addEventListener("click", () => {
@@ -49,23 +48,21 @@ export function createRuns(title, side, pointing) {
   );
 }
 
-function row(run, pointing) {
-  const named = (vehicle) => pointing.button(vehicle, String(vehicle));
+function row(run, spoken) {
+  const named = (vehicle) => spoken.button(vehicle, String(vehicle));
   const samples = run.samples.map(([vehicle, words, probability]) =>
     h("div", {}, named(vehicle), ` ${words} `, h("span", { class: "soft" }, percent(probability))),
   );
-  const held = run.held_up.map(([vehicle, how, seconds]) =>
-    h("div", {}, named(vehicle), ` ${how}, ${seconds.toFixed(1)} s`),
-  );
+  const held = run.held_up.map(([vehicle, how, lasts]) => h("div", {}, named(vehicle), ` ${how}, ${seconds(lasts)}`));
   const collided =
-    run.collided_with === null || run.collided_with === undefined ? "" : ` with vehicle ${run.collided_with}`;
+    run.collided_with === null || run.collided_with === undefined ? "" : ` with ${nameOf(run.collided_with)}`;
   return h(
     "tr",
     { dataset: { outcome: run.outcome } },
     h("th", { scope: "row", tabindex: -1 }, run.index),
     h("td", {}, samples.length > 0 ? samples : "–"),
     h("td", {}, `${outcomeWords(run.outcome)}${collided}`),
-    h("td", { class: "number" }, run.arrival === null ? "–" : `${run.arrival.toFixed(1)} s`),
+    h("td", { class: "number" }, run.arrival === null ? "–" : seconds(run.arrival)),
     h("td", {}, held.length > 0 ? held : "–"),
   );
 }

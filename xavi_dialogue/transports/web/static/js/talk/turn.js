@@ -1,6 +1,6 @@
 /** One turn of the conversation: a question and what came of it. */
-import { clock, lasted } from "../clock.js";
 import { h } from "../dom.js";
+import { clock, lasted } from "../figures.js";
 import { createEvidence } from "./evidence.js";
 
 /** Why there is no answer, in a few words. */
@@ -31,7 +31,8 @@ const ICONS = {
 /**
  * @typedef {object} Around what a turn can do to what is around it
  * @property {import("../store.js").Store} store
- * @property {import("./pointing.js").Pointing} pointing
+ * @property {import("../pointing.js").Pointing} pointing
+ * @property {import("./spoken.js").Spoken} spoken
  * @property {(text: string) => void} ask
  * @property {(n: number) => boolean} newest whether a turn is the latest one
  */
@@ -52,7 +53,7 @@ export function createTurn(turn, around) {
       "div",
       { class: "reply" },
       reply.kind === "answer" ? null : kindOf(reply),
-      h("p", { class: "words", dir: "auto" }, kindAloud(reply), around.pointing.spoken(reply.text, turn.vehicles)),
+      h("p", { class: "words", dir: "auto" }, kindAloud(reply), around.spoken.text(reply.text, turn.vehicles)),
       reply.choices.length > 0 ? choices(turn, around) : null,
       reply.kind === "refusal" && reply.suggestions.length > 0 ? instead(reply, around) : null,
       meta(turn, around),
@@ -100,13 +101,13 @@ function choices({ n, reply }, { ask, newest }) {
   return h("ol", { class: "choices", "aria-label": "What is meant" }, reply.choices.map(one));
 }
 
-function meta(turn, { store, pointing }) {
+function meta(turn, { store, pointing, spoken }) {
   const { n, reply } = turn;
   const moment = n === null ? null : momentOf(reply.sim_time, store);
   const took =
     typeof reply.timing_ms === "number" ? h("span", { class: "took" }, `in ${lasted(reply.timing_ms)}`) : null;
   const map = n !== null && (turn.evidence || turn.vehicles.length > 0) ? onMap(turn, store, pointing) : null;
-  const evidence = n !== null && turn.evidence ? createEvidence(turn, store, pointing) : null;
+  const evidence = n !== null && turn.evidence ? createEvidence(turn, store, spoken) : null;
   return [h("div", { class: "meta" }, moment, took, map, evidence?.button), evidence?.fold];
 }
 

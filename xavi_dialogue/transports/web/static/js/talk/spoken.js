@@ -1,5 +1,6 @@
 /** Vehicles named in a text become buttons that point at them on the map. */
 import { h } from "../dom.js";
+import { nameOf } from "../words.js";
 
 const NAMED = /\b(vehicle\s+)(\d+)\b|\b(vehicles\s+)(\d+(?:(?:,\s*(?:and\s+|or\s+)?|\s+(?:and|or)\s+)\d+)*)\b/gi;
 
@@ -29,65 +30,63 @@ export function cut(text, vehicles) {
   return parts.filter((part) => part !== "");
 }
 
-/** What is pointed at: what the pointer or the focus is on, and what a press keeps. */
-export class Pointing {
+/** Texts and buttons that name vehicles, in one part of the page. */
+export class Spoken {
   /**
-   * @param {import("../store.js").Store} store
+   * @param {import("../pointing.js").Pointing} pointing
    * @param {HTMLElement} root of all buttons
    */
-  constructor(store, root) {
-    this.store = store;
+  constructor(pointing, root) {
+    this.pointing = pointing;
     this.root = root;
-    this.kept = new Set();
-    store.addEventListener("pointed", () => this.follow());
-    store.addEventListener("ride", () => this.keep([]));
+    pointing.addEventListener("change", () => this.follow());
   }
 
-  /** The text with its vehicles as buttons. */
-  spoken(text, vehicles) {
-    const known = new Set(vehicles);
-    return cut(text, known).map((part) => (typeof part === "string" ? part : this.button(part.vehicle, part.words)));
+  /** The text with its vehicles as buttons; brackets and stops stay on the line of their vehicle. */
+  text(text, vehicles) {
+    const said = [];
+    let before = ""; // what is left of the text so far
+    for (const part of cut(text, new Set(vehicles))) {
+      if (typeof part === "string") {
+        const after = said.length > 0 ? part.match(/^[^\s\w]*/)[0] : "";
+        said.at(-1)?.append(after);
+        before = part.slice(after.length);
+        continue;
+      }
+      const opening = before.match(/[^\s\w]*$/)[0];
+      said.push(document.createTextNode(before.slice(0, before.length - opening.length)));
+      said.push(h("span", { class: "together" }, opening, this.button(part.vehicle, part.words)));
+      before = "";
+    }
+    return [...said, before];
   }
 
   button(vehicle, words) {
-    const near = () => this.store.point([...this.kept, vehicle]);
-    const away = () => this.store.point(this.kept);
+    const { pointing } = this;
+    const near = () => pointing.near(vehicle);
+    const away = () => pointing.away();
     return h(
       "button",
       {
         type: "button",
         class: "named",
         dataset: { vehicle },
-        "aria-label": /^\d+$/.test(words) ? `vehicle ${words}` : null,
-        "aria-pressed": String(this.kept.has(vehicle)),
+        "aria-label": /^\d+$/.test(words) ? nameOf(vehicle) : null,
+        "aria-pressed": String(pointing.kept.has(vehicle)),
         title: "Show it on the map",
         onpointerenter: near,
         onpointerleave: away,
         onfocus: near,
         onblur: away,
-        onclick: () => this.toggle(vehicle),
+        onclick: () => pointing.toggle(vehicle),
       },
       words,
     );
   }
 
-  toggle(vehicle) {
-    if (!this.kept.delete(vehicle)) this.kept.add(vehicle);
-    this.store.point(this.kept);
-  }
-
-  /** Point at these until something else is pointed at. */
-  keep(vehicles) {
-    this.kept = new Set(vehicles);
-    this.store.point(this.kept);
-  }
-
   follow() {
-    for (const vehicle of [...this.kept]) {
-      if (!this.store.pointed.has(vehicle)) this.kept.delete(vehicle); // somebody else points elsewhere
-    }
     for (const button of this.root.querySelectorAll("button.named")) {
-      button.setAttribute("aria-pressed", String(this.kept.has(Number(button.dataset.vehicle))));
+      button.setAttribute("aria-pressed", String(this.pointing.kept.has(Number(button.dataset.vehicle))));
     }
   }
 }
