@@ -63,6 +63,8 @@ def take(browser: Browser, address: str, turn: int, context: dict[str, Any]) -> 
     article.get_by_role("button", name="Evidence").click()
     expect(article.get_by_role("table").first).to_be_attached()
     screen.until_map("map.ghost > 0")
+    suggested = "time => Math.abs(window.xavi.store.suggestions.t - time) < 0.1"
+    screen.until(suggested, MOMENT)
     article.locator(".reply").evaluate("one => one.scrollIntoView({block: 'start'})")
     page.mouse.move(1, 1)
     page.evaluate("document.activeElement.blur()")
