@@ -94,8 +94,8 @@ def _dashboard(shell: Shell) -> Callable[..., None]:
 
         with shell.errors():
             place = Listen.read(listen, token=token, names=tuple(host_name or ()))
-            fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
-            passenger = passenger_of(session or fresh.session, share=False)
+            going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            passenger = passenger_of(session or going.session, share=False)
             if connect is not None or zenoh is not None:
                 alone(scenario=scenario, seed=seed, speed=speed, replay=replay)
                 link = Link.to_hub(connect, zenoh)
@@ -120,13 +120,17 @@ def _own(
 ) -> "Ride":
     """What to drive, or to play."""
     from xavi_dialogue.app.chat import Ride
-    from xavi_dialogue.app.commands.riding import DEFAULT_SCENARIO
+    from xavi_dialogue.app.going_on import find
     from xavi_dialogue.transports.mcap_file import read
 
     if replay is None:
-        loaded = shell.load(scenario or DEFAULT_SCENARIO)
-        chosen = loaded.seed if seed is None else seed
-        return Ride(str(loaded.folder), loaded.name, chosen, passenger, keeping)
+        going = find(keeping, passenger.session)
+        loaded = shell.load(going.place(scenario))
+        chosen = going.seed(seed, loaded)
+        at = going.moment(loaded, chosen)
+        if going.before is not None:
+            shell.note(going.note(at, keeping))
+        return Ride(str(loaded.folder), loaded.name, chosen, passenger, keeping, at)
     if scenario is not None or seed is not None:
         raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
     next(read(replay), None)  # raises at once where it is no recording

@@ -59,9 +59,13 @@ class Board:
     record: Record = field(default_factory=Record)
     conversation: Conversation = field(default_factory=Conversation)
     first_seen: Callable[[], None] = lambda: None  # called when the first browser has come
+    coming: Callable[[], bool] = lambda: False  # the car is started (again), and not yet there
+    moment: Callable[[Client], float | None] = Client.now  # [s] that is meant where none is named
     _there: dict[str, Presence] = field(default_factory=dict)
     _suggested: Suggestions = field(default_factory=lambda: Suggestions(t=0.0, questions=()))
     _stale: bool = False  # something has happened since these were made
+    _came: bool = False  # whether the car was coming when that was told last
+    _held: bool = False  # what was heard while the car was coming has not been told
     _bus: Bus | None = None
     _asking: Asking | None = None
     _client: Client | None = None
@@ -96,8 +100,12 @@ class Board:
 
     async def _look(self) -> None:
         for message in self.record.wait(time.monotonic()):
-            self.audience.tell(message)
+            if not self._held:
+                self.audience.tell(message)
         self._see("hub", self._bus is not None and self._bus.linked)
+        if self.coming() != self._came:
+            self._came = not self._came
+            self._tell_status()
         self.library.look()
         if self.audience.browsers:
             self._suggest_anew()
@@ -115,14 +123,15 @@ class Board:
             recording=self.recording,
         )
         self._spawn(self.refresh())
-        shown = (*self.record.all(), self.conversation.all(), self._suggested)
+        record = () if self._held else self.record.all()
+        shown = (*record, self.conversation.all(), self._suggested)
         return welcome, self.status(), *shown
 
     def status(self) -> Status:
         """Who is there; the server fills in what each browser is told besides."""
         return Status(
             hub=self._there.get("hub", "awaited"),
-            car=self._there.get("car", "awaited"),
+            car="coming" if self.coming() else self._there.get("car", "awaited"),
             service=self._there.get("service", "awaited"),
             dropped=0,
             browsers=self.audience.browsers,
@@ -141,7 +150,7 @@ class Board:
         def done(came: Reply | ServiceLost) -> None:
             self.audience.soon(self._answered, viewer, message, came)
 
-        at = client.now() if message.at is None else message.at
+        at = self.moment(client) if message.at is None else message.at
         client.send(message.text, done, at=at, request=request)
 
     def cancel(self, viewer: Viewer, message: Cancel) -> None:
@@ -180,7 +189,12 @@ class Board:
         if begun:
             self.library.begin_anew()
             self._suggested = Suggestions(t=0.0, questions=())
-        for message in told:
+        self._held = self._held or self.coming()
+        if self._held and not self.coming():
+            self._held = False
+            self._tell_status()
+            told = self.record.all()
+        for message in () if self._held else told:
             self.audience.tell(message)
             if isinstance(message, SceneShown):
                 self.alive.count("scenes")

@@ -11,10 +11,12 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
+from xavi_dialogue.app import control
 from xavi_dialogue.app.chat import Ride, behind_of
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import Client
@@ -23,6 +25,7 @@ from xavi_dialogue.app.dashboard.board import Board
 from xavi_dialogue.app.identity import Passenger
 from xavi_dialogue.app.talking import warner
 from xavi_dialogue.transports.bus import Bus, BusError, HubUnreachable, Keys
+from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.web.listen import Listen
 from xavi_dialogue.transports.web.server import Server
@@ -66,6 +69,7 @@ class Background:
         self._task, self._note, self._joined, self._failed = task, note, joined, failed
         self.over = threading.Event()
         self.seen = threading.Event()  # somebody has looked
+        self._behind: Convoy | None = None  # of a ride of one's own, once it is where it is to be
         self.failure: Exception | None = None
         self._thread = threading.Thread(target=self._run, name="background", daemon=True)
         self._thread.start()
@@ -100,15 +104,31 @@ class Background:
                     self._note(f"{error}; waiting for it")
                 waiting = True
 
+    def coming(self) -> bool:
+        """Whether the car is being started, or driven to where it is to be; any thread may ask."""
+        if isinstance(self._task.source, Link):
+            return False
+        return self._behind is None or self._behind.car.catching_up
+
+    def now(self, client: Client) -> float | None:
+        """The moment [s] that a passenger has in mind who is told what `client` is."""
+        return client.now() if self._behind is None else self._behind.now(client)
+
     def _be_alone(self, ride: Ride) -> None:
         company = Company(ride.record, ride.overwrite, warner(self._note), self._note)
-        with behind_of(ride, self._task.speed, company) as behind:
+        first = self._task.speed if ride.resume is None else 0.0
+        with behind_of(ride, first, company) as behind:
             session = ride.passenger.session
             talk = f"xavi chat --connect {behind.endpoint} --session {session}"
             self._note(f"to talk at a terminal as well: {talk}")
             client = Client(behind.bus, Keys(), session)
             self._joined(behind.bus)
             first_scene(behind, client)
+            if ride.resume is not None:
+                with suppress(CommandError):  # there is no car any more, which has been told
+                    behind.drive(client, control.Until(ride.resume), halt=True)
+                    behind.order(control.Speed(self._task.speed))
+            self._behind = behind
             self._set_off(behind)
             while not self.over.wait(GLANCE):
                 behind.check()
@@ -157,6 +177,7 @@ async def _run(task: Task, note: Note, board: Board, server: Server) -> None:
     for number in SIGNALS:
         loop.add_signal_handler(number, stop)
     board.first_seen = background.seen.set
+    board.coming, board.moment = background.coming, background.now
     note(f"dashboard at {server.link}")
     if task.opens:
         _open(server.link)

@@ -18,7 +18,8 @@ MAX_INCOMING = MAX_TEXT * MAX_CHARACTER + 4 * KIB  # bytes of a message of a bro
 Seen: TypeAlias = tuple[
     int, float, float, float, float, float, float, str, str | None, tuple[str, ...]
 ]
-Presence: TypeAlias = Literal["there", "gone", "awaited"]  # awaited: not seen yet
+#: awaited: not seen yet; coming: it is being started (again), and driven to where it is to be.
+Presence: TypeAlias = Literal["there", "gone", "awaited", "coming"]
 
 
 # --- to the browser -------------------------------------------------------------------------

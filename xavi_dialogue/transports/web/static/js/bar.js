@@ -8,9 +8,10 @@ const SHAPES = {
   there: () => h("circle", { cx: 6, cy: 6, r: 5 }),
   gone: () => h("path", { d: "M2 2 10 10M10 2 2 10" }),
   awaited: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
+  coming: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
   unknown: () => h("path", { d: "M2 6H10" }),
 };
-const SAYS = { there: "there", gone: "gone", awaited: "awaited", unknown: "not known" }; // unknown: not connected
+const SAYS = { there: "there", gone: "gone", awaited: "awaited", coming: "starting", unknown: "not known" }; // unknown: not connected
 
 /**
  * @param {HTMLElement} bar holds the heading
@@ -68,6 +69,7 @@ function modeOf({ latest, live, status, welcome }) {
   if (!live) return ["earlier", "held"];
   if (!status.connected) return ["not connected", "gone"];
   if (status.car === "gone") return ["car gone", "gone"];
+  if (status.car === "coming") return ["car starting", "gone"];
   if (latest.state === "ended") return ["over", "over"];
   if (latest.state === "paused") return ["paused", "paused"];
   return welcome?.recording ? ["recording", "live"] : ["live", "live"];

@@ -48,6 +48,12 @@ const STATES = {
       " to have all in one.",
     ],
   },
+  coming: { drawing: "car", title: "The car is starting", says: () => ["It sets off in a few seconds."] },
+  comingAgain: {
+    drawing: "car",
+    title: "The car is being started again.",
+    says: () => ["It is driven to where it was. You can ask all the same."],
+  },
   arriving: { drawing: "car", title: "The car is there", says: () => ["Its first scene is on its way."] },
   carGone: {
     drawing: "gone",
@@ -77,6 +83,7 @@ function stateOf(store, connection) {
   if (!connection.ever && connection.state === "refused") return "refused";
   if (!connection.ever) return connection.attempt > 0 ? "unreachable" : "connecting";
   if (!status.connected) return null; // the notice says it
+  if (status.car === "coming") return latest ? "comingAgain" : "coming";
   if (status.hub !== "there") return status.hub === "gone" && latest ? "hubGone" : "hub";
   if (status.car === "awaited") return "car"; // also of a dashboard that was started anew
   if (!latest) return status.car === "there" ? "arriving" : "car";

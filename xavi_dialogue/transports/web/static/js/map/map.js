@@ -345,7 +345,7 @@ class LiveMap {
       ...this.scene,
       live: store.live,
       state: store.latest.state,
-      gone: store.status.car === "gone",
+      gone: store.status.car === "gone" || store.status.car === "coming",
       roads: this.roads,
       words,
     };
