@@ -188,6 +188,19 @@ function merged(known, more, key, order = (item) => item.t) {
   return [...all.values()].sort((a, b) => order(a) - order(b));
 }
 
+/** Whether turns are the same conversation, as when one has connected anew. */
+function goesOn(known, turns) {
+  const texts = new Map(turns.map((one) => [one.n, one.text]));
+  return known.every((one) => texts.get(one.n) === one.text);
+}
+
+/** What belongs to numbers of turns, which may be those of others now. */
+function forgetTurns(store) {
+  store.evidences.clear();
+  store.turn = store.evidence = null;
+  store.tell("shown");
+}
+
 async function fetchRoads(store, hash) {
   const roads = await store.fetchJson(`/api/roads/${encodeURIComponent(hash)}`);
   if (store.ride?.roads !== hash) return;
@@ -229,6 +242,7 @@ const TAKERS = {
   },
   turns(store, { turns, reset }) {
     const number = (one) => one.n;
+    if (reset && !goesOn(store.turns, turns)) forgetTurns(store);
     store.turns = reset ? turns : merged(store.turns, turns, number, number);
     store.tell("turns");
   },

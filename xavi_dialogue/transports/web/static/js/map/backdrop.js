@@ -31,6 +31,7 @@ export class Backdrop {
     const grown = view.k / k;
     const [wide, high] = [view.width * view.ratio, view.height * view.ratio];
     context.setTransform(1, 0, 0, 1, 0, 0);
+    context.imageSmoothingEnabled = grown !== 1;
     if (grown === 1) context.drawImage(this.bitmap, -left - view.ox, -top - view.oy, wide, high, 0, 0, wide, high);
     else {
       context.fillStyle = this.ground;

@@ -3,11 +3,11 @@
 const LONG = 11; // [px] no vehicle is drawn shorter, however far away
 const BROAD = 5; // [px] nor narrower
 const DETAIL = 20; // [px] of length from which on windows and lights are drawn
-const SMALL = 14; // [px] of length below which bodies are plain: hundreds of them are in view
+const SMALL = 14; // [px] of length below which bodies are plain sprites: hundreds of them are in view
 const BLINK = 0.8; // [s] period of indicators
 
-/** [px/m] The scale of a vehicle, which small ones on a far view get a larger one of. */
-function sizeOf(vehicle, scale) {
+/** [px] Length and width of a vehicle; on a far view it is drawn larger than it is. */
+export function sizeOf(vehicle, scale) {
   return [Math.max(vehicle.length * scale, LONG), Math.max(vehicle.width * scale, BROAD)];
 }
 
@@ -31,17 +31,39 @@ function place(context, view, vehicle) {
 }
 
 /**
- * Draw a vehicle.
+ * Draw vehicles, all of them: small ones from sprites, which leave little to be done.
+ * @param vehicles those in view, ours last
  * @param {number} t [s] by which indicators blink
+ * @param pen {context, view, colours, sprites}
  */
-export function drawVehicle(context, view, vehicle, colours, t) {
+export function drawVehicles(vehicles, t, { context, view, colours, sprites }) {
+  context.setLineDash([]);
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.imageSmoothingEnabled = false;
+  const pen = { colours, ratio: view.ratio };
+  let placed = false; // whether the context is turned along a vehicle
+  for (const vehicle of vehicles) {
+    const [long, broad] = sizeOf(vehicle, view.scale);
+    if (long >= SMALL) {
+      drawVehicle(context, view, vehicle, colours, t);
+      placed = true;
+      continue;
+    }
+    if (placed) context.setTransform(1, 0, 0, 1, 0, 0);
+    placed = false;
+    const [x, y] = view.toScreen(...middleOf(vehicle));
+    const paint = colours.paintOf(vehicle);
+    sprites.draw(context, { x, y, heading: vehicle.heading }, Math.round(long), Math.round(broad), paint, pen);
+  }
+}
+
+function drawVehicle(context, view, vehicle, colours, t) {
   place(context, view, vehicle);
   const [long, broad] = sizeOf(vehicle, view.scale);
   const paint = colours.paintOf(vehicle);
   const look = Object.hasOwn(LOOKS, vehicle.kind) ? LOOKS[vehicle.kind] : LOOKS.car; // the kind is told by a stranger
-  const pen = { context, colours, long, broad, paint, fine: long >= DETAIL && broad >= 8, small: long < SMALL };
-  look(pen);
-  if (long >= 16) lights(pen, vehicle.signals, t);
+  look({ context, colours, long, broad, paint, fine: long >= DETAIL && broad >= 8 });
+  if (long >= 16) lights({ context, colours, long, broad }, vehicle.signals, t);
 }
 
 /** Draw where a vehicle would be: its outline, hardly there. */
@@ -92,14 +114,7 @@ const LOOKS = {
   },
 };
 
-function body({ context, colours, paint, small }, x, y, long, broad, radius) {
-  if (small) {
-    context.fillStyle = colours.get("map-glass");
-    context.fillRect(x - 0.5, y - 0.5, long + 1, broad + 1);
-    context.fillStyle = colours.get(paint);
-    context.fillRect(x + 0.5, y + 0.5, long - 1, broad - 1);
-    return;
-  }
+function body({ context, colours, paint }, x, y, long, broad, radius) {
   rounded(context, x, y, long, broad, radius);
   context.fillStyle = colours.get(paint);
   context.fill();

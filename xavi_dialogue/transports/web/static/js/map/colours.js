@@ -27,6 +27,8 @@ const TOKENS = [
 ];
 const PAINTS = ["white", "grey", "black", "red", "orange", "yellow", "green", "blue", "purple", "brown"];
 
+const PAINTED = new Map(PAINTS.map((paint) => [paint, `paint-${paint}`]));
+
 export class Colours {
   /** @param {Element} element that is of the theme; gets a hidden child that colours are read from */
   constructor(element) {
@@ -53,12 +55,14 @@ export class Colours {
 
   /** A colour with an opacity, 0 to 1. */
   get(name, alpha = 1) {
-    const key = alpha === 1 ? name : `${name} ${alpha.toFixed(2)}`;
-    let made = this.made.get(key);
+    let shades = this.made.get(name);
+    if (!shades) this.made.set(name, (shades = new Map()));
+    const part = Math.round(alpha * 100);
+    let made = shades.get(part);
     if (!made) {
       const [r, g, b] = this.rgb.get(name);
-      made = `rgba(${r}, ${g}, ${b}, ${alpha.toFixed(2)})`;
-      this.made.set(key, made);
+      made = `rgba(${r}, ${g}, ${b}, ${part / 100})`;
+      shades.set(part, made);
     }
     return made;
   }
@@ -66,7 +70,6 @@ export class Colours {
   /** The name of the colour that a vehicle is painted in. */
   paintOf(vehicle) {
     if (vehicle.id === 0) return "accent";
-    const paint = `paint-${vehicle.colour}`;
-    return this.rgb.has(paint) ? paint : "other";
+    return PAINTED.get(vehicle.colour) ?? "other";
   }
 }

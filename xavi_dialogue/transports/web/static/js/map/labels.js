@@ -1,7 +1,8 @@
 /** Labels that neither overlap each other nor leave the view; who has no room goes without. */
 
-import { HEIGHT, Pills } from "./pills.js";
+import { drawPill, HEIGHT, Pills } from "./pills.js";
 
+const EACH = 190; // [ms] from one placing to the next
 const PAD = 6; // [px] left and right of the text
 const CELL = 64; // [px] of the grid by which neighbours are found
 const LONGEST = 64; // characters
@@ -30,18 +31,37 @@ const WIDE = [
   [-1, 1],
 ];
 
+/**
+ * Finding room takes long, and labels that hop about cannot be read: they are placed a few times a
+ * second, and go along with what they name in between.
+ */
 export class Labels {
   constructor() {
     this.widths = new Map();
     this.pills = new Pills();
     this.sides = new Map(); // where each label was, so that it does not hop about
+    this.places = new Map(); // by key: bitmap, left and top [px] from what it names, and where that is
+    this.texts = []; // of those that are placed
+    this.placing = false; // whether wishes are heard in this frame
+    this.stale = true; // whether what is placed may not fit any more
+    this.since = -Infinity; // [ms] when they were placed last
     this.font = "";
   }
 
+  /** Place them in the next frame, whenever the last time was. */
+  spoil() {
+    this.since = -Infinity;
+    this.stale = true;
+  }
+
   /** Begin a frame; `taken` are rectangles [left, top, right, bottom] of the canvas to be left free. */
-  begin(view, font, taken) {
+  begin(view, font, taken, now) {
     if (font !== this.font) this.widths.clear();
-    Object.assign(this, { view, font, wanted: [], cells: new Map() });
+    this.placing = now - this.since >= EACH;
+    this.stale = !this.placing;
+    Object.assign(this, { view, font });
+    if (!this.placing) return;
+    Object.assign(this, { since: now, wanted: [], cells: new Map() });
     for (const box of taken) this.occupy(box);
   }
 
@@ -52,19 +72,39 @@ export class Labels {
 
   /**
    * Wish for a label.
-   * @param {{key: string, text: string, x: number, y: number, reach: number, weight: number,
-   *   ink: string, ground: string, edge?: string, strong?: boolean, short?: string, wide?: boolean, below?: boolean}} label x, y [px] of what is
-   *   named, `reach` [px] to be kept from it; the heaviest are placed first;
-   *   `short` is said where there is no room for the text
+   * @param {{key: string|number, text: string, x: number, y: number, reach: number, weight: number,
+   *   ink: string, ground: string, edge?: string, strong?: boolean, short?: string, wide?: boolean,
+   *   below?: boolean}} label x, y [px] of what is named, `reach` [px] to be kept from it; the
+   *   heaviest are placed first; `short` is said where there is no room for the text
    */
   add(label) {
-    if (label.x < -40 || label.y < -40 || label.x > this.view.width + 40 || label.y > this.view.height + 40) return;
+    if (!this.placing) return void this.move(label.key, label.x, label.y);
+    const { width, height } = this.view;
+    if (label.x < -40 || label.y < -40 || label.x > width + 40 || label.y > height + 40) return;
     const text = label.text.length > LONGEST ? `${label.text.slice(0, LONGEST - 1)}…` : label.text;
     this.wanted.push({ ...label, text });
   }
 
-  /** Draw all that find room; returns their texts. */
+  /** What a label names is elsewhere: enough between two placings. */
+  move(key, x, y) {
+    const place = this.places.get(key);
+    if (!place) return;
+    [place.x, place.y, place.there] = [x, y, true];
+  }
+
+  /** Draw all that found room; returns their texts. */
   draw(context) {
+    if (this.placing) this.place(context);
+    const { ratio } = this.view;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    for (const place of this.places.values()) {
+      if (place.there) drawPill(context, place.bitmap, ratio, place.x + place.dx, place.y + place.dy);
+      place.there = false;
+    }
+    return this.texts;
+  }
+
+  place(context) {
     this.view.screen(context);
     this.wanted.sort((a, b) => b.weight - a.weight || (a.key < b.key ? -1 : 1));
     const placed = [];
@@ -72,10 +112,15 @@ export class Labels {
       const found = this.placed(context, label);
       if (found) placed.push(found);
     }
-    for (const [label, box] of placed) this.pills.draw(context, label, this.fontOf(label), this.view.ratio, box);
+    this.places.clear();
+    for (const [label, [left, top, right]] of placed) {
+      const { key, x, y } = label;
+      const bitmap = this.pills.of(label, this.fontOf(label), this.view.ratio, right - left);
+      this.places.set(key, { bitmap, x, y, dx: left - x, dy: top - y, there: true });
+    }
+    this.texts = placed.map(([label]) => label.text);
     const kept = new Set(this.wanted.map((label) => label.key));
     for (const key of this.sides.keys()) if (!kept.has(key)) this.sides.delete(key);
-    return placed.map(([label]) => label.text);
   }
 
   placed(context, label) {

@@ -63,7 +63,7 @@ export function headingAt(line, i) {
 }
 
 /** What is left of a line from a fractional index on. */
-export function from(line, index) {
+function from(line, index) {
   if (index <= 0) return line;
   const last = count(line) - 1;
   if (index >= last) return [];
@@ -71,9 +71,42 @@ export function from(line, index) {
   return [start.x, start.y, ...line.slice(2 * Math.floor(index) + 2)];
 }
 
-/** What is left of a Drive (see documents.py) at a moment [s]. */
-export function remaining(drive, t) {
-  return from(drive.path, drive.dt > 0 ? (t - drive.t) / drive.dt : 0);
+const AHEAD = new WeakMap(); // what is left of a Drive, as it was cut last
+const NEAR = 0.8; // [m]
+const CUT = 0.1; // [s] of driving after which it is cut anew: less than a car's length
+
+/**
+ * What is left of a Drive (see documents.py) at a moment [s], which frame after frame asks for.
+ * @param {number} pieces that it falls into, each a Path2D
+ * @returns {{line: number[], length: number, pieces: Path2D[]}} length [m]
+ */
+export function ahead(drive, t, pieces) {
+  const known = AHEAD.get(drive);
+  if (known && Math.abs(known.t - t) < CUT) return known;
+  const line = from(drive.path, drive.dt > 0 ? (t - drive.t) / drive.dt : 0);
+  const left = { t, line, length: lengthOf(line), pieces: cutUp(coarser(line), pieces) };
+  AHEAD.set(drive, left);
+  return left;
+}
+
+/** Without the points that are near the one before: standing and slow cars have hundreds of them. */
+function coarser(line) {
+  const last = count(line) - 1;
+  const kept = line.slice(0, 2);
+  for (let i = 1; i <= last; i += 1) {
+    const away = Math.hypot(line[2 * i] - kept.at(-2), line[2 * i + 1] - kept.at(-1));
+    if (away >= NEAR || i === last) kept.push(line[2 * i], line[2 * i + 1]);
+  }
+  return kept;
+}
+
+function cutUp(line, most) {
+  const last = Math.max(count(line) - 1, 0);
+  const pieces = Math.min(most, last);
+  return Array.from({ length: pieces }, (_, k) => {
+    const [a, b] = [Math.round((k * last) / pieces), Math.round(((k + 1) * last) / pieces)];
+    return pathOf(line.slice(2 * a, 2 * b + 2));
+  });
 }
 
 /** [m] Length of a line. */

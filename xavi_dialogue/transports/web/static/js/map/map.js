@@ -3,6 +3,7 @@
 import { h } from "../dom.js";
 import { lastUpTo } from "../store.js";
 import { Backdrop } from "./backdrop.js";
+import { Choosing } from "./choosing.js";
 import { Colours } from "./colours.js";
 import { createBadge, createControls } from "./controls.js";
 import { Deciding } from "./deciding.js";
@@ -15,8 +16,8 @@ import { boundsOf } from "./lines.js";
 import { Motion, sceneAt } from "./motion.js";
 import { Pace } from "./pace.js";
 import { drawPicture } from "./picture.js";
-import { Pointing } from "./pointing.js";
 import { RoadLayer, drawGrid } from "./roads.js";
+import { Sprites } from "./sprites.js";
 import { Steering } from "./steering.js";
 import { createSummary } from "./summary.js";
 import { View } from "./view.js";
@@ -33,6 +34,7 @@ const NOTHING = {
   preview: false,
   kinds: new Set(),
 };
+const WORDED = new Set(["ride", "shown", "pointed", "preview"]); // changes by which other labels are wanted
 const LABEL =
   "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, " +
   "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
@@ -78,6 +80,7 @@ class LiveMap {
     this.motion = new Motion();
     this.backdrop = new Backdrop();
     this.labels = new Labels();
+    this.sprites = new Sprites();
     this.pace = new Pace();
     this.deciding = new Deciding(store, () => this.request());
     this.roads = null;
@@ -117,12 +120,12 @@ class LiveMap {
     });
     const moved = () => {
       this.taken = null;
-      this.request();
+      this.changed();
     };
     this.legend = createLegend(moved, matchMedia("(max-width: 700px)").matches);
     this.badge = createBadge();
     this.summary = createSummary("map-in-words");
-    this.pointing = new Pointing(this.store, this.view, this.summary, () => this.request());
+    this.choosing = new Choosing(this.store, this.view, this.summary, () => this.changed());
     this.element.classList.add("map");
     this.element.append(
       this.canvas,
@@ -130,7 +133,7 @@ class LiveMap {
       this.legend.element,
       this.controls.bar,
       this.controls.element,
-      this.pointing.card.element,
+      this.choosing.card.element,
       this.summary.element,
       this.summary.said,
     );
@@ -151,13 +154,16 @@ class LiveMap {
     };
     for (const [name, change] of Object.entries(on)) {
       this.store.addEventListener(name, () => {
-        if (change() !== false) this.request();
+        if (change() === false) return;
+        if (WORDED.has(name)) this.labels.spoil();
+        this.request();
       });
     }
     const recoloured = () => {
       this.colours.read();
       this.backdrop.spoil();
-      this.request();
+      this.sprites.forget();
+      this.changed();
     };
     window.addEventListener("theme", recoloured);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recoloured);
@@ -174,11 +180,11 @@ class LiveMap {
       ...this.steered,
       pan: (dx, dy, pinching = false) => this.steering.pan(dx, dy, pinching),
       zoom: (factor, x, y) => this.steering.zoomAt(factor, x, y),
-      hover: (x, y) => this.hover(this.pointing.at(x, y)),
+      hover: (x, y) => this.hover(this.choosing.at(x, y)),
       leave: () => this.hover(null),
-      choose: (x, y) => this.pointing.choose(this.pointing.at(x, y)),
-      next: (step) => this.pointing.next(step, this.drawn.vehicles),
-      escape: () => (this.pointing.chosen === null ? false : this.pointing.choose(null)),
+      choose: (x, y) => this.choosing.choose(this.choosing.at(x, y)),
+      next: (step) => this.choosing.next(step, this.drawn.vehicles),
+      escape: () => (this.choosing.chosen === null ? false : this.choosing.choose(null)),
     });
   }
 
@@ -198,17 +204,17 @@ class LiveMap {
   }
 
   hover(id) {
-    if (id === this.pointing.hovered) return;
-    this.pointing.hovered = id;
+    if (id === this.choosing.hovered) return;
+    this.choosing.hovered = id;
     this.canvas.classList.toggle("map-over", id !== null);
-    this.request();
+    this.changed();
   }
 
   begin() {
     this.motion.reset();
     this.following.reset();
     this.deciding.keep(null);
-    this.pointing.chosen = null;
+    this.choosing.chosen = null;
     this.scene = null;
     this.roadsCame();
   }
@@ -227,6 +233,7 @@ class LiveMap {
     this.canvas.height = Math.round(clientHeight * this.view.ratio);
     if (first) this.view.scale = this.view.usual;
     this.taken = null;
+    this.labels.spoil();
     this.draw(performance.now()); // at once: a canvas that changed its size is empty
   }
 
@@ -237,6 +244,12 @@ class LiveMap {
   /** Bounds of everything there is. */
   get everything() {
     return this.roads?.bounds ?? boundsOf(this.scene?.vehicles.map(({ x, y }) => [x, y]) ?? [], 30);
+  }
+
+  /** Something is chosen or coloured otherwise: labels are too. */
+  changed() {
+    this.labels.spoil();
+    this.request();
   }
 
   // --- drawing ---
@@ -255,11 +268,13 @@ class LiveMap {
     const began = performance.now();
     this.began = now;
     this.scene = this.sceneNow(began);
-    this.pointing.vehicles = this.scene?.vehicles ?? [];
+    this.choosing.vehicles = this.scene?.vehicles ?? [];
     this.move(began);
     const settling = this.backdropNow(began);
     this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
-    this.around(began);
+    if (!this.scene || this.labels.placing) this.around();
+    this.choosing.place();
+    if (this.scene && this.summary.due(began)) this.summary.update(this.inWords(), began);
     if (this.scene && this.store.live)
       this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
     this.pace.frame(began, performance.now());
@@ -284,7 +299,8 @@ class LiveMap {
 
   moving(now) {
     const live = this.store.live && this.motion.moving(now);
-    return live || this.view.glide !== null || !this.following.settled || this.looping;
+    const drawing = live || this.view.glide !== null || !this.following.settled || this.looping;
+    return drawing || (this.scene !== null && this.labels.stale);
   }
 
   /** Whether ghosts go along their lines. */
@@ -308,7 +324,7 @@ class LiveMap {
     const causes = new Set((evidence?.causes ?? []).map((cause) => cause.vehicle));
     const about = (turn?.vehicles ?? []).filter((id) => id !== 0 && !causes.has(id)); // these have their ring
     this.taken ??= this.measured();
-    this.labels.begin(view, this.colours.font, this.taken);
+    this.labels.begin(view, this.colours.font, this.taken, now);
     return drawPicture(
       {
         ...this.scene,
@@ -318,14 +334,21 @@ class LiveMap {
         elapsed: view.still.matches ? null : (now - this.compared) / 1000,
         causes,
         pointed: new Set([...store.pointed, ...about]),
-        chosen: this.pointing.id,
+        chosen: this.choosing.id,
       },
-      { context: this.context, view, colours: this.colours, labels: this.labels, roads: this.roads },
+      {
+        context: this.context,
+        view,
+        colours: this.colours,
+        labels: this.labels,
+        sprites: this.sprites,
+        roads: this.roads,
+      },
     );
   }
 
-  /** What stands around and over the canvas. */
-  around(now) {
+  /** What stands around and over the canvas: as seldom as labels are placed. */
+  around() {
     const { store, view } = this;
     this.element.dataset.car = store.status.car;
     this.element.dataset.empty = String(!this.scene);
@@ -334,8 +357,6 @@ class LiveMap {
     this.controls.scale(view.scale);
     const compared = this.drawn.fact + this.drawn.ghost > 0 && boundsOfEvidence(store.evidence);
     this.controls.comparing(Boolean(compared) && !view.holds(compared));
-    this.pointing.place();
-    if (this.summary.due(now) && this.scene) this.summary.update(this.inWords(), now);
   }
 
   inWords() {

@@ -10,6 +10,7 @@ import { lastUpTo } from "../store.js";
 
 const KEPT = 6; // scenes
 const TRAIL = 1.25; // pauses between scenes, in which one is reached
+const KNOWN = new WeakMap(); // vehicles by id, by scene
 const FAR = 3; // mean pauses between scenes; who is farther behind leaps
 
 export class Motion {
@@ -70,9 +71,16 @@ export function sceneAt(scenes, t) {
   if (!before) return null;
   const step = after ? after.t - before.t : 0;
   if (!after || t <= before.t || step <= 0) return { t, vehicles: before.vehicles };
-  const next = new Map(after.vehicles.map((vehicle) => [vehicle.id, vehicle]));
+  const next = byId(after);
   const part = (t - before.t) / step;
   return { t, vehicles: before.vehicles.map((vehicle) => between(vehicle, next.get(vehicle.id), part, step)) };
+}
+
+/** The vehicles of a scene by their id: found once for all the frames that lead up to it. */
+function byId(scene) {
+  let found = KNOWN.get(scene);
+  if (!found) KNOWN.set(scene, (found = new Map(scene.vehicles.map((vehicle) => [vehicle.id, vehicle]))));
+  return found;
 }
 
 /** A vehicle on its way from one scene to the next: a cubic that keeps its speed at both. */

@@ -1,8 +1,7 @@
 /** One frame: everything that moves, drawn over the backdrop. */
 
-import { drawRing, drawVehicle, middleOf, radiusOf } from "./bodies.js";
+import { drawRing, drawVehicles, middleOf, radiusOf, sizeOf } from "./bodies.js";
 import { drawEvidence, drawPreview } from "./ghosts.js";
-import { meet } from "./lines.js";
 import { drawDecision } from "./plans.js";
 import { nameOf } from "../words.js";
 
@@ -14,7 +13,7 @@ const OURS = { length: 4.8, width: 1.8 }; // [m] where our car is not in the sce
  * Draw a frame.
  * @param scene {t, vehicles, detail, evidence, preview, elapsed [s] of the loop or null,
  *   causes, pointed: Sets of vehicles, chosen: the one whose card is shown, or null}
- * @param pen {context, view, colours, labels, roads}
+ * @param pen {context, view, colours, labels, sprites, roads}
  * @returns what was drawn: see `shown` of createMap, and `kinds` for the legend
  */
 export function drawPicture(scene, pen) {
@@ -28,7 +27,7 @@ export function drawPicture(scene, pen) {
     ? drawEvidence(scene.evidence, scene.elapsed, pen, ego ?? OURS)
     : { fact: 0, ghost: 0, kinds: new Set() };
   const preview = drawPreview(scene.preview, pen);
-  const seen = drawVehicles(scene, pen);
+  const seen = traffic(scene, pen);
   const kinds = new Set([...decision.kinds, ...evidence.kinds, ...ringKinds(scene, seen)]);
   if (preview) kinds.add("preview");
   return {
@@ -44,21 +43,26 @@ export function drawPicture(scene, pen) {
 }
 
 /** Draw the vehicles in view, ours on top; returns them. */
-function drawVehicles(scene, pen) {
-  const { context, view, colours } = pen;
-  const bounds = view.bounds;
-  const seen = scene.vehicles.filter((vehicle) => {
-    const reach = vehicle.length + 12 / view.scale;
-    const [x, y] = middleOf(vehicle);
-    return meet([x - reach, y - reach, x + reach, y + reach], bounds);
-  });
-  seen.sort((a, b) => (a.id === 0) - (b.id === 0) || a.id - b.id);
-  context.setLineDash([]);
-  for (const vehicle of seen) drawVehicle(context, view, vehicle, colours, scene.t);
+function traffic(scene, pen) {
+  const { view, labels } = pen;
+  const [left, bottom, right, top] = view.bounds;
+  const seen = [];
+  let ours = null;
+  for (const vehicle of scene.vehicles) {
+    const reach = 1.5 * vehicle.length + 12 / view.scale;
+    const { x, y } = vehicle;
+    if (x + reach < left || x - reach > right || y + reach < bottom || y - reach > top) continue;
+    if (vehicle.id === 0) ours = vehicle;
+    else seen.push(vehicle);
+  }
+  if (ours) seen.push(ours);
+  drawVehicles(seen, scene.t, pen);
   const long = view.scale >= LONG_NAMES && seen.length < CROWD;
   for (const vehicle of seen) {
-    rings(vehicle, scene, pen);
-    name(vehicle, scene, pen, long);
+    const told = scene.causes.has(vehicle.id) || scene.pointed.has(vehicle.id) || scene.chosen === vehicle.id;
+    if (told) rings(vehicle, scene, pen);
+    if (labels.placing) name(vehicle, scene, pen, long);
+    else labels.move(vehicle.id, ...view.toScreen(...middleOf(vehicle)));
   }
   return seen;
 }
@@ -90,7 +94,7 @@ function name(vehicle, scene, { view, colours, labels }, long) {
   const weight = ours ? 80 : ringed || scene.chosen === vehicle.id ? 70 : 20 - vehicle.id / 1e6;
   const text = ours ? "us" : long || ringed ? nameOf(vehicle.id) : String(vehicle.id);
   labels.add({
-    key: `vehicle ${vehicle.id}`,
+    key: vehicle.id,
     text,
     x,
     y,
@@ -103,8 +107,8 @@ function name(vehicle, scene, { view, colours, labels }, long) {
 /** [px] Half the width and height of the box around a vehicle. */
 function extent(vehicle, scale) {
   const [c, s] = [Math.abs(Math.cos(vehicle.heading)), Math.abs(Math.sin(vehicle.heading))];
-  const [long, broad] = [Math.max(vehicle.length * scale, 11) / 2, Math.max(vehicle.width * scale, 5) / 2];
-  return [c * long + s * broad, s * long + c * broad];
+  const [long, broad] = sizeOf(vehicle, scale);
+  return [(c * long + s * broad) / 2, (s * long + c * broad) / 2];
 }
 
 function ringKinds(scene, seen) {

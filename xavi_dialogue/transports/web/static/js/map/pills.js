@@ -9,9 +9,8 @@ export class Pills {
     this.kept = new Map();
   }
 
-  /** Draw a label {text, ink, ground, edge} at [left, top] px with a width; the context draws in pixels of CSS. */
-  draw(context, label, font, ratio, [left, top, right]) {
-    const width = right - left;
+  /** The bitmap of a label {text, ink, ground, edge} of a width [px]. */
+  of(label, font, ratio, width) {
     const key = `${label.text}|${label.ink}|${label.ground}|${label.edge}|${font}|${ratio}`;
     let bitmap = this.kept.get(key);
     if (!bitmap) {
@@ -19,16 +18,17 @@ export class Pills {
       bitmap = painted(label, font, ratio, width);
       this.kept.set(key, bitmap);
     }
-    // On whole pixels, so that the text stays sharp.
-    const [x, y] = [Math.round((left - BORDER) * ratio) / ratio, Math.round((top - BORDER) * ratio) / ratio];
-    context.drawImage(bitmap, x, y, bitmap.width / ratio, bitmap.height / ratio);
+    return bitmap;
   }
 }
 
+/** Draw one at a place [px of CSS]; the context draws in pixels of the screen: whole ones, for sharp text. */
+export function drawPill(context, bitmap, ratio, left, top) {
+  context.drawImage(bitmap, Math.round((left - BORDER) * ratio), Math.round((top - BORDER) * ratio));
+}
+
 function painted(label, font, ratio, width) {
-  const bitmap = document.createElement("canvas");
-  bitmap.width = Math.ceil((width + 2 * BORDER) * ratio);
-  bitmap.height = Math.ceil((HEIGHT + 2 * BORDER) * ratio);
+  const bitmap = new OffscreenCanvas(Math.ceil((width + 2 * BORDER) * ratio), Math.ceil((HEIGHT + 2 * BORDER) * ratio));
   const context = bitmap.getContext("2d");
   context.scale(ratio, ratio);
   context.beginPath();
@@ -44,5 +44,5 @@ function painted(label, font, ratio, width) {
   context.fillStyle = label.ink;
   context.font = font;
   context.fillText(label.text, BORDER + width / 2, BORDER + HEIGHT / 2 + 0.5);
-  return bitmap;
+  return bitmap.transferToImageBitmap();
 }

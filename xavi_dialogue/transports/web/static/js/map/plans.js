@@ -1,6 +1,6 @@
 /** What a decision says, on the map: our path, what others may do, right of way, view, goal. */
 
-import { beforeEnd, boundsOf, count, lastWithin, lengthOf, meet, pathOf, pointAt, remaining } from "./lines.js";
+import { ahead, beforeEnd, boundsOf, count, lastWithin, meet, pathOf, pointAt } from "./lines.js";
 import { arrowHead, flag, giveWay } from "./marks.js";
 import { middleOf } from "./bodies.js";
 import { percent } from "../figures.js";
@@ -39,19 +39,18 @@ function pointBox([x, y]) {
 }
 
 function plan({ detail, t, quiet }, { context, view, colours }, drawn) {
-  const line = remaining(detail.ego, t);
-  if (count(line) < 2 || lengthOf(line) < SHORT) return;
+  const { line, length, pieces } = ahead(detail.ego, t, 1);
+  if (length < SHORT) return;
   view.world(context);
   context.lineCap = "round";
   context.lineJoin = "round";
-  const path = pathOf(line);
   for (const [colour, alpha, width] of [
     ["card", 0.55, 6],
     ["accent", quiet ? 0.4 : 0.95, 3.5],
   ]) {
     context.strokeStyle = colours.get(colour, quiet && colour === "card" ? 0 : alpha);
     context.lineWidth = width / view.scale;
-    context.stroke(path);
+    context.stroke(pieces[0]);
   }
   view.screen(context);
   arrowHead(context, view, pointAt(line, count(line) - 1), colours.get("accent", quiet ? 0.4 : 1));
@@ -74,9 +73,9 @@ function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
   const lines = goal.ways.filter((way) => way.line && way.probability >= 0.01).slice(0, 3);
   let end = null;
   for (const way of lines) {
-    const line = remaining(way.line, scene.t);
-    if (count(line) < 2 || lengthOf(line) < SHORT) continue;
-    fading(pen, line, strength * (0.25 + 0.75 * way.probability));
+    const { line, length, pieces } = ahead(way.line, scene.t, PIECES);
+    if (length < SHORT) continue;
+    fading(pen, pieces, strength * (0.25 + 0.75 * way.probability));
     drawn.predictions += 1;
     end ??= lastWithin(line, pen.view.within(BORDER));
   }
@@ -98,19 +97,16 @@ function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
 }
 
 /** A path that is broad and plain where it begins, thin and pale where it ends. */
-function fading({ context, view, colours }, line, strength) {
+function fading({ context, view, colours }, pieces, strength) {
   view.world(context);
   context.lineCap = "butt";
   context.lineJoin = "round";
-  const last = count(line) - 1;
-  const pieces = Math.min(PIECES, last);
-  for (let k = 0; k < pieces; k += 1) {
-    const [a, b] = [Math.round((k * last) / pieces), Math.round(((k + 1) * last) / pieces)];
-    const left = 1 - k / pieces;
+  pieces.forEach((path, k) => {
+    const left = 1 - k / pieces.length;
     context.strokeStyle = colours.get("other", Math.max(strength * (0.25 + 0.75 * left), 0.08));
     context.lineWidth = (1.5 + 2.5 * strength * left + strength) / view.scale;
-    context.stroke(pathOf(line.slice(2 * a, 2 * b + 2)));
-  }
+    context.stroke(path);
+  });
 }
 
 function rightOfWay({ detail, vehicles }, { context, view, colours, roads }, drawn) {

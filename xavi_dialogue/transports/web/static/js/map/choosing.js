@@ -5,7 +5,7 @@ import { createCard } from "./card.js";
 
 const NEAR = 16; // [px] around a vehicle that still mean it
 
-export class Pointing {
+export class Choosing {
   /**
    * @param {{say: (vehicle, goals) => void}} summary announces the vehicle that is chosen
    * @param {() => void} changed is called when another one is
