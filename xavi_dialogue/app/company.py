@@ -33,6 +33,7 @@ from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import ZenohBus, join
 
 HUB_PATIENCE = 10.0  # [s] for the hub to come up
+CHILD_PATIENCE = 90.0  # [s] the same where a parent has started both, and sees to it
 GLANCE = 0.5  # [s] between looks at whether to quit
 ANSWERED = 1.0  # [s] within which a car that is there says so
 # [s] A car whose machine has gone is on the bus until its lease of 10 s ends.
@@ -69,7 +70,12 @@ class Company:
 
 @contextmanager
 def company(
-    link: Link, keys: Keys, network: Path, staff: Staff, signals: Signals
+    link: Link,
+    keys: Keys,
+    network: Path,
+    staff: Staff,
+    signals: Signals,
+    patience: float = HUB_PATIENCE,
 ) -> Iterator[Company]:
     """Join the bus as a car, for as long as the context lasts.
 
@@ -79,6 +85,7 @@ def company(
         network: the file that planning again needs.
         staff: who does that.
         signals: may tell to quit meanwhile.
+        patience: [s] for the hub to come up.
 
     Raises:
         HubUnreachable: there is no hub.
@@ -88,7 +95,7 @@ def company(
     """
     alive = Alive("car", COUNTERS)
     with ExitStack() as stack:
-        bus = joined(link, signals)
+        bus = joined(link, signals, patience)
         stack.callback(_leave, bus)
         claim(bus, keys, signals)
         outbox = Outbox(bus, alive)
@@ -146,15 +153,15 @@ class Attendance:
         self._lost = not there
 
 
-def joined(link: Link, signals: Signals) -> ZenohBus:
-    """Join the bus, waiting for its hub.
+def joined(link: Link, signals: Signals, patience: float = HUB_PATIENCE) -> ZenohBus:
+    """Join the bus, waiting up to `patience` [s] for its hub.
 
     Raises:
         HubUnreachable: there is no hub.
         BadLink: the configuration of the link cannot be used.
         Dismissed: told to quit meanwhile.
     """
-    give_up = time.monotonic() + HUB_PATIENCE
+    give_up = time.monotonic() + patience
     while not signals.told:
         try:
             return join(link, GLANCE)

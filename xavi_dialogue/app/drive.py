@@ -18,7 +18,14 @@ from sim.scene import EGO
 from sim.sumo import EgoGone, SumoFailed
 from xavi_dialogue.app import control
 from xavi_dialogue.app.car import Car, Pace
-from xavi_dialogue.app.company import Company, Dismissed, Staff, company
+from xavi_dialogue.app.company import (
+    CHILD_PATIENCE,
+    HUB_PATIENCE,
+    Company,
+    Dismissed,
+    Staff,
+    company,
+)
 from xavi_dialogue.app.going_on import place_of
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.app.ride import Ending, Moment, clock, network_of, start
@@ -170,7 +177,9 @@ def _in_company(
     """Who is told of the ride and may ask about it: nobody without a hub."""
     if manner.link is None:
         return nullcontext()
-    return company(manner.link, Keys(manner.vehicle), scenario.network, manner.staff, signals)
+    patience = CHILD_PATIENCE if manner.controlled else HUB_PATIENCE
+    keys = Keys(manner.vehicle)
+    return company(manner.link, keys, scenario.network, manner.staff, signals, patience)
 
 
 @contextmanager

@@ -24,7 +24,13 @@ from sim.scene import Scene
 from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.car import COUNTERS, SHOWN_EVERY, Pace, serve
-from xavi_dialogue.app.company import Dismissed, claim, joined
+from xavi_dialogue.app.company import (
+    CHILD_PATIENCE,
+    HUB_PATIENCE,
+    Dismissed,
+    claim,
+    joined,
+)
 from xavi_dialogue.app.narration import clock
 from xavi_dialogue.app.planning import Replanner, workers
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
@@ -251,8 +257,9 @@ def replay(show: Show, note: Note) -> None:
     signals.listen(orders)
     tape = load(show.path, show.car, note)
     keys = Keys(show.vehicle or tape.vehicle)
+    patience = CHILD_PATIENCE if show.controlled else HUB_PATIENCE
     alive = Alive("car", COUNTERS)
-    with suppress(Dismissed), joined(show.link, signals) as bus:
+    with suppress(Dismissed), joined(show.link, signals, patience) as bus:
         claim(bus, keys, signals)
         control.listen(sys.stdin, orders, None if show.controlled else note)
         with planning_for(tape, bus, keys, alive, note) as (planning, record):

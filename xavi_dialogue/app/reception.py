@@ -181,14 +181,16 @@ class Reception:
         """
         desk, wanted = self._admitted(call, HistoryRequest)
         past = desk.past.get(wanted.session)
-        turns = (self.memory.recall(wanted.session) if past is None else past)[-wanted.turns :]
+        turns = self.memory.recall(wanted.session) if past is None else past
+        shown = (PastTurn(turn.text, turn.reply) for turn in turns[-wanted.turns :])
         scene = None if desk.ledger is None else desk.ledger.scene
         reply = HistoryReply(
             session=wanted.session,
             seq=seq,
             sim_time=0.0 if scene is None else scene.sim_time,
             wall_time=time.time(),
-            turns=latest((PastTurn(t.text, t.reply) for t in turns), HistoryReply.LIMIT - KIB),
+            total=len(turns),
+            turns=latest(shown, HistoryReply.LIMIT - KIB),
         )
         call.reply(pack(reply))
 

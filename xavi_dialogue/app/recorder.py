@@ -18,7 +18,7 @@ from typing import TypeAlias
 from xavi_dialogue import __version__
 from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
-from xavi_dialogue.app.company import Dismissed, joined
+from xavi_dialogue.app.company import CHILD_PATIENCE, HUB_PATIENCE, Dismissed, joined
 from xavi_dialogue.app.roads import NETWORK
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE, EVERY_CAR, Bus, Keys, Outcome, vehicle_in
 from xavi_dialogue.transports.link import Link
@@ -234,7 +234,8 @@ def record(task: Task, note: Note) -> None:
         control.listen(sys.stdin, orders)
     keys = EVERY_CAR if task.vehicle == EVERY else Keys(task.vehicle)
     try:
-        connection = joined(task.link, signals)
+        patience = CHILD_PATIENCE if task.controlled else HUB_PATIENCE
+        connection = joined(task.link, signals, patience)
     except Dismissed:
         return
     with (

@@ -184,6 +184,7 @@ class HistoryReply(Message, frozen=True, kw_only=True):
     seq: Count
     sim_time: Seconds
     wall_time: float
+    total: Count = 0  # turns that are remembered, of which these are the latest; 200 at most
     turns: tuple[PastTurn, ...]
 
 

@@ -4,20 +4,27 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from xavi_dialogue.app.dashboard.conversation import GLANCE, MAX_TURNS, Conversation
+from xavi_dialogue.app.desk import MAX_PAST
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.transports.messages import PastTurn
+from xavi_dialogue.transports.messages import HistoryReply, PastTurn
 
 
 def turn(text: str) -> PastTurn:
     return PastTurn(text, Reply(text=f"About {text}.", kind="refusal", sim_time=float(len(text))))
 
 
+def history(said: list[PastTurn], turns: int) -> HistoryReply:
+    """What the service replies, which remembers the latest 200."""
+    known = said[-MAX_PAST:]
+    fields = {"session": "ada", "seq": 0, "sim_time": 0.0, "wall_time": 0.0}
+    return HistoryReply(**fields, total=len(known), turns=tuple(known[-turns:]))  # type: ignore[arg-type]
+
+
 def look(conversation: Conversation, said: list[PastTurn]) -> list[tuple[int, str]]:
     """What is new to a dashboard that looks at the latest turns, and at all if it has to."""
-    latest = said[-GLANCE:]
-    news = conversation.learn(latest, all_of_it=len(latest) < GLANCE)
+    news = conversation.learn(history(said, GLANCE), whole=False)
     if news is None:
-        news = conversation.learn(said[-100:], all_of_it=True)
+        news = conversation.learn(history(said, 100), whole=True)
     assert news is not None
     return [(one.n, one.text) for one in news.turns]
 
@@ -40,11 +47,30 @@ def test_more_than_one_looks_at_is_found_too() -> None:
 def test_a_conversation_that_was_forgotten_begins_anew() -> None:
     conversation = Conversation()
     look(conversation, [turn("a"), turn("b")])
-    news = conversation.learn([], all_of_it=True)
+    news = conversation.learn(history([], 100), whole=True)
     assert news is not None
     assert news.reset
     assert conversation.all().turns == ()
     assert look(conversation, [turn("c")]) == [(2, "c")]
+
+
+def test_a_conversation_that_is_joined_late_is_known_whole() -> None:
+    said = [turn(f"q{k}") for k in range(12)]
+    assert look(Conversation(), said) == [(k, f"q{k}") for k in range(12)]
+
+
+def test_one_that_is_forgotten_and_begun_anew_at_the_same_length_is_another() -> None:
+    conversation = Conversation()
+    look(conversation, [turn("a"), turn("b")])
+    assert look(conversation, [turn("c"), turn("d")]) == [(2, "c"), (3, "d")]
+    assert [one.text for one in conversation.all().turns] == ["c", "d"]
+
+
+def test_the_same_question_again_and_again_is_a_turn_each_time() -> None:
+    conversation, said = Conversation(), []
+    for k in range(12):
+        said.append(turn("are you sure?"))
+        assert look(conversation, said) == [(k, "are you sure?")]
 
 
 def test_a_turn_is_found_by_what_was_said() -> None:
@@ -73,6 +99,6 @@ def test_a_long_conversation_is_not_known_for_ever() -> None:
 def test_whatever_is_said_when_all_of_it_is_known_in_order(batches: list[list[str]]) -> None:
     conversation, said = Conversation(), []
     for batch in batches:
-        said += [turn(f"{len(said)} {text}") for text in batch]
+        said += [turn(text) for text in batch]
         look(conversation, said)
         assert conversation.turns == said

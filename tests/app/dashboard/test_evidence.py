@@ -43,6 +43,14 @@ OTHERS = (
     "How do you know that vehicle 1 turns right?",
     "Why are you in this lane?",
 )
+ABOUT_OTHERS = (
+    "Is vehicle 1 going to turn right?",
+    "Is vehicle 1 going to turn left?",
+    "What is vehicle 1 doing?",
+    "Where is vehicle 1 going?",
+    "Why is vehicle 1 slowing down?",
+    "What will vehicle 2 do?",
+)
 RIDES = ("s1-0", "s1-4", "s2-0", "s2-2", "s3-0", "s4-0")
 
 
@@ -231,3 +239,23 @@ def test_vehicles_that_a_reply_speaks_of(text: str, actor: str, found: tuple[int
     query = Query(type="what", actor=actor)
     assert vehicles_of(Reply(text=text, kind="answer", query=query, sim_time=1.0)) == found
     assert vehicles_of(Reply(text="Nothing.", kind="answer", sim_time=1.0)) == ()
+
+
+@pytest.mark.parametrize("name", RIDES)
+def test_what_another_vehicle_does_is_never_told_as_our_plan(name: str) -> None:
+    shown = 0
+    for text in ABOUT_OTHERS:
+        for at in (3.0, 4.0, 8.0):
+            reply = asked(name, text, at)
+            found = of_turn(7, reply, every(name))
+            if found is not None:
+                shown += 1
+                assert found.factual is None, (text, at)
+                assert found.counterfactual is None, (text, at)
+    assert shown
+
+
+def test_there_is_evidence_only_where_there_is_more_than_the_decision() -> None:
+    assert has_evidence(asked("s1-0", "Why did you change lanes?"))
+    for text in ("Where is vehicle 1 going?", "How fast is vehicle 1?", "Hello!"):
+        assert not has_evidence(asked("s1-0", text)), text

@@ -100,6 +100,27 @@ def test_with_a_token(request_: Asked, expected: int | None) -> None:
     assert status(guard(TOKEN).judge(request_)) == expected
 
 
+def test_behind_a_proxy_with_tls_the_page_has_a_name() -> None:
+    named = Guard(Listen.read(":8480", names=("dash.example.org",)), 8480)
+    for origin, expected in (
+        ("https://dash.example.org", None),
+        ("http://dash.example.org", None),
+        ("https://evil.example", 403),
+        ("https://dash.example.org.evil.example", 403),
+    ):
+        request = asked("/ws", "websocket", host="dash.example.org", origin=origin)
+        assert status(named.judge(request)) == expected
+
+
+@pytest.mark.parametrize("path", ["/api/past", "/api/roads/x", "/static/js/main.js"])
+def test_what_is_part_of_a_strangers_page_is_refused(path: str) -> None:
+    for site, expected in (("cross-site", 403), ("same-origin", None), ("none", None)):
+        assert status(guard().judge(asked(path, sec_fetch_site=site))) == expected
+    assert (
+        status(guard().judge(asked(sec_fetch_site="cross-site"))) is None
+    )  # a link that leads here
+
+
 def test_the_token_goes_from_the_address_into_a_cookie() -> None:
     cookie = f"xavi-8480={TOKEN}; Path=/; HttpOnly; SameSite=Strict"
     entered = guard(TOKEN).judge(asked(f"/?token={TOKEN}"))

@@ -8,7 +8,7 @@ import pytest
 from tests.transports.web.boards import Known
 from tests.transports.web.browsing import TestClient, WebSocketDenialResponse, WebSocketTestSession
 from xavi_dialogue.transports.web import site
-from xavi_dialogue.transports.web.gate import FAULT, FETCHES, VISITS
+from xavi_dialogue.transports.web.gate import FAULT, FETCHES, TRIES, VISITS
 from xavi_dialogue.transports.web.guard import NO_TOKEN, SECURITY, Guard, Listen
 from xavi_dialogue.transports.web.site import MAX_BROWSERS, Site
 
@@ -264,6 +264,15 @@ def test_connections_are_not_made_without_end() -> None:
             pass
     with browser.websocket_connect(WS, headers=ORIGIN) as socket:
         assert closed(socket)[0] == 4429
+
+
+def test_tokens_are_not_guessed_without_end() -> None:
+    browser = client(token=TOKEN)
+    statuses = [browser.get(f"/?token={'x' * 19}{k}").status_code for k in range(10)]
+    statuses += [browser.get(f"/?token={'y' * 18}{k}").status_code for k in range(20)]
+    assert statuses[: TRIES.burst] == [401] * TRIES.burst
+    assert 429 in statuses[TRIES.burst :]
+    assert browser.get(f"/?token={TOKEN}").status_code == 303
 
 
 def test_the_way_in_with_a_token() -> None:

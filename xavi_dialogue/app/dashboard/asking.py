@@ -13,7 +13,6 @@ from xavi_dialogue.transports.messages import (
     HistoryReply,
     HistoryRequest,
     MessageError,
-    PastTurn,
     pack,
     unpack,
 )
@@ -33,8 +32,8 @@ class Asking:
     audience: Audience  # on whose event loop is waited
     passenger: Passenger
 
-    async def history(self, turns: int) -> tuple[PastTurn, ...]:
-        """The latest so many turns, oldest first.
+    async def history(self, turns: int) -> HistoryReply:
+        """The latest so many turns.
 
         Raises:
             Unanswered: they cannot be had.
@@ -42,7 +41,7 @@ class Asking:
         session, token = self.passenger.session, self.passenger.token
         wanted = HistoryRequest(session=session, token=token, turns=turns)
         try:
-            return unpack(await self.request("@rpc/history", pack(wanted)), HistoryReply).turns
+            return unpack(await self.request("@rpc/history", pack(wanted)), HistoryReply)
         except MessageError as error:
             raise Unanswered(str(error)) from error
 

@@ -241,11 +241,9 @@ class Board:
             return
         async with self._refreshing:
             with suppress(Unanswered):
-                latest = await asking.history(GLANCE)
-                news = self.conversation.learn(latest, all_of_it=len(latest) < GLANCE)
+                news = self.conversation.learn(await asking.history(GLANCE), whole=False)
                 if news is None:
-                    everything = await asking.history(MAX_TURNS)
-                    news = self.conversation.learn(everything, all_of_it=True)
+                    news = self.conversation.learn(await asking.history(MAX_TURNS), whole=True)
                 if news is not None and (news.turns or news.reset):
                     self.audience.tell(news)
 

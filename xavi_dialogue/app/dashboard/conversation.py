@@ -1,16 +1,15 @@
 """The conversation as a dashboard knows it: whoever asked, here or at a terminal.
 
 The service keeps what is said; here it is compared with what is known, so that what is new can
-be told. A turn has no name of its own: where the latest turns overlap with those that are known,
-the rest is new.
+be told. A turn has no name of its own: how many there are in all tells which of them are new.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from xavi_dialogue.app.dashboard.evidence import has_evidence, vehicles_of
+from xavi_dialogue.app.desk import MAX_PAST
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.transports.messages import PastTurn
+from xavi_dialogue.transports.messages import HistoryReply, PastTurn
 from xavi_dialogue.transports.text import clean
 from xavi_dialogue.transports.web.wire import Turns, TurnShown
 
@@ -24,33 +23,35 @@ class Conversation:
 
     turns: list[PastTurn] = field(default_factory=list)  # the latest
     first: int = 0  # number of the first of them
+    _total: int = 0  # that the service knew when it was asked last
 
-    def learn(self, latest: Sequence[PastTurn], *, all_of_it: bool) -> Turns | None:
+    def learn(self, said: HistoryReply, *, whole: bool) -> Turns | None:
         """Take in the latest turns.
 
         Args:
-            latest: oldest first.
-            all_of_it: there are no others, or none that can be had.
+            said: the turns.
+            whole: there are no others to be had.
 
         Returns:
             What is new of it; None where these do not join on to what is known, so that all
             has to be looked at.
         """
-        overlap = self._overlap(latest)
-        apart = overlap == 0 and bool(self.turns)
-        if apart and not all_of_it:
+        overlap = self._overlap(said)
+        apart = overlap is None or (overlap == 0 and bool(self.turns))
+        if apart and not whole:
             return None
-        if apart:  # it was forgotten, and perhaps begun anew
+        reset = overlap is None and bool(self.turns)
+        if reset:  # it was forgotten, and perhaps begun anew
             self.first += len(self.turns)
             self.turns.clear()
+        self._total = said.total
         begin = self.first + len(self.turns)
-        fresh = list(latest[overlap:])
+        fresh = said.turns[overlap or 0 :]
         self.turns += fresh
         excess = max(len(self.turns) - MAX_TURNS, 0)
         del self.turns[:excess]
         self.first += excess
-        told = tuple(shown(begin + k, turn) for k, turn in enumerate(fresh))
-        return Turns(turns=told, reset=apart)
+        return Turns(turns=tuple(shown(begin + k, t) for k, t in enumerate(fresh)), reset=reset)
 
     def all(self) -> Turns:
         """All that are known."""
@@ -74,12 +75,22 @@ class Conversation:
                 return self.first + k
         return None
 
-    def _overlap(self, latest: Sequence[PastTurn]) -> int:
-        """How many of the first of these are the last of those that are known."""
-        for count in range(min(len(latest), len(self.turns)), 0, -1):
-            if list(latest[:count]) == self.turns[-count:]:
+    def _overlap(self, said: HistoryReply) -> int | None:
+        """How many of the first of these turns are the last of those that are known.
+
+        That follows from how many there are in all; beyond what is counted, it is the most that
+        it can be. None where they are not the same.
+        """
+        turns, known = said.turns, self.turns
+        if said.total < MAX_PAST:
+            counts = [len(turns) - (said.total - self._total)]
+        else:
+            counts = list(range(min(len(turns), len(known)), 0, -1))
+        for count in counts:
+            possible = 0 <= count <= min(len(turns), len(known))
+            if possible and list(turns[:count]) == known[len(known) - count :]:
                 return count
-        return 0
+        return None
 
 
 def shown(n: int, turn: PastTurn) -> TurnShown:

@@ -44,8 +44,11 @@ def vehicles_of(reply: Reply) -> tuple[int, ...]:
 
 
 def has_evidence(reply: Reply) -> bool:
-    """Whether there is something behind a reply that can be shown."""
-    return bool(traces_of(reply))
+    """Whether there is more behind a reply than the decision that it is about."""
+    found = reply.explanation
+    if found is None or not traces_of(reply):
+        return False
+    return bool(found.counterfactual or found.effects or found.causes or found.evidence.rollouts)
 
 
 def traces_of(reply: Reply) -> tuple[str, ...]:

@@ -20,7 +20,11 @@ def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, .
         plan: the results.
         limit: lines at most.
     """
-    known = {rollout.index: rollout for rollout in trace.rollouts if rollout.path and rollout.speed}
+    known = {
+        rollout.index: rollout
+        for rollout in trace.rollouts
+        if rollout.path and rollout.speed and roads.within(rollout.path)
+    }
     weights: dict[tuple[int, str, int | None], float] = {}
     for result, weight in zip(plan.results, plan.weights, strict=True):
         rollout = result.rollout
@@ -37,7 +41,7 @@ def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, .
 
 def predicted(trace: PlanTrace, way: TrajectoryPrediction) -> Drive | None:
     """The line of another vehicle; None where the record has none."""
-    if not way.path:
+    if not way.path or not roads.within(way.path):
         return None
     return Drive(
         t=trace.sim_time, dt=SAMPLE_PERIOD, path=roads.line(way.path), speed=_speeds(way.speed)

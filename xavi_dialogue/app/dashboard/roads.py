@@ -15,6 +15,7 @@ from xavi_dialogue.transports.web.wire import SceneShown, Seen
 CENTIMETRES = 2  # decimals of what is told in metres, and of speeds [m/s]
 ANGLES = 3  # decimals of headings [rad]
 FARTHEST = 1e6  # [m] from the origin at which a road may lie
+LONG = 100.0  # [m] of a vehicle
 LONGEST = 1e7  # [m] of all lanes together
 
 Outline: TypeAlias = tuple[Point, ...]
@@ -99,8 +100,13 @@ def scene(report: SceneReport) -> SceneShown:
     )
 
 
+def within(points: Iterable[Point]) -> bool:
+    """Whether points [m] lie where a car can be, so that they can be drawn."""
+    return all(abs(x) <= FARTHEST and abs(y) <= FARTHEST for x, y in points)
+
+
 def seen(vehicles: Mapping[int, VehicleState]) -> tuple[Seen, ...]:
-    """The vehicles of a scene, in the order of their names."""
+    """The vehicles of a scene, in the order of their names; not those that nothing can be."""
     return tuple(
         (
             vehicle,
@@ -115,6 +121,7 @@ def seen(vehicles: Mapping[int, VehicleState]) -> tuple[Seen, ...]:
             state.signals,
         )
         for vehicle, state in sorted(vehicles.items())
+        if within([state.position]) and 0.0 < state.length < LONG and 0.0 < state.width < LONG
     )
 
 

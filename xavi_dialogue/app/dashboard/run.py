@@ -32,7 +32,7 @@ from xavi_dialogue.transports.web.server import Server
 from xavi_dialogue.transports.zenoh_bus import join
 
 GLANCE = 0.5  # [s] between looks at whether there is a hub, or all is over
-CLOSING = 2.0  # [s] that leaving the bus, or ending the car, may take before it is left behind
+CLOSING = 15.0  # [s] that ending car and service may take, which are killed where they do not end
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 SCREENS = ("DISPLAY", "WAYLAND_DISPLAY")  # variables that tell of one

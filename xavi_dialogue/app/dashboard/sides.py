@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from planner.trace import PlanTrace
+from sim.scene import EGO
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.explain.conditions import condition
@@ -43,12 +44,20 @@ def sides(
     """
     models = [CausalModel(trace) for trace in traces]
     if not explanation.counterfactual:
+        if _about_another(explanation):
+            return None, None
         return next(_alone(explanation, models), None), None
     for here, there in _pairs(query, explanation, models):
         if _agrees(explanation, here.plan, there.plan):
             return here, there
     facts = (_found(model, explanation.factual) for model in models if _decided(model.trace))
     return next((found for found in facts if found is not None), None), None
+
+
+def _about_another(explanation: Explanation) -> bool:
+    """Whether what is told was done, or is expected, by another vehicle than ours."""
+    parts = (explanation.activity, explanation.destination)
+    return any(part is not None and part.vehicle != EGO for part in parts)
 
 
 def _decided(trace: PlanTrace) -> bool:

@@ -19,6 +19,8 @@ App: TypeAlias = Callable[[Scope, Receive, Send], Awaitable[None]]
 # Of one address, behind which there may be many browsers: on loopback there are all of them.
 VISITS = Rate(4.0, 64)  # WebSockets
 FETCHES = Rate(100.0, 400)  # of documents
+TRIES = Rate(1.0, 20)  # of those who know no token, so that none is guessed
+TRIED_OFTEN = "That was tried too often. Wait a little."
 FETCHED_OFTEN = "Too much is asked for at once. Wait a second, then try again."
 VISITED_OFTEN = "Too many connections at once. Wait a little."
 FAULT = "Something went wrong in the dashboard. It has been written to its log."
@@ -39,6 +41,7 @@ class Gate:
         """
         self._app, self._guard, self._clock = app, guard, clock
         self._visits, self._fetches = Buckets(VISITS), Buckets(FETCHES)
+        self._tries = Buckets(TRIES)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """See ASGI."""
@@ -55,7 +58,9 @@ class Gate:
             await send(message)
 
         asked = _asked(scope)
-        verdict = self._guard.judge(asked) or self._too_often(scope, asked)
+        verdict = self._guard.judge(asked)
+        if verdict is None or (isinstance(verdict, Refused) and verdict.status == 401):
+            verdict = self._too_often(scope, asked, known=verdict is None) or verdict
         try:
             if isinstance(verdict, Refused):
                 await _refuse(asked, verdict, receive, out)
@@ -68,8 +73,10 @@ class Gate:
             if not started and asked.kind == "http":
                 await _say(out, 500, FAULT)
 
-    def _too_often(self, scope: Scope, asked: Asked) -> Refused | None:
+    def _too_often(self, scope: Scope, asked: Asked, *, known: bool) -> Refused | None:
         whose, now = (scope.get("client") or ("",))[0], self._clock()
+        if not known:  # else tokens could be guessed
+            return None if self._tries.take(whose, now) else Refused(429, TRIED_OFTEN)
         if asked.kind == "websocket":
             return None if self._visits.take(whose, now) else Refused(429, VISITED_OFTEN)
         if asked.path.startswith("/api/") and not self._fetches.take(whose, now):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 from urllib.parse import parse_qs
 
-from xavi_dialogue.transports.web.listen import Listen, ListenError
+from xavi_dialogue.transports.web.listen import Listen, ListenError, name_of
 
 __all__ = ["Asked", "Enter", "Guard", "Listen", "ListenError", "Refused"]
 
@@ -92,8 +92,14 @@ class Guard:
             return Refused(400, "A request names one host.")
         if not self._listen.serves(hosts[0]):
             return Refused(421, WRONG_NAME)
-        if any(origin.lower() != f"http://{hosts[0].lower()}" for origin in origins):
+        # Under a name of its own, there may be a proxy that brings TLS.
+        proxied = name_of(hosts[0], ported=True) in self._listen.names
+        schemes = ("http", "https") if proxied else ("http",)
+        ours = {f"{scheme}://{hosts[0].lower()}" for scheme in schemes}
+        if any(origin.lower() not in ours for origin in origins):
             return Refused(403, STRANGER)
+        if asked.path != "/" and "cross-site" in asked.all("sec-fetch-site"):
+            return Refused(403, STRANGER)  # part of somebody else's page
         if asked.kind == "http" and asked.method not in METHODS:
             return Refused(405, READ_ONLY)
         given = _in_query(asked.query)
