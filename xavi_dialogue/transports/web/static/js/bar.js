@@ -1,17 +1,27 @@
 /** The top bar: whose car this is, who is there, what time it is. */
 import { fill, h, say } from "./dom.js";
-import { clock } from "./figures.js";
+import { clock, counted } from "./figures.js";
+import { Slowness } from "./slowness.js";
 import { createThemeSwitch } from "./theme.js";
 
 // Told apart by shape as well as by colour: full, cut through, open.
 const SHAPES = {
   there: () => h("circle", { cx: 6, cy: 6, r: 5 }),
+  left: () => h("path", { d: "M2 6H10" }),
   gone: () => h("path", { d: "M2 2 10 10M10 2 2 10" }),
   awaited: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
   coming: () => h("circle", { cx: 6, cy: 6, r: 4, class: "open" }),
   unknown: () => h("path", { d: "M2 6H10" }),
 };
-const SAYS = { there: "there", gone: "gone", awaited: "awaited", coming: "starting", unknown: "not known" }; // unknown: not connected
+const SLOW = "This page was too slow for them; nothing of the record is lost.";
+const SAYS = {
+  there: "there",
+  left: "left",
+  gone: "gone",
+  awaited: "awaited",
+  coming: "starting",
+  unknown: "not known", // not connected
+};
 
 /**
  * @param {HTMLElement} bar holds the heading
@@ -23,11 +33,8 @@ export function createBar(bar, store, help) {
   const presence = h("ul", { class: "presence", "aria-label": "Who is there" });
   const time = h("span", { class: "time" });
   const mode = h("span", { class: "mode" });
-  const dropped = h("p", {
-    class: "dropped",
-    hidden: true,
-    title: "This page was too slow for them; nothing of the record is lost.",
-  });
+  const dropped = h("p", { class: "dropped", hidden: true, title: SLOW });
+  const slowness = new Slowness();
   const helping = { type: "button", class: "icon", "aria-label": "Help and keys", title: "Help and keys (?)" };
   const ask = h("button", { ...helping, onclick: () => help.open() }, "?");
   bar.append(scenario, presence, h("p", { class: "clock" }, time, mode), dropped, createThemeSwitch(), ask);
@@ -39,18 +46,20 @@ export function createBar(bar, store, help) {
   };
   const status = () => {
     named(bar, scenario, store);
-    showPresence(presence, store.status);
-    dropped.hidden = !(store.status.dropped > 0);
-    fill(
-      dropped,
-      store.status.dropped,
-      h("span", { class: "of" }, store.status.dropped === 1 ? " scene" : " scenes"),
-      " dropped",
-    );
+    slowness.told(store.status.dropped, performance.now());
+    showPresence(presence, store);
+    slow();
     moment();
+  };
+  const slow = () => {
+    const lately = slowness.worth(performance.now());
+    if (lately > 0) say(dropped, `${counted(lately, "scene")} dropped`);
+    if (dropped.hidden !== (lately === 0)) dropped.hidden = lately === 0;
   };
   for (const name of ["ride", "status"]) store.addEventListener(name, status);
   for (const name of ["scene", "moment"]) store.addEventListener(name, moment);
+  store.addEventListener("scene", () => slowness.came(performance.now()));
+  setInterval(slow, 1000); // what was told of lately is not for ever
   status();
 }
 
@@ -68,19 +77,22 @@ function modeOf({ latest, live, status, welcome }) {
   if (!latest) return ["", "none"];
   if (!live) return ["earlier", "held"];
   if (!status.connected) return ["not connected", "gone"];
-  if (status.car === "gone") return ["car gone", "gone"];
   if (status.car === "coming") return ["car starting", "gone"];
-  if (latest.state === "ended") return ["over", "over"];
+  if (latest.state === "ended") return ["over", "over"]; // also once the car has gone home after it
+  if (status.car === "gone") return ["car gone", "gone"];
   if (latest.state === "paused") return ["paused", "paused"];
   return welcome?.recording ? ["recording", "live"] : ["live", "live"];
 }
 
-function showPresence(list, status) {
-  const key = JSON.stringify([status.connected, status.car, status.service]);
+function showPresence(list, { status, latest }) {
+  const left = status.car === "gone" && latest?.state === "ended";
+  const { dropped } = status;
+  list.title = dropped > 0 ? `${counted(dropped, "scene")} dropped since this page connected. ${SLOW}` : "";
+  const key = JSON.stringify([status.connected, status.car, status.service, left]);
   if (list.dataset.key === key) return;
   list.dataset.key = key;
   const who = [
-    ["car", status.car],
+    ["car", left ? "left" : status.car],
     ["service", status.service],
   ];
   fill(

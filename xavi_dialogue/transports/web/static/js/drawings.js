@@ -43,6 +43,13 @@ const DRAWINGS = {
       h("circle", { class: "full", cx: 48, cy: 56, r: 5 }),
     ),
   car: () => drawing("car", road(), h("path", { d: CAR, "stroke-dasharray": "5 4" }), wheels("open")),
+  coming: () =>
+    drawing(
+      "coming",
+      h("path", { class: "soft moving", d: "M92 54H4", "stroke-dasharray": "12 8" }),
+      h("path", { class: "accent", d: CAR }),
+      wheels(),
+    ),
   gone: () =>
     drawing(
       "gone",
@@ -94,7 +101,7 @@ const DRAWINGS = {
     ),
 };
 
-/** @param {"connecting"|"unreachable"|"hub"|"car"|"gone"|"over"|"recording"|"service"|"talk"} name */
+/** @param {"connecting"|"unreachable"|"hub"|"car"|"coming"|"gone"|"over"|"recording"|"service"|"talk"} name */
 export function draw(name) {
   return DRAWINGS[name]();
 }

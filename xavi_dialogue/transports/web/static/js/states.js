@@ -48,13 +48,13 @@ const STATES = {
       " to have all in one.",
     ],
   },
-  coming: { drawing: "car", title: "The car is starting", says: () => ["It sets off in a few seconds."] },
+  coming: { drawing: "coming", title: "The car is starting", says: () => ["It sets off in a few seconds."] },
   comingAgain: {
-    drawing: "car",
+    drawing: "coming",
     title: "The car is being started again.",
     says: () => ["It is driven to where it was. You can ask all the same."],
   },
-  arriving: { drawing: "car", title: "The car is there", says: () => ["Its first scene is on its way."] },
+  arriving: { drawing: "coming", title: "The car is there", says: () => ["Its first scene is on its way."] },
   carGone: {
     drawing: "gone",
     title: "The car is not heard of any more.",
@@ -64,6 +64,11 @@ const STATES = {
     drawing: "over",
     title: "The ride is over.",
     says: () => ["Its record is still here: drag the timeline to any moment and ask about it."],
+  },
+  played: {
+    drawing: "over",
+    title: "The recording is over.",
+    says: () => ["All of it is still here: drag the timeline to any moment and ask about it."],
   },
   recording: {
     drawing: "recording",
@@ -87,7 +92,7 @@ function stateOf(store, connection) {
   if (status.hub !== "there") return status.hub === "gone" && latest ? "hubGone" : "hub";
   if (status.car === "awaited") return "car"; // also of a dashboard that was started anew
   if (!latest) return status.car === "there" ? "arriving" : "car";
-  if (latest.state === "ended") return "over"; // also once the car has gone home after it
+  if (latest.state === "ended") return welcome?.recording ? "played" : "over"; // also once the car has gone home after it
   if (status.car === "gone") return "carGone";
   return welcome?.recording ? "recording" : null;
 }

@@ -89,8 +89,8 @@ function told(store) {
   }
   if (!status.connected) return ["not connected", `last heard at ${clock(latest.t, 1)}`, "gone"];
   if (status.car === "coming") return ["car starting", `last seen at ${clock(latest.t, 1)}`, "gone"];
-  if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t, 1)}`, "gone"];
   if (latest.state === "ended") return ["ride over", clock(latest.t, 1), "still"];
+  if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t, 1)}`, "gone"];
   if (latest.state === "paused") return ["paused", clock(latest.t, 1), "still"];
   const speed = latest.speed > 0 ? `${Number(latest.speed.toFixed(latest.speed < 1 ? 2 : 1))}×` : "as fast as can be";
   return ["live", `${clock(latest.t, 1)} · ${speed}`, "live"];

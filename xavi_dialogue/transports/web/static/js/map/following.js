@@ -1,6 +1,6 @@
 /** Keeps our car in view: it stays where it is on the map, and the world moves by. */
 
-const AHEAD = 0.16; // of the shorter side of the map that is seen more in front than behind
+const AHEAD = 0.16; // of the map that is seen more in front than behind
 const SETTLE = 260; // [ms] in which a new lead is taken on, for the most part
 
 export class Following {
@@ -29,14 +29,19 @@ export class Following {
     if (this.lead) this.lead = [this.lead[0] / factor, this.lead[1] / factor];
   }
 
+  /** [px] How far before the car the centre of the view is, to the east and to the north. */
+  leadFor({ heading }) {
+    const { width, height } = this.view;
+    return [AHEAD * width * Math.cos(heading), AHEAD * height * Math.sin(heading)];
+  }
+
   /** Move the view with the car. */
   step(ego, now) {
     const passed = Math.min(now - this.then, 100);
     this.then = now;
     if (!this.on || !ego) return void (this.settled = true);
     const { view } = this;
-    const far = (AHEAD * Math.min(view.width, view.height)) / view.scale;
-    const aim = [far * Math.cos(ego.heading), far * Math.sin(ego.heading)];
+    const aim = this.leadFor(ego).map((pixels) => pixels / view.scale);
     const part = this.lead && !view.still.matches ? 1 - Math.exp(-passed / SETTLE) : 1;
     this.lead ??= aim;
     this.lead = this.lead.map((from, i) => from + (aim[i] - from) * part);

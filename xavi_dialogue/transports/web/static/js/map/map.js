@@ -2,16 +2,16 @@
 
 import { h } from "../dom.js";
 import { lastUpTo } from "../store.js";
+import { Around } from "./around.js";
 import { Backdrop } from "./backdrop.js";
 import { Choosing } from "./choosing.js";
 import { Colours } from "./colours.js";
-import { createBadge, createControls } from "./controls.js";
 import { Deciding } from "./deciding.js";
 import { Following } from "./following.js";
+import { Framing, pointsThatMatter } from "./framing.js";
 import { listen } from "./gestures.js";
 import { boundsOfEvidence } from "./ghosts.js";
 import { Labels } from "./labels.js";
-import { createLegend } from "./legend.js";
 import { boundsOf } from "./lines.js";
 import { Motion, sceneAt } from "./motion.js";
 import { Pace } from "./pace.js";
@@ -19,7 +19,7 @@ import { drawPicture } from "./picture.js";
 import { RoadLayer, drawGrid } from "./roads.js";
 import { Sprites } from "./sprites.js";
 import { Steering } from "./steering.js";
-import { createSummary } from "./summary.js";
+import { toldOf } from "./told.js";
 import { View } from "./view.js";
 
 const BUSY = 14; // [ms] a frame that takes longer is drawn at most 30 times a second
@@ -77,6 +77,7 @@ class LiveMap {
     this.context = this.canvas.getContext("2d", { alpha: false });
     this.view = new View();
     this.following = new Following(this.view);
+    this.framing = new Framing(this.view, this.following);
     this.motion = new Motion();
     this.backdrop = new Backdrop();
     this.labels = new Labels();
@@ -87,7 +88,6 @@ class LiveMap {
     this.scene = null; // that is drawn: {t, vehicles}
     this.drawn = NOTHING;
     this.compared = 0; // [ms] since when lines of a turn are shown
-    this.taken = null; // rectangles under controls; null: to be measured
     this.frame = 0; // asked for
     this.began = -Infinity; // [ms] the last one
     this.wasLive = true;
@@ -101,9 +101,10 @@ class LiveMap {
     this.steering = new Steering(
       this.view,
       this.following,
+      this.framing,
       () => this.ego,
       (following) => {
-        this.controls.following(following);
+        this.around.controls.following(following);
         this.request();
       },
     );
@@ -114,29 +115,11 @@ class LiveMap {
       fit: () => steering.fit(this.everything),
       follow: () => steering.follow(!this.following.on),
     };
-    this.controls = createControls({
-      ...this.steered,
-      both: () => steering.fit(boundsOfEvidence(this.store.evidence)),
-    });
-    const moved = () => {
-      this.taken = null;
-      this.changed();
-    };
-    this.legend = createLegend(moved, matchMedia("(max-width: 700px)").matches);
-    this.badge = createBadge();
-    this.summary = createSummary("map-in-words");
-    this.choosing = new Choosing(this.store, this.view, this.summary, () => this.changed());
+    const on = { ...this.steered, both: () => steering.fit(boundsOfEvidence(this.store.evidence)) };
+    this.around = new Around(this.store, this.view, on, () => this.changed());
+    this.choosing = new Choosing(this.store, this.view, this.around.summary, () => this.changed());
     this.element.classList.add("map");
-    this.element.append(
-      this.canvas,
-      this.badge.element,
-      this.legend.element,
-      this.controls.bar,
-      this.controls.element,
-      this.choosing.card.element,
-      this.summary.element,
-      this.summary.said,
-    );
+    this.element.append(this.canvas, ...this.around.elements, this.choosing.card.element);
     this.colours = new Colours(this.element);
   }
 
@@ -170,8 +153,8 @@ class LiveMap {
     this.view.still.addEventListener("change", () => this.request());
     new ResizeObserver(() => this.measure()).observe(this.element);
     window.addEventListener("resize", () => this.measure()); // also when only the density changes
-    this.canvas.addEventListener("focus", () => this.summary.announced(true));
-    this.canvas.addEventListener("blur", () => this.summary.announced(false));
+    this.canvas.addEventListener("focus", () => this.around.summary.announced(true));
+    this.canvas.addEventListener("blur", () => this.around.summary.announced(false));
     this.touched();
   }
 
@@ -191,7 +174,7 @@ class LiveMap {
   /** A live scene came; false: nothing moved, so that nothing need be drawn. */
   sceneCame() {
     this.motion.arrive(this.store.latest, performance.now());
-    this.badge.update(this.store);
+    this.around.badge.update(this.store);
     return !this.motion.still;
   }
 
@@ -213,6 +196,7 @@ class LiveMap {
   begin() {
     this.motion.reset();
     this.following.reset();
+    this.framing.reset();
     this.deciding.keep(null);
     this.choosing.chosen = null;
     this.scene = null;
@@ -232,7 +216,7 @@ class LiveMap {
     this.canvas.width = Math.round(clientWidth * this.view.ratio);
     this.canvas.height = Math.round(clientHeight * this.view.ratio);
     if (first) this.view.scale = this.view.usual;
-    this.taken = null;
+    this.around.forget();
     this.labels.spoil();
     this.draw(performance.now()); // at once: a canvas that changed its size is empty
   }
@@ -272,9 +256,7 @@ class LiveMap {
     this.move(began);
     const settling = this.backdropNow(began);
     this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
-    if (!this.scene || this.labels.placing) this.around();
-    this.choosing.place();
-    if (this.scene && this.summary.due(began)) this.summary.update(this.inWords(), began);
+    this.besides(began);
     if (this.scene && this.store.live)
       this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
     this.pace.frame(began, performance.now());
@@ -292,9 +274,17 @@ class LiveMap {
 
   move(now) {
     const before = this.view.scale;
+    if (this.ego && this.framing.due(now)) this.frameAnew(this.ego, now);
     this.view.step(now);
     this.following.zoomed(this.view.scale / before);
     this.following.step(this.ego, now);
+  }
+
+  frameAnew(ego, now) {
+    const { causes, about } = toldOf(this.store);
+    const around = { vehicles: this.scene.vehicles, told: new Set([...causes, ...about]) };
+    const points = pointsThatMatter(ego, { ...around, detail: this.deciding.detail, roads: this.roads });
+    this.framing.step(ego, points, now);
   }
 
   moving(now) {
@@ -320,11 +310,8 @@ class LiveMap {
   pictureNow(now) {
     const { store, view } = this;
     const { evidence } = store;
-    const turn = store.turns.find((one) => one.n === store.turn);
-    const causes = new Set((evidence?.causes ?? []).map((cause) => cause.vehicle));
-    const about = (turn?.vehicles ?? []).filter((id) => id !== 0 && !causes.has(id)); // these have their ring
-    this.taken ??= this.measured();
-    this.labels.begin(view, this.colours.font, this.taken, now);
+    const { causes, about } = toldOf(store);
+    this.labels.begin(view, this.colours.font, this.around.rectangles(this.element), now);
     return drawPicture(
       {
         ...this.scene,
@@ -347,52 +334,25 @@ class LiveMap {
     );
   }
 
-  /** What stands around and over the canvas: as seldom as labels are placed. */
-  around() {
-    const { store, view } = this;
-    this.element.dataset.car = store.status.car;
-    this.element.dataset.empty = String(!this.scene);
-    this.badge.update(store);
-    this.legend.update(this.drawn.kinds, this.scene && !this.roads ? this.spacing : null);
-    this.controls.scale(view.scale);
-    const compared = this.drawn.fact + this.drawn.ghost > 0 && boundsOfEvidence(store.evidence);
-    this.controls.comparing(Boolean(compared) && !view.holds(compared));
-  }
-
-  inWords() {
-    const { store } = this;
-    const words = store.decisionAt(store.at)?.words ?? "";
-    return {
-      ...this.scene,
-      live: store.live,
-      state: store.latest.state,
-      gone: store.status.car === "gone" || store.status.car === "coming",
-      roads: this.roads,
-      words,
-    };
-  }
-
-  measured() {
-    const origin = this.element.getBoundingClientRect();
-    const over = [this.badge.element, this.legend.element, this.controls.element, this.controls.bar];
-    return over
-      .filter((one) => one.offsetWidth > 0)
-      .map((one) => {
-        const box = one.getBoundingClientRect();
-        return [box.left - origin.left, box.top - origin.top, box.right - origin.left, box.bottom - origin.top];
-      });
+  /** What is no part of the canvas: as seldom as labels are placed, but for the card of a vehicle. */
+  besides(now) {
+    const { scene, drawn, roads } = this;
+    const spacing = scene && !roads ? this.spacing : null;
+    if (!scene || this.labels.placing) this.around.update(this.element, { scene, drawn, spacing });
+    this.choosing.place();
+    if (scene) this.around.tell(scene, roads, now);
   }
 
   shown() {
     const { kinds, ...drawn } = this.drawn;
-    const { evidence, pointed, turns, turn } = this.store;
+    const { causes, about } = toldOf(this.store);
+    const pointed = new Set([...this.store.pointed, ...about, ...causes]);
+    pointed.delete(0);
     return {
       t: this.scene?.t ?? null,
       ...drawn,
-      pointed: [...new Set([...pointed, ...(turns.find((one) => one.n === turn)?.vehicles ?? [])])].filter(
-        (id) => id !== 0,
-      ),
-      causes: (evidence?.causes ?? []).map((cause) => cause.vehicle),
+      pointed: [...pointed],
+      causes: [...causes],
       follow: this.following.on,
       scale: this.view.scale,
     };

@@ -5,11 +5,12 @@ const STEP = 1.5; // of the scale, by buttons and keys
 export class Steering {
   /**
    * @param following see following.js
+   * @param framing see framing.js: who zooms has chosen a scale
    * @param {() => object|undefined} ego our car as it is drawn
    * @param {(following: boolean) => void} changed is called after each change
    */
-  constructor(view, following, ego, changed) {
-    Object.assign(this, { view, following, ego, changed });
+  constructor(view, following, framing, ego, changed) {
+    Object.assign(this, { view, following, framing, ego, changed });
   }
 
   /** Whether the view moves with our car now. */
@@ -18,6 +19,7 @@ export class Steering {
   }
 
   follow(on) {
+    if (on && !(this.following.on && this.framing.on)) this.framing.reset(false);
     this.following.set(on, this.ego());
     this.changed(on);
   }
@@ -46,6 +48,7 @@ export class Steering {
 
   /** Zoom by a factor about the middle, or our car where it is followed. */
   zoom(factor) {
+    this.framing.leave();
     const { x, y, aim } = this.view;
     const centre = this.carried ? [null, null] : [x, y];
     this.view.glideTo(...centre, aim * factor, performance.now());
@@ -54,6 +57,7 @@ export class Steering {
 
   /** Zoom about a place of the canvas [px], or our car where it is followed. */
   zoomAt(factor, px, py) {
+    this.framing.leave();
     const before = this.view.scale;
     if (this.carried) this.view.jump({ x: null, y: null, scale: before * factor });
     else this.view.zoomAt(factor, px, py);

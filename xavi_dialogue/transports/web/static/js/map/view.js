@@ -100,10 +100,10 @@ export class View {
   }
 
   /** Go to a centre and scale; parts that are null stay as they are, so that following goes on. */
-  glideTo(x, y, scale, now) {
+  glideTo(x, y, scale, now, lasts = GLIDE) {
     const to = { x, y, scale: limited(scale) };
     if (this.still.matches) return this.jump(to);
-    this.glide = { from: { x: this.x, y: this.y, scale: this.scale }, to, since: now };
+    this.glide = { from: { x: this.x, y: this.y, scale: this.scale }, to, since: now, lasts };
     return undefined;
   }
 
@@ -125,10 +125,10 @@ export class View {
   /** Go on with a change under way. */
   step(now) {
     if (!this.glide) return;
-    const { from, to, since } = this.glide;
-    const part = Math.min(Math.max((now - since) / GLIDE, 0), 1);
+    const { from, to, since, lasts } = this.glide;
+    const part = Math.min(Math.max((now - since) / lasts, 0), 1);
     if (part === 1) return void this.jump(to);
-    const eased = part * (2 - part);
+    const eased = part * part * (3 - 2 * part);
     const between = (a, b) => (b === null ? null : a + (b - a) * eased);
     if (to.x !== null) this.x = between(from.x, to.x);
     if (to.y !== null) this.y = between(from.y, to.y);
