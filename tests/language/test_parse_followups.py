@@ -205,3 +205,26 @@ def test_what_can_be_asked_is_help() -> None:
 def test_no_and_not_knowing_are_talk(before: str | None, text: str) -> None:
     found = after(before, text)
     assert (found.type, found.event) == ("smalltalk", "dissent")
+
+
+@pytest.mark.parametrize("before", ["Why did you change left?", "What if you had stopped?"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "and if vehicle 1 had not been there?",
+        "and if vehicle 1 hadnt been there",
+        "And without vehicle 1?",
+        "and with no vehicle 1",
+        "and if there were no vehicle 1?",
+        "and had vehicle 1 not been there?",
+    ],
+)
+def test_who_is_thought_away_is_put_into_no_earlier_question(before: str, text: str) -> None:
+    found = after(before, text)
+    assert (found.type, found.actor) == ("what_if", "vehicle:1")
+    assert (found.intervention, found.counterfactual, found.tense) == ("remove", None, "past")
+
+
+def test_a_condition_goes_on_without_a_vehicle() -> None:
+    found = after("Would you still have changed left if vehicle 2 had?", "and without vehicle 1?")
+    assert (found.type, found.actor, found.condition) == ("sensitivity", "ego", "without vehicle 1")

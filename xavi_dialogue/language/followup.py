@@ -39,6 +39,8 @@ def resolve(reading: Reading, previous: Query | None) -> Query | None:
     if reading.anaphoric or reading.elided:
         if previous is None:
             return _pointed_at(reading)
+        if reading.elided and _thought_away(reading):
+            return None  # "and if vehicle 1 had not been there?" leaves nothing out
         query = _supply_actions(reading, previous)
     if query.actor == "vehicle:it" and previous is not None:
         known = previous.actor.startswith("vehicle:")
@@ -126,6 +128,8 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
         return _again(reading, previous)
     if reading.heading is not None:
         return _turned(reading.heading, previous)
+    if _thought_away(reading) and previous.type != "sensitivity":
+        return _without(reading, previous)
     if query.factual:
         if reading.proposed and not (reading.named_actor or _asks_of_deeds(previous)):
             return _refer(_proposed(reading, previous.tense))
@@ -138,6 +142,19 @@ def _lean(reading: Reading, previous: Query) -> Query | None:
     if previous.type == "sensitivity" and number.isdecimal():
         return _refer(previous, condition=f"without vehicle {number}")  # the decision is still ours
     return _refer(previous, actor=query.actor)
+
+
+def _thought_away(reading: Reading) -> bool:
+    """Whether it supposes that another vehicle were not there: "and without vehicle 1?"."""
+    other = reading.named_actor and reading.query.actor != "ego"
+    return reading.absent and other and not reading.query.factual
+
+
+def _without(reading: Reading, previous: Query) -> Query:
+    """What a vehicle's absence would have changed about what was spoken of."""
+    query = reading.query
+    gone = Query(type="what_if", actor=query.actor, negated=True, intervention="remove")
+    return _refer(gone, tense=query.tense if reading.tensed else previous.tense)
 
 
 def _asks_of_deeds(query: Query) -> bool:

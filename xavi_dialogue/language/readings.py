@@ -90,6 +90,7 @@ class Reading:
     laid: bool = False  # "because of": the words lay it to somebody
     otherwise: bool = False  # "if you had decided otherwise": than was spoken of
     proposed: bool = False  # "what about stopping?"
+    absent: bool = False  # "and without vehicle 1?": somebody is thought away
 
 
 def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Reading | None:
@@ -133,6 +134,7 @@ def read(parse: Parse, after: tuple[Token, ...], *, checked: bool = True) -> Rea
         heading=_heading(parse.tree),
         laid=any(t.terminal in ("BECAUSE", "INVOLVED") for t in whole),
         proposed=any(t.terminal == "ABOUT" for t in whole),
+        absent=_thinks_away(whole),
     )
 
 
@@ -150,6 +152,15 @@ def _drop_bystanders(rule: str, fields: dict[str, Any], whole: tuple[Token, ...]
             del fields["factual"]
     elif rule == "what" and who == "vehicle:that" and fields.get("factual") and not noun:
         del fields["actor"]
+
+
+def _thinks_away(whole: tuple[Token, ...]) -> bool:
+    """Whether the words suppose that somebody were not there, whatever they were read as."""
+    heard = frozenset(terminal for token in whole for terminal in token.terminals)
+    denied, supposed = heard & {"NOT", "NO"}, "IF" in heard
+    if "WITHOUT" in heard or (denied and "THERE" in heard):
+        return True
+    return supposed and bool(heard & {"NO", "GONE"})
 
 
 def is_compound(after: tuple[Token, ...]) -> bool:
