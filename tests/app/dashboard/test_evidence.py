@@ -146,7 +146,7 @@ def test_runs_are_the_rollouts_that_they_name() -> None:
 
 def test_who_is_left_out_is_in_no_run_of_the_counterfactual() -> None:
     shown = evidence("s1-0", asked("s1-0", "What if vehicle 1 had not been there?"))
-    assert shown.method == "planned again"
+    assert shown.method == "planning again"
     assert shown.factual is not None
     assert shown.counterfactual is not None
     assert any(v == 1 for run in shown.factual.runs for v, _, _ in run.samples)
@@ -259,3 +259,10 @@ def test_there_is_evidence_only_where_there_is_more_than_the_decision() -> None:
     assert has_evidence(asked("s1-0", "Why did you change lanes?"))
     for text in ("Where is vehicle 1 going?", "How fast is vehicle 1?", "Hello!"):
         assert not has_evidence(asked("s1-0", text)), text
+
+
+def test_every_rollout_is_counted_once() -> None:
+    shown = evidence("s1-0", asked("s1-0", "Why did you change lanes?"))
+    for side in (shown.factual, shown.counterfactual):
+        assert side is not None
+        assert sum(run.draws for run in side.runs) == side.rollouts

@@ -19,7 +19,7 @@ from xavi_dialogue.app.dashboard.words import (
     plan_words,
     way_words,
 )
-from xavi_dialogue.causal.model import Actions, plan_of
+from xavi_dialogue.causal.model import Actions, Result, plan_of
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.explanation import Cause, Explanation
 from xavi_dialogue.explain.query import Query
@@ -134,12 +134,13 @@ def _side(found: Found, in_lane: bool, title: str, brief: Actions) -> Side:
         outcomes=chances(plan),
         arrival=expected_arrival(trace, plan),
         lines=likeliest(trace, plan, LINES),
-        runs=tuple(_run(trace, result.rollout, in_lane) for _, result in ranked[:RUNS]),
+        runs=tuple(_run(trace, result, in_lane) for _, result in ranked[:RUNS]),
         rollouts=plan.draws,
     )
 
 
-def _run(trace: PlanTrace, rollout: Rollout, in_lane: bool) -> Run:
+def _run(trace: PlanTrace, result: Result, in_lane: bool) -> Run:
+    rollout = result.rollout
     lasted: dict[tuple[int, str], float] = {}
     for stretch in rollout.held_up:
         key = (stretch.vehicle, hold_up_words(stretch.how))
@@ -147,6 +148,7 @@ def _run(trace: PlanTrace, rollout: Rollout, in_lane: bool) -> Run:
     time = None if trace.waypoint is not None else rollout.components.get("time")
     return Run(
         index=rollout.index,
+        draws=result.draws,
         words=plan_words(plan_of(rollout), in_lane=in_lane),
         outcome=rollout.outcome,
         arrival=rounded(time),

@@ -161,9 +161,10 @@ class DecisionShown(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):
-    """One rollout."""
+    """One rollout, and how often one like it was drawn."""
 
     index: int
+    draws: int
     words: str  # of its actions
     outcome: str
     arrival: float | None  # [s]
@@ -181,7 +182,7 @@ class Side(msgspec.Struct, frozen=True, kw_only=True):
     outcomes: dict[str, float]
     arrival: float | None  # [s]
     lines: tuple[Drive, ...]  # likeliest first, 5 at most
-    runs: tuple[Run, ...]  # 100 at most
+    runs: tuple[Run, ...]  # those that differ, 100 at most
     rollouts: int
 
 
@@ -214,7 +215,7 @@ class EvidenceShown(msgspec.Struct, frozen=True, kw_only=True):
     n: int
     decision: str  # trace id
     t: float  # of the decision
-    method: str  # in words: "the recorded search", "planned again"
+    method: str  # in words: "the recorded search", "planning again"
     rollouts: int
     distinct: int
     factual: Side | None

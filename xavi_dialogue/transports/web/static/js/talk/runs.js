@@ -33,10 +33,8 @@ export function createRuns(title, side, spoken) {
       columns.map((name) => h("th", { scope: "col" }, name)),
     ),
   );
-  const count =
-    side.runs.length < side.rollouts
-      ? `${side.runs.length} of ${counted(side.rollouts, "rollout")}`
-      : counted(side.rollouts, "rollout");
+  const alike = side.runs.length < side.rollouts;
+  const count = counted(side.rollouts, "rollout") + (alike ? `, ${side.runs.length} of them different` : "");
   const caption = h("caption", {}, `${title}: ${count}`);
   show(FIRST);
   const table = h("table", { class: "runs" }, caption, head, body);
@@ -59,7 +57,7 @@ function row(run, spoken) {
   return h(
     "tr",
     { dataset: { outcome: run.outcome } },
-    h("th", { scope: "row", tabindex: -1 }, run.index),
+    h("th", { scope: "row", tabindex: -1 }, run.index, run.draws > 1 ? h("span", { class: "soft" }, ` ×${run.draws}`) : null),
     h("td", {}, samples.length > 0 ? samples : "–"),
     h("td", {}, `${outcomeWords(run.outcome)}${collided}`),
     h("td", { class: "number" }, run.arrival === null ? "–" : seconds(run.arrival)),
