@@ -119,7 +119,7 @@ function drawRow(tr, one, scale) {
   drawOutcomes(outcomes, one.outcomes);
   say(verdict, outcomesInWords(one.outcomes) || "not known");
   drawRange(range, one.time, scale);
-  range.hidden = !one.time;
+  range.hidden = !one.time && !one.chosen; // of the plan, zero: what the others are measured by
   say(time, timeWords(one));
   say(bounds, one.time ? spread(one.time) : "");
 }

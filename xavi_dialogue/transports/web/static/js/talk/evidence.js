@@ -82,13 +82,11 @@ function shown(evidence, store, spoken) {
 }
 
 function basis({ method, rollouts, distinct, t }, store) {
-  const when = h(
-    "button",
-    { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) },
-    clock(t),
-  );
-  const count = rollouts > 0 ? `: ${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}` : "";
-  return h("p", { class: "basis" }, `From ${method}${count}. Decision at `, when);
+  const attributes = { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) };
+  const when = h("button", attributes, clock(t));
+  const count = `${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}`;
+  const words = rollouts > 0 ? `${capital(method)}: ${count}.` : `${capital(method)}.`;
+  return h("p", { class: "basis" }, h("span", {}, words), h("span", {}, "Decision at", when));
 }
 
 function sideOf(title, kind, side) {

@@ -23,12 +23,14 @@ export class Log {
     this.atEnd = true;
     this.scroller.addEventListener("scroll", () => this.scrolled(), { passive: true });
     new ResizeObserver(() => this.atEnd && this.toEnd()).observe(this.scroller);
+    new ResizeObserver(() => this.scrolled()).observe(this.turns); // evidence is unfolded: that is read now
   }
 
   scrolled() {
     const { scrollHeight, scrollTop, clientHeight } = this.scroller;
     this.atEnd = scrollHeight - scrollTop - clientHeight < NEAR;
     if (this.atEnd) this.more.hidden = true;
+    this.scroller.classList.toggle("reading", !this.atEnd);
   }
 
   /** Put turns in; `quietly`: they are of before, and not read out. */

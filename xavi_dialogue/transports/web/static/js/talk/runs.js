@@ -57,7 +57,12 @@ function row(run, spoken) {
   return h(
     "tr",
     { dataset: { outcome: run.outcome } },
-    h("th", { scope: "row", tabindex: -1 }, run.index, run.draws > 1 ? h("span", { class: "soft" }, ` ×${run.draws}`) : null),
+    h(
+      "th",
+      { scope: "row", tabindex: -1 },
+      run.index,
+      run.draws > 1 ? h("span", { class: "soft" }, ` ×${run.draws}`) : null,
+    ),
     h("td", {}, samples.length > 0 ? samples : "–"),
     h("td", {}, `${outcomeWords(run.outcome)}${collided}`),
     h("td", { class: "number" }, run.arrival === null ? "–" : seconds(run.arrival)),

@@ -1,6 +1,7 @@
 /** One turn of the conversation: a question and what came of it. */
 import { h } from "../dom.js";
 import { clock, lasted } from "../figures.js";
+import { capital } from "../words.js";
 import { createEvidence } from "./evidence.js";
 
 /** Why there is no answer, in a few words. */
@@ -78,7 +79,7 @@ function kindAloud(reply) {
 
 function kindOf(reply) {
   const icon = h("svg", { viewBox: "0 0 24 24", "aria-hidden": "true" }, h("path", { d: ICONS[reply.kind] }));
-  return h("p", { class: "kind" }, icon, REASONS[reply.reason] ?? KINDS[reply.kind]);
+  return h("p", { class: "kind" }, icon, capital(REASONS[reply.reason] ?? KINDS[reply.kind] ?? ""));
 }
 
 function instead({ text, suggestions }, { ask }) {
