@@ -73,7 +73,10 @@
   // that leaves out, may be 24 px (WCAG 2.5.8).
   small() {
     const wrong = [];
-    const spoken = (one) => [...one.parentElement.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.nodeValue.trim());
+    const spoken = (one) => {
+      const sentence = one.closest("p, td, dd, li");
+      return sentence !== null && sentence.textContent.trim() !== one.textContent.trim();
+    };
     for (const one of document.querySelectorAll("button, a[href], input, textarea, select, summary, [role=slider], [role=tab], [role=treeitem]")) {
       const box = one.getBoundingClientRect();
       if (!one.checkVisibility({ visibilityProperty: true, opacityProperty: true }) || box.width < 3) continue;
@@ -81,7 +84,7 @@
       const least = spoken(one) ? 24 : 44;
       const label = one.closest("label")?.getBoundingClientRect();
       const [width, height] = [Math.max(box.width, label?.width ?? 0), Math.max(box.height, label?.height ?? 0)];
-      if (width < least - 0.5 || height < least - 0.5) wrong.push(`${one.tagName}.${one.className} "${(one.ariaLabel ?? one.textContent).slice(0, 30)}" ${width.toFixed(0)}x${height.toFixed(0)}`);
+      if (width < least - 0.5 || height < least - 0.5) wrong.push(`${one.tagName}.${one.className} "${(one.ariaLabel ?? one.textContent).slice(0, 30)}" ${width.toFixed(0)}x${height.toFixed(0)} in ${one.parentElement.outerHTML.slice(0, 200)}`);
     }
     return wrong;
   },

@@ -5,15 +5,17 @@ from playwright.sync_api import expect
 from tests.browser.conftest import Visits
 from tests.browser.served import dashboard
 from tests.drills.processes import Crew, free_endpoint
+from tests.drills.stage import HALT
 
 
 def test_everybody_in_a_session_sees_what_is_said(crew: Crew, visit: Visits) -> None:
     endpoint = free_endpoint()
     crew.serve(endpoint, "--keep-days", "0")
-    crew.drive(endpoint, "--scenario", "s1", "--seed", "1", "--speed", "2")
+    car = crew.drive(endpoint, "--scenario", "s1", "--seed", "1", "--control")
+    car.order(f"until {HALT}")  # and there it stays, for all that come
     shown = dashboard(crew, "--connect", endpoint, "--session", "family")
     ada, bob = visit(shown.address), visit(shown.address, viewport={"width": 390, "height": 844})
-    ada.until_at(6.0)
+    ada.until_at(HALT)
     asked = ada.ask_and_hear("Why did you change lanes?")
     assert asked["reply"]["kind"] == "answer"
     bob.heard("Why did you change lanes?", 0)
