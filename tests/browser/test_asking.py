@@ -99,9 +99,9 @@ def test_earlier_moments_are_asked_about(screen: Screen) -> None:
     screen.until("() => window.xavi.store.at <= 0.5")
     first = screen.ask_and_hear("What are you doing?")
     assert first["reply"]["sim_time"] <= 0.5
-    screen.button("Back to live", "#timeline").click()
+    screen.button("Back to the end", "#timeline").click()
     screen.until("() => window.xavi.store.live")
-    expect(screen.slider).to_have_attribute("aria-valuetext", re.compile("live"))
+    expect(screen.slider).to_have_attribute("aria-valuetext", re.compile("ride over"))
     last = screen.ask_and_hear("Where are you going?")
     assert last["reply"]["sim_time"] == pytest.approx(end, abs=0.2)
 

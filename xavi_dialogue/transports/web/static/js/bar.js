@@ -2,6 +2,7 @@
 import { fill, h, say } from "./dom.js";
 import { clock, counted } from "./figures.js";
 import { Slowness } from "./slowness.js";
+import { standing } from "./standing.js";
 import { createThemeSwitch } from "./theme.js";
 
 // Told apart by shape as well as by colour: full, cut through, open.
@@ -14,6 +15,17 @@ const SHAPES = {
   unknown: () => h("path", { d: "M2 6H10" }),
 };
 const SLOW = "This page was too slow for them; nothing of the record is lost.";
+const MODES = {
+  none: ["", "none"],
+  unheard: ["not connected", "gone"],
+  coming: ["car starting", "gone"],
+  over: ["over", "over"],
+  played: ["over", "over"],
+  gone: ["car gone", "gone"],
+  paused: ["paused", "paused"],
+  playing: ["recording", "live"],
+  live: ["live", "live"],
+};
 const SAYS = {
   there: "there",
   left: "left",
@@ -73,15 +85,9 @@ function named(bar, scenario, store) {
   if (document.title !== title) document.title = title;
 }
 
-function modeOf({ latest, live, status, welcome }) {
-  if (!latest) return ["", "none"];
-  if (!live) return ["earlier", "held"];
-  if (!status.connected) return ["not connected", "gone"];
-  if (status.car === "coming") return ["car starting", "gone"];
-  if (latest.state === "ended") return ["over", "over"]; // also once the car has gone home after it
-  if (status.car === "gone") return ["car gone", "gone"];
-  if (latest.state === "paused") return ["paused", "paused"];
-  return welcome?.recording ? ["recording", "live"] : ["live", "live"];
+function modeOf(store) {
+  const stands = standing(store);
+  return stands !== "none" && !store.live ? ["earlier", "held"] : MODES[stands];
 }
 
 function showPresence(list, { status, latest }) {

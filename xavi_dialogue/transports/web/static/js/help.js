@@ -8,11 +8,13 @@ const ROWS = [
   ["Enter", "ask; Shift and Enter begins another line"],
   ["↑ ↓", "in an empty question: those that you asked before"],
   ["Esc", "give up the answer that you wait for"],
-  ["L", "back to live"],
+  ["L", "back to live, or to the end"],
   ["T", "to the timeline: arrows move by 0.2 s, Page Up and Page Down by decisions"],
   ["D", "to the decision"],
+  ["M", "to the map: arrows move it, N and P go through the vehicles"],
+  ["+ −", "on the map: closer, farther"],
   ["F", "let the map follow the car"],
-  ["+ − 0", "on the map: closer, farther, all of it"],
+  ["0", "show all of the map"],
   ["?", "this help"],
 ];
 

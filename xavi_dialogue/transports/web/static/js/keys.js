@@ -12,6 +12,8 @@ export function listenToKeys({ store, map, talk, help, layout }) {
     "?": () => help.open(),
     l: () => store.goLive(),
     f: () => map?.follow(true),
+    0: () => map?.fit(),
+    m: () => document.querySelector("#map canvas")?.focus(),
     t: () => document.querySelector("#timeline [role=slider]")?.focus(),
     d: () => {
       layout.show("decision");

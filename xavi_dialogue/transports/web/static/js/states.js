@@ -1,6 +1,7 @@
 /** What the whole page says where something is not there: a card over the empty map, or a strip above it. */
 import { fill, h } from "./dom.js";
 import { draw } from "./drawings.js";
+import { standing } from "./standing.js";
 
 const code = (text) => h("code", {}, text);
 
@@ -92,7 +93,8 @@ function stateOf(store, connection) {
   if (status.hub !== "there") return status.hub === "gone" && latest ? "hubGone" : "hub";
   if (status.car === "awaited") return "car"; // also of a dashboard that was started anew
   if (!latest) return status.car === "there" ? "arriving" : "car";
-  if (latest.state === "ended") return welcome?.recording ? "played" : "over"; // also once the car has gone home after it
+  const stands = standing(store);
+  if (stands === "played" || stands === "over") return stands;
   if (status.car === "gone") return "carGone";
   return welcome?.recording ? "recording" : null;
 }

@@ -2,6 +2,7 @@
 
 import { fill, h } from "../dom.js";
 import { clock } from "../figures.js";
+import { isFinished, standing } from "../standing.js";
 
 const ICONS = {
   in: "M12 5v14M5 12h14",
@@ -10,6 +11,8 @@ const ICONS = {
   follow: "M12 3v4M12 17v4M3 12h4M17 12h4M12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8z",
   both: "M3 17c5 0 6-10 12-10h6M3 17h18M18 4l3 3-3 3",
 };
+const STILL = { over: "ride over", played: "recording ended", paused: "paused" };
+const GONE = { unheard: "not connected", coming: "car starting", gone: "car gone" };
 const LENGTHS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000]; // [m]
 const BAR = 96; // [px] the longest scale bar
 
@@ -78,20 +81,16 @@ export function createBadge() {
 }
 
 function told(store) {
-  const { latest, status } = store;
+  const { latest } = store;
   if (!store.live) {
     const ago = latest.t - store.at;
-    return [
-      clock(store.at, 1),
-      ago < 0.05 ? "the latest moment" : `${ago < 10 ? ago.toFixed(1) : Math.round(ago)} s ago`,
-      "held",
-    ];
+    const far = `${ago < 10 ? ago.toFixed(1) : Math.round(ago)} s ${isFinished(store) ? "before the end" : "ago"}`;
+    return [clock(store.at, 1), ago < 0.05 ? "the latest moment" : far, "held"];
   }
-  if (!status.connected) return ["not connected", `last heard at ${clock(latest.t, 1)}`, "gone"];
-  if (status.car === "coming") return ["car starting", `last seen at ${clock(latest.t, 1)}`, "gone"];
-  if (latest.state === "ended") return ["ride over", clock(latest.t, 1), "still"];
-  if (status.car === "gone") return ["car gone", `last seen at ${clock(latest.t, 1)}`, "gone"];
-  if (latest.state === "paused") return ["paused", clock(latest.t, 1), "still"];
+  const stands = standing(store);
+  const at = clock(latest.t, 1);
+  if (stands in STILL) return [STILL[stands], at, "still"];
+  if (stands in GONE) return [GONE[stands], `last seen at ${at}`, "gone"];
   const speed = latest.speed > 0 ? `${Number(latest.speed.toFixed(latest.speed < 1 ? 2 : 1))}×` : "as fast as can be";
-  return ["live", `${clock(latest.t, 1)} · ${speed}`, "live"];
+  return [stands === "playing" ? "recording" : "live", `${at} · ${speed}`, "live"];
 }

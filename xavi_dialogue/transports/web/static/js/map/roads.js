@@ -4,6 +4,7 @@ import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./li
 
 const DASH = [3, 4.5]; // [m]
 const LINE = 0.14; // [m] width of markings
+const LINES = 500; // of a grid, each way
 const KERB = 0.35; // [m] on each side
 const TURN = new Map([
   ["left", 1],
@@ -111,19 +112,27 @@ export class RoadLayer {
 /** A plain grid for where roads are not known; returns its spacing [m]. */
 export function drawGrid(context, bounds, scale, colours) {
   const spacing = [10, 50, 100, 500].find((step) => step * scale >= 24) ?? 1000;
+  const [left, bottom, right, top] = bounds;
   context.strokeStyle = colours.get("map-grid");
   context.lineWidth = 1 / scale;
   context.beginPath();
-  for (let x = Math.ceil(bounds[0] / spacing) * spacing; x <= bounds[2]; x += spacing) {
-    context.moveTo(x, bounds[1]);
-    context.lineTo(x, bounds[3]);
+  for (const x of multiples(spacing, left, right)) {
+    context.moveTo(x, bottom);
+    context.lineTo(x, top);
   }
-  for (let y = Math.ceil(bounds[1] / spacing) * spacing; y <= bounds[3]; y += spacing) {
-    context.moveTo(bounds[0], y);
-    context.lineTo(bounds[2], y);
+  for (const y of multiples(spacing, bottom, top)) {
+    context.moveTo(left, y);
+    context.lineTo(right, y);
   }
   context.stroke();
   return spacing;
+}
+
+/** Counted, not added up: far out, a step may be too small to change a number. */
+function multiples(step, from, to) {
+  const first = Math.ceil(from / step);
+  const many = Math.min(Math.max(Math.floor(to / step) - first + 1, 0), LINES);
+  return Array.from({ length: many || 0 }, (_, k) => (first + k) * step);
 }
 
 function item(line, width, lane = null) {

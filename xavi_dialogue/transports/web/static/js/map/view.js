@@ -2,16 +2,20 @@
 
 const LEAST = 0.15; // [px/m]
 const MOST = 40; // [px/m]
+const FAR = 1e7; // [m] from the origin that the centre may be
 const GLIDE = 220; // [ms] of a change that buttons or keys make
 const ACROSS = 110; // [m] that the shorter side shows at first
 
 export class View {
+  #x;
+  #y;
+
   constructor() {
     this.width = 0; // [px] as CSS counts them
     this.height = 0;
     this.ratio = 1; // pixels of the screen to one of CSS
-    this.x = 0;
-    this.y = 0;
+    this.#x = 0; // [m]
+    this.#y = 0;
     this.scale = 5;
     this.glide = null;
     this.still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -22,6 +26,24 @@ export class View {
     if (width === this.width && height === this.height && ratio === this.ratio) return false;
     Object.assign(this, { width, height, ratio });
     return true;
+  }
+
+  /** [m] The centre, to the east; whatever is said, the view stays where numbers are fine enough. */
+  get x() {
+    return this.#x;
+  }
+
+  set x(value) {
+    this.#x = onEarth(value, this.#x);
+  }
+
+  /** [m] The centre, to the north. */
+  get y() {
+    return this.#y;
+  }
+
+  set y(value) {
+    this.#y = onEarth(value, this.#y);
   }
 
   /** [px/m] Good for a first look at the traffic around us. */
@@ -141,6 +163,10 @@ export class View {
   }
 }
 
+function onEarth(value, before) {
+  return Number.isNaN(value) ? before : Math.min(Math.max(value, -FAR), FAR);
+}
+
 function limited(scale) {
-  return Math.min(Math.max(scale, LEAST), MOST);
+  return Math.min(Math.max(scale || LEAST, LEAST), MOST); // and where it is no number, all there is
 }

@@ -1,5 +1,7 @@
 /** Plays what is past at the pace of life: only the page's own moment moves, never the car. */
 
+import { isFinished } from "../standing.js";
+
 const EACH = 45; // [ms] between moments: what is drawn interpolates anyway
 
 /**
@@ -35,7 +37,8 @@ export function createPlayer(store, changed) {
 
   function toggle() {
     if (handle) return stop();
-    if (store.live) return store.seek(store.at); // to hold it is to pause
+    if (store.live && !isFinished(store)) return store.seek(store.at); // to hold it is to pause
+    if (store.live) store.seek(store.span[0]); // it is over: once more from its beginning
     held = store.held;
     before = performance.now();
     handle = requestAnimationFrame(step);

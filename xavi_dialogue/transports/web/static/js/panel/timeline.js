@@ -2,6 +2,7 @@
 
 import { eachFrame, fill, h, say, set } from "../dom.js";
 import { clock, seconds } from "../figures.js";
+import { isFinished, standing, wayBack } from "../standing.js";
 import { lower } from "../words.js";
 import { drawLanes, drawOverview, lanesFor } from "./lanes.js";
 import { createPlayer } from "./player.js";
@@ -9,6 +10,16 @@ import { createScrubbing } from "./scrubbing.js";
 import { lengthFor, manoeuvres, startFor } from "./span.js";
 
 const SAID_EACH = 1000; // [ms] at most so often a screen reader is told where live is
+/** How the latest moment is called; those at which there is nothing to come have no plan beside it. */
+const LATEST = {
+  live: "Live",
+  playing: "Latest",
+  paused: "Paused",
+  over: "Ride over",
+  played: "Recording ended",
+  coming: "Car starting",
+};
+const GOES_ON = new Set(["live", "playing", "paused"]);
 const TICKING = ["ride", "decisions", "events", "turns", "shown", "moment", "scene", "status"];
 
 /**
@@ -169,8 +180,9 @@ function tell(parts, view, store, player) {
   parts.back.hidden = store.live;
   parts.play.disabled = empty;
   set(parts.track, "data-empty", empty ? "yes" : null);
-  const running = player.playing || store.live;
-  set(parts.play, "aria-label", running ? (store.live ? "Hold this moment" : "Pause") : "Play from here");
+  say(parts.back, wayBack(store));
+  const running = player.playing || (store.live && !isFinished(store));
+  set(parts.play, "aria-label", playing(store, player));
   set(parts.play, "title", parts.play.getAttribute("aria-label"));
   set(parts.play, "data-state", running ? "pause" : "play");
   set(parts.track, "data-live", store.live ? "yes" : "no");
@@ -183,12 +195,27 @@ function tell(parts, view, store, player) {
   set(parts.track, "aria-valuetext", valueText(store, decision));
 }
 
+/** What the button does that plays and holds. */
+function playing(store, player) {
+  if (player.playing) return "Pause";
+  if (!store.live) return "Play from here";
+  return isFinished(store) ? "Play it again" : "Hold this moment";
+}
+
 function sentence(store, decision, ago) {
-  const when = store.live ? "Live" : `${seconds(ago)} ago`;
+  const stands = standing(store);
+  if (store.live && !GOES_ON.has(stands)) return latest(store, stands);
+  const when = store.live ? latest(store, stands) : `${seconds(ago)} ${isFinished(store) ? "before the end" : "ago"}`;
   return decision ? `${when} · ${lower(decision.words)}` : when;
 }
 
+function latest(store, stands) {
+  if (stands === "gone") return `Car gone, last seen at ${clock(store.at)}`;
+  if (stands === "unheard") return `Not connected, last heard at ${clock(store.at)}`;
+  return LATEST[stands] ?? "";
+}
+
 function valueText(store, decision) {
-  const when = `${clock(store.at, 1)}${store.live ? ", live" : ""}`;
+  const when = `${clock(store.at, 1)}${store.live ? `, ${lower(latest(store, standing(store)))}` : ""}`;
   return decision ? `${when}, decision ${decision.number}: ${lower(decision.words)}` : when;
 }

@@ -1,7 +1,8 @@
 /** Where questions are typed. */
-import { fill, h, say } from "../dom.js";
+import { fill, h, say, set } from "../dom.js";
 import { clock, counted } from "../figures.js";
 import { ofTab, recall, remember } from "../remembered.js";
+import { wayBack } from "../standing.js";
 
 const LINES = 4;
 const DRAFT = "xavi-draft";
@@ -53,7 +54,7 @@ export function createComposer({ store, ask, cancel }) {
     if (text === "") return;
     if ([...text].length > longest()) return tell(`That is too long: ${counted(longest(), "character")} at most.`);
     tell("");
-    if (!ask(text)) return tell("Not connected at the moment. Your question stays here.");
+    if (!ask(text)) return tell(`${cannotAsk(store) ?? "Not connected at the moment."} Your question stays here.`);
     earlier.reset();
     write("");
   };
@@ -62,6 +63,7 @@ export function createComposer({ store, ask, cancel }) {
   input.addEventListener("keydown", (event) => typed(event, { submit, cancel, earlier, write }));
   addEventListener("pagehide", () => remember(DRAFT, input.value || null, ofTab));
   followMoment(store, about);
+  followService(store, button);
   write(recall(DRAFT, ofTab) ?? "");
   return {
     element: form,
@@ -100,6 +102,23 @@ function createEarlier(store, input) {
   };
 }
 
+/** Why nobody can be asked at all; null: somebody can. A service that was lost is waited for. */
+export function cannotAsk({ status }) {
+  if (!status.connected) return "Not connected at the moment.";
+  return status.service === "awaited" ? "There is no dialogue service to ask yet." : null;
+}
+
+/** The button says why it does nothing; pressed all the same, so does the line above the question. */
+function followService(store, button) {
+  const follow = () => {
+    const why = cannotAsk(store);
+    set(button, "aria-disabled", why && "true");
+    set(button, "title", why);
+  };
+  store.addEventListener("status", follow);
+  follow();
+}
+
 /** As high as its text, up to four lines. */
 function grow(input) {
   input.style.height = "auto";
@@ -115,12 +134,14 @@ function grow(input) {
 /** "Asking about 0:12", and the way back to now. */
 function followMoment(store, about) {
   const time = h("b", {});
-  const back = h("button", { type: "button", class: "quiet", onclick: () => store.goLive() }, "Back to live");
+  const back = h("button", { type: "button", class: "quiet", onclick: () => store.goLive() });
   fill(about, h("span", {}, "Asking about ", time), back);
   const follow = () => {
     if (about.hidden !== store.live) about.hidden = store.live;
-    if (!store.live) say(time, clock(store.held));
+    if (store.live) return;
+    say(time, clock(store.held));
+    say(back, wayBack(store));
   };
-  for (const name of ["moment", "ride"]) store.addEventListener(name, follow);
+  for (const name of ["moment", "ride", "status"]) store.addEventListener(name, follow);
   follow();
 }

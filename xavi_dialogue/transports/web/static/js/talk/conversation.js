@@ -2,7 +2,8 @@
 import { fill, h } from "../dom.js";
 import { draw } from "../drawings.js";
 import { pointingOf } from "../pointing.js";
-import { createComposer } from "./composer.js";
+import { capital } from "../words.js";
+import { cannotAsk, createComposer } from "./composer.js";
 import { Log } from "./log.js";
 import { createPending } from "./pending.js";
 import { Questions } from "./questions.js";
@@ -22,9 +23,10 @@ const MANY = 4; // turns at once: somebody's history, and no news
 export function createConversation(element, store, connection) {
   const questions = new Questions(connection);
   const ask = (text) => {
-    const asked = questions.ask(text, store.live ? null : store.held);
+    const why = cannotAsk(store);
+    const asked = why === null && questions.ask(text, store.live ? null : store.held);
     if (asked) log.toEnd();
-    else composer.say("Not connected at the moment.");
+    else composer.say(why ?? "Not connected at the moment.");
     return asked;
   };
   const cancel = () => {
@@ -130,13 +132,20 @@ function followQuestions({ store, questions, composer, log, around }) {
     const turn = store.turns.findLast(is); // also where its number could not be told, as of a choice
     if (turn && store.turn !== turn.n) showOnMap(turn, around); // it came with the greeting after a break
     if (turn || !reply) return;
-    const passing = { n: null, text: question.text, reply, vehicles: [], evidence: false };
+    if (reply.reason === "planner-unavailable") composer.giveBack(question.text);
+    const passing = { n: null, text: question.text, reply: plainly(reply), vehicles: [], evidence: false };
     log.add([createTurn(passing, around)], false);
   });
   questions.addEventListener("returned", ({ detail: { question, words } }) => {
     composer.say(words);
     if (question) composer.giveBack(question.text);
   });
+}
+
+/** A terminal sets what is no answer apart by brackets; here it is a sentence. */
+function plainly(reply) {
+  const inner = /^\(([^()]*)\)$/.exec(reply.text)?.[1];
+  return inner ? { ...reply, text: `${capital(inner)}${/[.!?]$/.test(inner) ? "" : "."}` } : reply;
 }
 
 /** Said above the input while nobody is there to answer. */
