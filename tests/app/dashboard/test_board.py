@@ -237,6 +237,28 @@ def test_who_comes_is_told_everything_and_the_ride_may_begin() -> None:
     runs(test)
 
 
+def test_a_car_that_is_coming_is_shown_once_it_is_there() -> None:
+    async def test() -> None:
+        async with house() as here:
+            coming = [True]
+            here.board.coming = lambda: coming[0]
+            here.drive(until=5.0)
+            await here.all.until(lambda: here.board.record.scene is not None)
+            one = Browsers()
+            kinds = [type(message) for message in here.board.greet(one)]  # type: ignore[arg-type]
+            assert wire.Ride not in kinds
+            assert here.board.status().car == "coming"
+            assert here.all.of(wire.SceneShown) == here.all.of(wire.Ride) == []
+            coming[0] = False
+            here.drive()
+            await here.all.until(lambda: here.all.of(wire.Ride))
+            told = [type(message) for message in here.all.told]
+            assert told.index(wire.Ride) < told.index(wire.Decisions) < told.index(wire.SceneShown)
+            assert here.board.status().car == "there"
+
+    runs(test)
+
+
 @pytest.mark.parametrize("payload", [b"", b"{}", b"\xff", b'{"schema": "xavi.scene/1"}'])
 def test_nonsense_on_the_bus_is_counted_and_left_at_that(payload: bytes) -> None:
     async def test() -> None:

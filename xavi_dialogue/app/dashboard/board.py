@@ -214,7 +214,7 @@ class Board:
 
     def _roads_known(self) -> None:
         ride = self.record.ride
-        if ride is not None:
+        if ride is not None and not self._held:
             self.audience.tell(ride)
 
     def _suggestions(self, at: float) -> Suggestions:
