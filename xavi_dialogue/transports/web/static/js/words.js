@@ -9,14 +9,15 @@ export const OUTCOMES = {
   collision: "collides",
 };
 
+// The words of the car's own sentences, shortened: "move to the left lane", "continue to the next exit".
 const DOING = {
-  continue: "go on",
-  "change-left": "change left",
-  "change-right": "change right",
+  continue: "straight on",
+  "change-left": "move left",
+  "change-right": "move right",
   "exit-left": "turn left",
   "exit-right": "turn right",
-  "exit-straight": "go straight on",
-  "continue-next-exit": "pass an exit",
+  "exit-straight": "straight on",
+  "continue-next-exit": "to the next exit",
   stop: "stop",
 };
 

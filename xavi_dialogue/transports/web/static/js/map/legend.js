@@ -5,13 +5,13 @@ import { fill, h } from "../dom.js";
 /** In the order in which they are listed: kind, words, drawing, class. */
 // Vehicles are not among them: each has its name beside it.
 const ENTRIES = [
-  ["plan", "our planned path", "line", "accent"],
+  ["plan", "our path as planned now", "line", "accent"],
   ["predictions", "where others may go", "fade", "other"],
   ["ours", "our way through the junction", "strip", "accent"],
   ["yields", "goes first: we give way", "strip", "warn"],
   ["view", "how far we see", "circle", "accent"],
   ["goal", "our destination", "flag", "accent"],
-  ["fact", "my plan then", "line", "accent"],
+  ["fact", "my plan in the answer", "band", "accent"],
   ["ghost", "what it is compared with", "dash", "foil"],
   ["preview", "the alternative looked at", "dots", "foil"],
   ["cause", "a cause", "ring", "cause"],
@@ -20,6 +20,7 @@ const ENTRIES = [
 
 const DRAWINGS = {
   line: () => h("path", { d: "M2 8h20M18 4l6 4-6 4" }),
+  band: () => h("path", { class: "map-band", d: "M2 8h24" }),
   fade: () => [
     h("path", { d: "M2 8h8" }),
     h("path", { d: "M10 8h8", opacity: 0.6 }),

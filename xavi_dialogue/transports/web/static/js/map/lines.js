@@ -77,14 +77,14 @@ const CUT = 0.1; // [s] of driving after which it is cut anew: less than a car's
 
 /**
  * What is left of a Drive (see documents.py) at a moment [s], which frame after frame asks for.
- * @param {number} pieces that it falls into, each a Path2D
+ * @param {number} pieces that it falls into at most, each a Path2D
  * @returns {{line: number[], length: number, pieces: Path2D[]}} length [m]
  */
 export function ahead(drive, t, pieces) {
   const known = AHEAD.get(drive);
-  if (known && Math.abs(known.t - t) < CUT) return known;
+  if (known?.most === pieces && Math.abs(known.t - t) < CUT) return known;
   const line = from(drive.path, drive.dt > 0 ? (t - drive.t) / drive.dt : 0);
-  const left = { t, line, length: lengthOf(line), pieces: cutUp(coarser(line), pieces) };
+  const left = { t, most: pieces, line, length: lengthOf(line), pieces: cutUp(coarser(line), pieces) };
   AHEAD.set(drive, left);
   return left;
 }

@@ -24,7 +24,7 @@ export function drawPicture(scene, pen) {
   const retold = scene.evidence?.decision === scene.detail?.id && Boolean(scene.evidence?.factual?.lines.length);
   const decision = drawDecision({ ...scene, chosen, quiet, retold }, pen);
   const evidence = scene.evidence
-    ? drawEvidence(scene.evidence, scene.elapsed, pen, ego ?? OURS)
+    ? drawEvidence(scene.evidence, scene.t, scene.elapsed, pen, ego ?? OURS)
     : { fact: 0, ghost: 0, kinds: new Set() };
   const preview = drawPreview(scene.preview, pen);
   const seen = traffic(scene, pen);

@@ -4,11 +4,14 @@ import { ahead, beforeEnd, boundsOf, count, lastWithin, meet, pathOf, pointAt } 
 import { arrowHead, flag, giveWay } from "./marks.js";
 import { middleOf } from "./bodies.js";
 import { percent } from "../figures.js";
+import { wayOf } from "./words.js";
 
 const FEW = 4; // vehicles whose predictions are all labelled
 const LIKELY = 0.05; // probability from which on a goal is labelled
 const PIECES = 8; // of a path that fades along its length
+const FAR = { scale: 2, pieces: 2 }; // [px/m] below which fewer are told apart
 const BORDER = 28; // [px] at which paths that leave the view are labelled
+const JOINED = 22; // [px] between the ends of two goals' paths below which they have one label
 const SHORT = 3; // [m] below which there is no path to be seen
 
 /**
@@ -60,40 +63,64 @@ function plan({ detail, t, quiet }, { context, view, colours }, drawn) {
 function predictions(scene, pen, drawn) {
   const there = new Set(scene.vehicles.map((vehicle) => vehicle.id));
   const known = scene.detail.predictions.filter((one) => there.has(one.vehicle));
+  const inView = new Set(scene.vehicles.filter((one) => meet(pointBox([one.x, one.y]), pen.view.bounds)).map(idOf));
+  const several = known.filter((one) => inView.has(one.vehicle)).length > 1;
   for (const one of known) {
     const chosen = scene.chosen.has(one.vehicle);
-    const labelled = chosen || (known.length <= FEW && !scene.quiet);
+    const labelled = inView.has(one.vehicle) && (chosen || (known.length <= FEW && !scene.quiet));
     const strength = chosen ? 1 : scene.quiet || scene.chosen.size || known.length > FEW ? 0.5 : 0.9;
-    for (const goal of one.goals) goalPath(scene, pen, { one, goal, labelled, strength }, drawn);
+    const ends = one.goals.map((goal) => goalPath(scene, pen, { goal, strength }, drawn));
+    if (labelled) labelEnds(pen, one.vehicle, ends.filter(Boolean), several);
   }
   if (drawn.predictions) drawn.kinds.add("predictions");
 }
 
-function goalPath(scene, pen, { one, goal, labelled, strength }, drawn) {
+function idOf({ id }) {
+  return id;
+}
+
+/** Draw the ways to a goal; returns where the likeliest of them ends in view, if it is worth a label. */
+function goalPath(scene, pen, { goal, strength }, drawn) {
   const lines = goal.ways.filter((way) => way.line && way.probability >= 0.01).slice(0, 3);
+  const most = pen.view.scale < FAR.scale ? FAR.pieces : PIECES;
   let end = null;
   for (const way of lines) {
-    const { line, length, pieces } = ahead(way.line, scene.t, PIECES);
+    const { line, length, pieces } = ahead(way.line, scene.t, most);
     if (length < SHORT) continue;
     fading(pen, pieces, strength * (0.25 + 0.75 * way.probability));
     drawn.predictions += 1;
     end ??= lastWithin(line, pen.view.within(BORDER));
   }
-  if (!labelled || !end || goal.probability < LIKELY) return;
+  if (!end || goal.probability < LIKELY) return null;
   const [x, y] = pen.view.toScreen(end.x, end.y);
-  pen.view.screen(pen.context);
-  if (end.end) arrowHead(pen.context, pen.view, end, pen.colours.get("other", 0.35 + 0.65 * goal.probability), 7);
-  const { colours } = pen;
+  return { ...end, goal, px: x, py: y };
+}
+
+/** How likely each goal is, where its path ends; goals whose paths leave the view together share a label. */
+function labelEnds({ context, view, colours, labels }, vehicle, ends, several) {
+  const groups = [];
+  view.screen(context);
+  for (const end of ends) {
+    if (end.end) arrowHead(context, view, end, colours.get("other", 0.35 + 0.65 * end.goal.probability), 7);
+    const group = groups.find(([{ px, py }]) => Math.hypot(px - end.px, py - end.py) < JOINED);
+    if (group) group.push(end);
+    else groups.push([end]);
+  }
   const look = { ink: colours.get("other"), ground: colours.get("card", 0.92), edge: colours.get("other", 0.5) };
-  pen.labels.add({
-    key: `goal ${one.vehicle} ${goal.words} ${goal.place}`,
-    text: percent(goal.probability),
-    x,
-    y,
-    reach: 9,
-    weight: 40 + goal.probability,
-    ...look,
-  });
+  for (const group of groups) {
+    const [{ px, py, goal }] = group;
+    const words = group.map((one) => `${percent(one.goal.probability)} ${wayOf(one.goal)}`).join(" · ");
+    labels.add({
+      key: `goal ${vehicle} ${goal.words} ${goal.place}`,
+      text: several ? `${vehicle}: ${words}` : words,
+      x: px,
+      y: py,
+      reach: 9,
+      weight: 40 + goal.probability,
+      wide: true,
+      ...look,
+    });
+  }
 }
 
 /** A path that is broad and plain where it begins, thin and pale where it ends. */

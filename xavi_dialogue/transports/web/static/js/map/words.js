@@ -6,6 +6,19 @@ export function looksOf({ kind, colour }) {
   return words.length > 40 ? `${words.slice(0, 39)}…` : words;
 }
 
+const WAYS = {
+  continue: "straight on",
+  "exit-left": "left",
+  "exit-right": "right",
+  "exit-straight": "straight on",
+  stop: "stops",
+};
+
+/** Where a goal leads, as short as can be: "right"; else as the car says it. */
+export function wayOf({ kind, words }) {
+  return WAYS[kind] ?? words;
+}
+
 const AROUND = [
   "ahead of us",
   "ahead to the left",

@@ -29,7 +29,7 @@ export function createAlternatives(store) {
     const tried = decision.alternatives.filter((one) => one.rollouts > 0);
     const times = tried.map((one) => one.time).filter(Boolean);
     const range = scaleFor(times);
-    say(scale, times.length ? `bars to ±${range} s` : "");
+    say(scale, times.length ? `axis: ${range} s sooner to ${range} s later` : "");
     table.hidden = !tried.length;
     steady(
       body,
@@ -130,8 +130,8 @@ function spread({ low, high }) {
 
 function timeWords(one) {
   if (one.chosen && one.arrival !== null) return `there in ${seconds(one.arrival)}`;
-  if (one.chosen) return one.outcomes.done > 0 ? "the others are measured by this" : "does not get there";
-  return one.time ? difference(one.time.delta, "s") : "cannot be told";
+  if (one.time) return difference(one.time.delta, "s");
+  return one.outcomes.done > 0 ? "cannot be told" : "not as far as the goal";
 }
 
 /** Which alternative is looked at: the one pointed at or focused, else the one that was kept. */

@@ -7,6 +7,11 @@ import { capital, doing, nameOf, outcomesInWords } from "../words.js";
 import { steady } from "./steady.js";
 import { createTree } from "./tree.js";
 
+/** Why its figures are others than those of the alternatives. */
+const COUNTS =
+  "Here everything that I tried is counted, poor ways to go on as well. What I could have done, above, tells what " +
+  "comes of the best way to go on after each first action, weighed by how likely each situation is.";
+
 /** @returns {{element: HTMLElement, update: (decision: object) => void}} */
 export function createBranches() {
   const tree = createTree({
@@ -19,11 +24,12 @@ export function createBranches() {
     open: (branch) => branch.chosen,
   });
   const none = h("p", { class: "quiet" }, "There was nothing to search: no rollouts are in the record.");
+  const counts = h("p", { class: "quiet" }, COUNTS);
   return {
-    element: h("div", { class: "branches" }, none, tree.element),
+    element: h("div", { class: "branches" }, none, counts, tree.element),
     update(decision) {
       none.hidden = decision.root.length > 0;
-      tree.element.hidden = !none.hidden;
+      tree.element.hidden = counts.hidden = !none.hidden;
       tree.update(decision.root);
     },
   };
