@@ -14,10 +14,10 @@ from functools import partial
 from xavi_dialogue import __version__
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.client import Client, ServiceLost
+from xavi_dialogue.app.dashboard.archive import Archive
 from xavi_dialogue.app.dashboard.asking import Asking, Unanswered
 from xavi_dialogue.app.dashboard.conversation import GLANCE, Conversation
 from xavi_dialogue.app.dashboard.ear import Ear
-from xavi_dialogue.app.dashboard.library import Library
 from xavi_dialogue.app.dashboard.record import Record
 from xavi_dialogue.app.dashboard.suggest import suggestions
 from xavi_dialogue.app.identity import Passenger
@@ -75,7 +75,7 @@ class Board:
         """Know whom to tell; to be called first."""
         self.audience = audience
         self._ear = Ear(audience, self.alive, self._hear)
-        self.library = Library(self.record, self.conversation, self._roads_known)
+        self.archive = Archive(self.record, self.conversation, self._roads_known)
         self._refreshing = asyncio.Lock()
 
     def join(self, bus: Bus) -> None:
@@ -84,7 +84,7 @@ class Board:
         self._asking = Asking(bus, self.keys, self.audience, self.passenger)
         token, share = self.passenger.token, self.passenger.share
         self._client = Client(bus, self.keys, self.passenger.session, token=token, share=share)
-        self.library.join(self._asking)
+        self.archive.join(self._asking)
         self._ear.open(bus, self.keys, self._see)
         self.alive.gauge("browsers", lambda: self.audience.browsers)
         self.alive.serve(bus, self.keys)
@@ -106,7 +106,7 @@ class Board:
         if self.coming() != self._came:
             self._came = not self._came
             self._tell_status()
-        self.library.look()
+        self.archive.look()
         if self.audience.browsers:
             self._suggest_anew()
             await self.refresh()
@@ -167,27 +167,27 @@ class Board:
         self._tell_status()
 
     def roads(self, name: str) -> bytes | None:
-        """See Library."""
-        return self.library.roads(name)
+        """See Archive."""
+        return self.archive.roads(name)
 
     def past(self) -> bytes:
         """All moments so far."""
         return self.record.past()
 
     def decision(self, name: str) -> bytes | None:
-        """See Library."""
-        return self.library.decision(name)
+        """See Archive."""
+        return self.archive.decision(name)
 
     async def evidence(self, n: int) -> bytes | None:
-        """See Library."""
-        return await self.library.evidence(n)
+        """See Archive."""
+        return await self.archive.evidence(n)
 
     # Within:
 
     def _hear(self, report: Heard) -> None:
         begun, told = self.record.hear(report)
         if begun:
-            self.library.begin_anew()
+            self.archive.begin_anew()
             self._suggested = Suggestions(t=0.0, questions=())
         self._held = self._held or self.coming()
         if self._held and not self.coming():

@@ -27,7 +27,7 @@ AGAIN = 5.0  # [s] after which it is asked again
 MAX_KEPT = 64  # documents
 
 
-class Library:
+class Archive:
     """Documents about the present ride."""
 
     def __init__(
@@ -36,7 +36,7 @@ class Library:
         conversation: Conversation,
         roads_known: Callable[[], None],
     ) -> None:
-        """An empty library.
+        """An empty archive.
 
         Args:
             record: of the ride.
