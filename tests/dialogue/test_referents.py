@@ -39,6 +39,12 @@ def test_places_are_seen_from_our_car(vehicle: int, where: str) -> None:
     assert place(bearing(EGO, SCENE[vehicle])) == where
 
 
+def test_who_came_towards_us_has_passed_once_behind() -> None:
+    gone = at(-20.0, 3.5, math.pi)
+    assert place(bearing(EGO, gone)) == "passed"
+    assert vehicle_words({0: EGO, 4: gone})[4].description == "the car going the other way"
+
+
 def test_places_turn_with_our_car() -> None:
     north = at(0.0, 0.0, math.pi / 2)
     assert place(bearing(north, at(0.0, 30.0, math.pi / 2))) == "ahead"

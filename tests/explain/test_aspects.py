@@ -203,3 +203,13 @@ def test_events_before_the_moment_count_alone():
     ride = Ride(S1.now, S1.traces, (*S1.events, late))
     supposed = {"type": "sensitivity", "condition": "if vehicle 1 had not been there"}
     assert ask(ride, **supposed, factual=("give-way",)).reason == "did-not-happen"
+
+
+@pytest.mark.parametrize(
+    ("ahead", "turn", "oncoming"),
+    [(40.0, math.pi, True), (-20.0, math.pi, False), (40.0, 0.0, False)],
+)
+def test_who_heads_our_way_from_ahead_comes_towards_us(ahead, turn, oncoming):
+    ride = with_vehicle(S1, placed(ahead, 3.5, turn))
+    found = ask(ride, type="what", actor="vehicle:1", event="oncoming", tense="present")
+    assert (found.sight.about, found.sight.oncoming) == ("place", oncoming)

@@ -170,6 +170,25 @@ def test_what_was_never_believed_was_not_known():
     assert unknown.reason == "unknown-vehicle"
 
 
+@pytest.mark.parametrize(
+    ("kinds", "actions", "rival"),
+    [
+        (("exit-right", "continue"), ("exit-right",), ("continue",)),
+        (("exit-right", "continue", "exit-left", "stop"), (), ()),
+    ],
+)
+def test_of_many_things_as_likely_none_is_expected(kinds, actions, rival):
+    aims = tuple(Aim(kind, 1.0 / len(kinds), (Way((kind,)),)) for kind in kinds)
+    world = World({1: aims}, (("continue",),), lambda plan, chosen: (End(), 1))
+    trace = trace_of(world, time=4.0, history={1: straight_track(4.0, 1, [5.0] * 6)})
+    found = ask(Ride(4.0, (trace,), ()), type="what", actor="vehicle:1", tense="present")
+    assert (found.activity.actions, found.rival) == (actions, rival)
+    assert (found.destination is None) == (not actions)
+    asked = {"type": "confidence", "actor": "vehicle:1", "factual": ("exit-right",)}
+    chance = ask(Ride(4.0, (trace,), ()), **asked).activity.probability
+    assert chance == pytest.approx(1.0 / len(kinds))
+
+
 # How we decided, and how we will go about it -----------------------------------------------------
 
 

@@ -156,7 +156,7 @@ def test_who_was_in_the_way_made_us_drive_so() -> None:
     other = replace(found, need=Need("other-way", "driving"))
     assert say(other, asked).startswith("No: I had to give way to the car ahead (vehicle 1)")
     turn = replace(found, causes=(), factual=("exit-right",))
-    assert say(turn, asked) == "Yes, for the turn. No other vehicle was in my way."
+    assert say(turn, asked) == "Yes, for the turn. No other vehicle was in my way then."
 
 
 # The lane, and what others did not do ----------------------------------------------------------

@@ -18,6 +18,7 @@ Place: TypeAlias = Literal[
     "behind-left",
     "behind-right",
     "oncoming",
+    "passed",
     "crossing-left",
     "crossing-right",
 ]
@@ -25,7 +26,7 @@ Vehicles: TypeAlias = Mapping[int, VehicleState]
 
 SAME_LANE = 2.0  # [m] sideways distance of centres below which a vehicle is on our line
 SAME_WAY = math.radians(50.0)  # headings that differ by less go our way
-OPPOSITE = math.radians(130.0)  # and by more come towards us
+OPPOSITE = math.radians(130.0)  # and by more come towards us, until they have passed
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +60,7 @@ def bearing(ego: VehicleState, other: VehicleState) -> Bearing:
 def place(seen: Bearing) -> Place:
     """The bearing as one of a few places that have words."""
     if abs(seen.turn) >= OPPOSITE:
-        return "oncoming"
+        return "oncoming" if seen.ahead > 0.0 else "passed"
     if abs(seen.turn) > SAME_WAY:
         return "crossing-left" if seen.left > 0.0 else "crossing-right"
     if abs(seen.left) <= SAME_LANE:

@@ -73,7 +73,7 @@ OTHERS: Mapping[QueryType, Explainer] = {
 }
 #: What is asked beyond the type, by `Query.event`: of what is seen, whoever it is about; ...
 SEEN: Mapping[str, Explainer] = dict.fromkeys(
-    ("speed", "distance", "place", "count", "colour"), sights.sight
+    ("speed", "distance", "place", "count", "colour", sights.ONCOMING), sights.sight
 )
 #: ... and about the ego.
 ASPECTS: Mapping[str, Explainer] = {

@@ -13,18 +13,12 @@ from msgspec.structs import replace
 from planner.trace import GoalPrediction, PlanTrace
 from xavi_dialogue.explain.deeds import HALTS
 from xavi_dialogue.explain.details import Grounds
+from xavi_dialogue.explain.expectation import last_seen, likeliest
 from xavi_dialogue.explain.explanation import Activity, Evidence, Explanation
 from xavi_dialogue.explain.motion import CHANGED, Motion, foresees
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import ROUNDING, Ride, prediction
-from xavi_dialogue.explain.vehicles import (
-    actor_of,
-    halted,
-    last_seen,
-    last_with,
-    likeliest,
-    matching,
-)
+from xavi_dialogue.explain.vehicles import actor_of, halted, last_with, matching
 
 EVEN = 0.5  # probability from which something is more probable than not
 CERTAIN = 1e-3  # of probability, within which odds are not told apart

@@ -75,10 +75,20 @@ def what(query: Query, ride: Ride) -> Explanation:
 
 def where(query: Query, ride: Ride) -> Explanation:
     """Where the ego is going."""
-    del query
+    if ride.past is not None:
+        return _underway(query, ride.back(ride.past.moment))
     goal = ride.latest.goal
     found = of_plan(ride, destination=Destination(EGO, goal.edge))
     return replace(found, arrival=0.0) if ride.arrived else found
+
+
+def _underway(query: Query, then: Ride) -> Explanation:
+    """That the ego was on its way, or there, at an earlier time; what was left of it then is over.
+
+    Raises:
+        Unanswered: the record does not go back so far.
+    """
+    return replace(where(query, then), arrival=0.0 if then.arrived else None)
 
 
 def _check_crossed(ride: Ride, query: Query, deed: Deed | None) -> None:

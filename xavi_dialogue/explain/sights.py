@@ -7,15 +7,17 @@ from msgspec.structs import replace
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
-from xavi_dialogue.explain import vehicles
+from xavi_dialogue.explain import present, vehicles
 from xavi_dialogue.explain.bearings import OPPOSITE, Bearing, bearing, nearest_first
 from xavi_dialogue.explain.details import Sight
+from xavi_dialogue.explain.expectation import last_seen
 from xavi_dialogue.explain.explanation import Evidence, Explanation
 from xavi_dialogue.explain.query import Query
 from xavi_dialogue.explain.ride import ROUNDING, Ride, Unanswered, decline
 from xavi_dialogue.explain.vehicles import check_known, vehicle_of
 from xavi_dialogue.explain.whereabouts import seen_at, side_of, who_is
 
+ONCOMING = "oncoming"  # `Query.event` of whether a vehicle comes towards us
 About = Literal["speed", "distance", "place", "count", "colour"]
 
 
@@ -27,8 +29,10 @@ def sight(query: Query, ride: Ride) -> Explanation:
     Raises:
         Unanswered: the vehicle is unknown, or its colour cannot be told.
     """
-    about = cast(About, query.event)
+    about = cast(About, "place" if query.event == ONCOMING else query.event)
     vehicle = EGO if query.actor == "ego" else vehicle_of(query)
+    if vehicle == EGO and about == "speed" and ride.arrived and ride.past is None:
+        return present.where(query, ride)
     if vehicle is None:
         raise decline("ambiguous", vehicle=query.actor)
     if vehicle != EGO:
@@ -38,7 +42,7 @@ def sight(query: Query, ride: Ride) -> Explanation:
     if about == "colour" and (found.sight is None or found.sight.colour is None):
         raise decline("out-of-scope", what="perception")
     if vehicle != EGO:
-        found = replace(found, seen=vehicles.last_seen(ride, vehicle))
+        found = replace(found, seen=last_seen(ride, vehicle))
     if query.type == "where_goal" and vehicle != EGO:
         with suppress(Unanswered):
             going = vehicles.where(query, ride)

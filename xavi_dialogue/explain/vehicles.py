@@ -2,21 +2,20 @@
 
 from msgspec.structs import replace
 
-from planner.trace import Action, PlanTrace
+from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel, Choice
 from xavi_dialogue.explain import hindered
-from xavi_dialogue.explain.causes import expected_actions
 from xavi_dialogue.explain.deeds import HALTS, elsewhere
 from xavi_dialogue.explain.details import Suspect
-from xavi_dialogue.explain.explanation import Activity, Destination, Evidence, Explanation
+from xavi_dialogue.explain.expectation import expectation, last_seen, recorded
+from xavi_dialogue.explain.explanation import Activity, Explanation
 from xavi_dialogue.explain.motion import foresees
 from xavi_dialogue.explain.query import Query, QueryAction
 from xavi_dialogue.explain.ride import ROUNDING, Ride, Unanswered, decline, prediction
 from xavi_dialogue.explain.sighted import last_time, sighted
 
 EXPECTED = 0.3  # probability from which something may be said to be expected
-NEARLY = 0.7  # of the likeliest goal's probability, from which another must be told as well
 RECENT = 2.0  # [s] since when something is still going on
 
 
@@ -53,7 +52,7 @@ def what(query: Query, ride: Ride) -> Explanation:
         return sighted(ride, ride.past, vehicle, trace)
     seen = motion.sightings()
     if query.tense != "past" or not seen:
-        found = _expectation(ride, trace, vehicle, ())
+        found = expectation(ride, trace, vehicle, ())
         present = query.tense == "present"
         return hindered.at_present(found, ride, vehicle) if present else found
     actions = tuple(s.action for s in seen)
@@ -64,7 +63,7 @@ def what(query: Query, ride: Ride) -> Explanation:
         outcome=None,
         effects=(),
         causes=(),
-        evidence=_recorded(trace),
+        evidence=recorded(trace),
         activity=activity,
         sim_time=trace.sim_time,
         moment=seen[-1].start,
@@ -103,7 +102,7 @@ def _suspected(query: Query, ride: Ride, found: Explanation) -> Explanation:
 def where(query: Query, ride: Ride) -> Explanation:
     """Where a vehicle is probably going."""
     vehicle = actor_of(query, ride)
-    return _expectation(ride, last_with(ride, vehicle), vehicle, ())
+    return expectation(ride, last_with(ride, vehicle), vehicle, ())
 
 
 def when(query: Query, ride: Ride) -> Explanation:
@@ -128,7 +127,7 @@ def when(query: Query, ride: Ride) -> Explanation:
         outcome=None,
         effects=(),
         causes=(),
-        evidence=_recorded(trace),
+        evidence=recorded(trace),
         activity=Activity(vehicle, asked or (last.action,), None, None, None),
         sim_time=trace.sim_time,
         moment=last.start,
@@ -141,14 +140,14 @@ def confidence(query: Query, ride: Ride) -> Explanation:
     trace = last_with(ride, vehicle)
     asked = query.factual or query.counterfactual or ()
     if not asked:
-        return _expectation(ride, trace, vehicle, ())
+        return expectation(ride, trace, vehicle, ())
     if query.tense == "present" and set(asked) <= HALTS and halted(ride, vehicle):
-        found = _expectation(ride, trace, vehicle, asked)
+        found = expectation(ride, trace, vehicle, asked)
         activity = Activity(vehicle, asked, None, 0.0, "standing")
         return replace(found, activity=activity, destination=None, rival=())
     model = ride.model(trace)
     chance = sum(model.choices(vehicle)[choice] for choice in matching(model, vehicle, asked))
-    found = _expectation(ride, trace, vehicle, asked)
+    found = expectation(ride, trace, vehicle, asked)
     motion = ride.motion(vehicle).until(trace.sim_time)
     activity = Activity(vehicle, asked, min(chance, 1.0), motion.speed[-1], motion.trend)
     return replace(found, activity=activity)
@@ -211,7 +210,7 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
     present = query.tense == "present" or (bool(asked) and query.tense == "future")
     if present and set(asked) <= HALTS and halted(ride, vehicle):
         since = ride.motion(vehicle).since_standing
-        waiting = _expectation(ride, last_with(ride, vehicle), vehicle, asked, since)
+        waiting = expectation(ride, last_with(ride, vehicle), vehicle, asked, since)
         return hindered.at_present(waiting, ride, vehicle, least=EXPECTED)
     found = [last_time(ride, vehicle, action) for action in asked]
     if query.tense == "present":
@@ -220,7 +219,7 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
         last = max((s for s in found if s), key=lambda s: s.end)
         known = [t for t in ride.traces if t.sim_time >= last.end and prediction(t, vehicle)]
         trace = known[0] if known else last_with(ride, vehicle)
-        explained = _expectation(ride, trace, vehicle, asked, last.start)
+        explained = expectation(ride, trace, vehicle, asked, last.start)
         if query.tense == "present" and last.action in hindered.BRAKING:
             return hindered.at_present(explained, ride, vehicle)
         return hindered.behind(explained, ride, vehicle, last)
@@ -230,7 +229,7 @@ def _why(query: Query, ride: Ride, vehicle: int, asked: tuple[QueryAction, ...])
     chance = sum(model.choices(vehicle)[choice] for choice in ways)
     if asked and (query.tense == "past" or chance < EXPECTED):
         raise _not_seen(ride, trace, vehicle, asked, chance)
-    expected = _expectation(ride, trace, vehicle, asked, among=ways)
+    expected = expectation(ride, trace, vehicle, asked, among=ways)
     if not asked:
         present = query.tense == "present"
         return hindered.at_present(expected, ride, vehicle) if present else expected
@@ -269,69 +268,3 @@ def last_with(ride: Ride, vehicle: int) -> PlanTrace:
         if trace.sim_time <= time + ROUNDING and prediction(trace, vehicle) is not None:
             return trace
     raise decline("outside-record", vehicle=vehicle, time=time)
-
-
-def last_seen(ride: Ride, vehicle: int) -> float | None:
-    """When [s] a vehicle that is out of view was seen last; None where it is in view."""
-    if vehicle in ride.latest.scene:
-        return ride.latest.unseen.get(vehicle)
-    last = next((t for t in reversed(ride.traces) if vehicle in t.scene), None)
-    return None if last is None else last.unseen.get(vehicle, last.sim_time)
-
-
-def _expectation(
-    ride: Ride,
-    trace: PlanTrace,
-    vehicle: int,
-    asked: tuple[QueryAction, ...],
-    moment: float | None = None,
-    among: frozenset[Choice] | None = None,
-) -> Explanation:
-    """What a decision expects of a vehicle: its likeliest actions, and the likeliest goal.
-
-    Where that is only asked of some of its ways, the likeliest among those.
-
-    Raises:
-        Unanswered: the record lacks its goals, or its motion up to then.
-    """
-    known = prediction(trace, vehicle)
-    assert known is not None
-    open_ = range(len(known.goals)) if among is None else sorted({goal for goal, _ in among})
-    ranked = sorted(open_, key=lambda g: -known.goals[g].probability)
-    motion = ride.motion(vehicle).until(trace.sim_time)
-    if not ranked or not motion.speed:
-        raise decline("trace-gap", vehicle=vehicle, time=trace.sim_time)
-    model = ride.model(trace)
-    aim = known.goals[ranked[0]]
-    actions, probability = likeliest(model, vehicle, ranked[0], among)
-    rival: tuple[QueryAction, ...] = ()
-    if len(ranked) > 1 and known.goals[ranked[1]].probability >= NEARLY * aim.probability:
-        rival, _ = likeliest(model, vehicle, ranked[1], among)
-    return Explanation(
-        factual=tuple(a for a in actions if a in asked),
-        counterfactual=(),
-        outcome=None,
-        effects=(),
-        causes=(),
-        evidence=_recorded(trace),
-        activity=Activity(vehicle, actions, probability, motion.speed[-1], motion.trend),
-        sim_time=trace.sim_time,
-        destination=Destination(vehicle, aim.edge, aim.kind, aim.place, aim.probability),
-        moment=moment,
-        rival=rival if rival != actions else (),
-        seen=last_seen(ride, vehicle) if moment is None else None,
-    )
-
-
-def likeliest(
-    model: CausalModel, vehicle: int, goal: int, among: frozenset[Choice] | None = None
-) -> tuple[tuple[Action, ...], float]:
-    """What a vehicle most probably does under one goal, and how probable that is."""
-    chances = model.choices(vehicle).items()
-    ways = {c: p for c, p in chances if c[0] == goal and (among is None or c in among)}
-    return expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
-
-
-def _recorded(trace: PlanTrace) -> Evidence:
-    """The evidence of what rests on the record and its predictions alone."""
-    return Evidence("tree", 0, 0, (trace.trace_id,))

@@ -72,10 +72,11 @@ def strict(lattice: Lattice, previous: Query | None, budget: Budget) -> list[Can
 def _is_whole(reading: Reading) -> bool:
     """Whether it says who did what, or lays it to somebody: "why did it stop?" is a question.
 
-    That it is like the one before, "why did vehicle 1 slow down?", makes it no mere follow-up.
+    That it is like the one before, "why did vehicle 1 slow down?", makes it no mere follow-up. And
+    "what is it doing?" asks all there is to ask.
     """
     query = reading.query
-    told = query.factual or query.counterfactual
+    told = query.factual or query.counterfactual or query.type == "what"
     return reading.laid if query.hypothesised_cause else bool(told and reading.named_actor)
 
 

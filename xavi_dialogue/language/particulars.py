@@ -30,7 +30,7 @@ MEASURES: dict[str, frozenset[str]] = {
 }
 #: `Query.event` of small talk, that which asks most for an answer first.
 COURTESIES = (
-    *("quiz", "repeat", "recall", "identity", "farewell", "thanks", "greeting"),
+    *("quiz", "repeat", "recall-first", "recall", "identity", "farewell", "thanks", "greeting"),
     *("dissent", "assent"),
 )
 #: Actors that a comparison does not speak of: our own car, and pronouns for what is compared.

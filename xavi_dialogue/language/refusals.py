@@ -119,10 +119,11 @@ def realise_clarification(choices: tuple[str, ...], context: SpeechContext) -> U
 def realise_smalltalk(topic: str | None, context: SpeechContext) -> Utterance:
     """A friendly word on a greeting, thanks, assent, a question of identity, or anything else.
 
-    Of topic `recall`, which question was asked last.
+    Of topic `recall`, which question was asked last; of `recall-first`, which was the first.
     """
     offered = questions(from_situation(context))
-    last = next((question(query) for query in reversed(context.asked) if _telling(query)), None)
+    told = [question(query) for query in context.asked if _telling(query)]
+    last = next(iter(told if topic == "recall-first" else reversed(told)), None)
     content = Refusal("smalltalk", topic, suggestion=_unsaid(offered, context), last=last)
     return _speak(content, context, offered)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from xavi_dialogue.explain.details import Sight
 from xavi_dialogue.explain.explanation import Explanation
 from xavi_dialogue.explain.query import Query
+from xavi_dialogue.explain.sights import ONCOMING
 from xavi_dialogue.language.doings import doing, plain
 from xavi_dialogue.language.morphology import EGO, Doing, Vehicle
 from xavi_dialogue.language.quantities import KMH, Quantity, nearest
@@ -28,6 +29,7 @@ class SightPoint:
     distance: Quantity | None
     place: str | None
     oncoming: bool
+    asks_oncoming: bool  # it is asked whether it is
     colour: str | None
     nobody: str | None  # that nobody is where it is asked who is there ...
     then: bool  # ... or was, at an earlier time
@@ -63,6 +65,7 @@ def sight_point(query: Query, found: Explanation, sight: Sight) -> SightPoint:
         distance=None if sight.distance is None else Quantity(sight.distance, "m"),
         place=sight.place,
         oncoming=sight.oncoming,
+        asks_oncoming=query.event == ONCOMING,
         colour=sight.colour,
         nobody=lexicon().nobody_at(sight.place or "") if sight.about == "nobody" else None,
         then=found.then is not None,
