@@ -116,7 +116,7 @@ function labelEnds({ context, view, colours, labels }, vehicle, ends, several) {
       x: px,
       y: py,
       reach: 9,
-      weight: 40 + goal.probability,
+      weight: 10 + goal.probability, // after the names, which it may refer to
       wide: true,
       ...look,
     });
