@@ -63,7 +63,7 @@ export function createComposer({ store, ask, cancel }) {
   input.addEventListener("keydown", (event) => typed(event, { submit, cancel, earlier, write }));
   addEventListener("pagehide", () => remember(DRAFT, input.value || null, ofTab));
   followMoment(store, about);
-  followService(store, button);
+  followService(store, button, () => tell(""));
   write(recall(DRAFT, ofTab) ?? "");
   return {
     element: form,
@@ -109,9 +109,12 @@ export function cannotAsk({ status }) {
 }
 
 /** The button says why it does nothing; pressed all the same, so does the line above the question. */
-function followService(store, button) {
+function followService(store, button, settled) {
+  let before = null;
   const follow = () => {
     const why = cannotAsk(store);
+    if (before !== null && why === null) settled(); // what was said of it is so no longer
+    before = why;
     set(button, "aria-disabled", why && "true");
     set(button, "title", why);
   };
