@@ -123,7 +123,8 @@ function ghostCars(line, side, { since, strength, along }, { context, view, colo
     drawGhost(context, view, car, colours, { colour: side.colour, fill: 0.06, line: 0.3 * strength });
     last = car;
   }
-  if (since !== null) drawGhost(context, view, at(since), colours, { colour: side.colour, fill: 0.55 * strength, line: strength });
+  if (since !== null)
+    drawGhost(context, view, at(since), colours, { colour: side.colour, fill: 0.55 * strength, line: strength });
 }
 
 /** Say which line it is, at a point in view that is as far from the other line as can be. */

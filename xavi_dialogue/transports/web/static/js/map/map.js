@@ -1,6 +1,5 @@
 /** The map: a canvas, its controls, and when they are drawn anew. */
 
-import { h } from "../dom.js";
 import { lastUpTo } from "../store.js";
 import { Around } from "./around.js";
 import { Backdrop } from "./backdrop.js";
@@ -19,6 +18,7 @@ import { drawPicture } from "./picture.js";
 import { RoadLayer, drawGrid } from "./roads.js";
 import { Sprites } from "./sprites.js";
 import { Steering } from "./steering.js";
+import { Surface } from "./surface.js";
 import { toldOf } from "./told.js";
 import { View } from "./view.js";
 
@@ -38,6 +38,13 @@ const WORDED = new Set(["ride", "shown", "pointed", "preview"]); // changes by w
 const LABEL =
   "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, " +
   "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
+const ATTRIBUTES = {
+  tabindex: 0,
+  role: "application",
+  "aria-roledescription": "map",
+  "aria-label": LABEL,
+  "aria-describedby": "map-in-words",
+};
 
 /**
  * Make the map.
@@ -67,15 +74,10 @@ class LiveMap {
   constructor(element, store) {
     this.element = element;
     this.store = store;
-    this.canvas = h("canvas", {
-      tabindex: 0,
-      role: "application",
-      "aria-roledescription": "map",
-      "aria-label": LABEL,
-      "aria-describedby": "map-in-words",
-    });
-    this.context = this.canvas.getContext("2d", { alpha: false });
     this.view = new View();
+    this.surface = new Surface(this.view, ATTRIBUTES, () => this.measure());
+    const { canvas, context } = this.surface;
+    Object.assign(this, { canvas, context });
     this.following = new Following(this.view);
     this.framing = new Framing(this.view, this.following);
     this.motion = new Motion();
@@ -209,12 +211,8 @@ class LiveMap {
   }
 
   measure() {
-    const { clientWidth, clientHeight } = this.element;
     const first = this.view.width === 0;
-    if (!clientWidth || !clientHeight || !this.view.resize(clientWidth, clientHeight, window.devicePixelRatio || 1))
-      return;
-    this.canvas.width = Math.round(clientWidth * this.view.ratio);
-    this.canvas.height = Math.round(clientHeight * this.view.ratio);
+    if (!this.surface.fit(this.element)) return;
     if (first) this.view.scale = this.view.usual;
     this.around.forget();
     this.labels.spoil();
@@ -260,7 +258,9 @@ class LiveMap {
     if (this.scene && this.store.live)
       this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
     this.pace.frame(began, performance.now());
-    if (settling || this.moving(began)) this.request();
+    const moving = settling || this.moving(began);
+    if (moving) this.request();
+    if (this.surface.drawn(moving, () => this.pace.rate(began), began)) this.measure();
   }
 
   sceneNow(now) {

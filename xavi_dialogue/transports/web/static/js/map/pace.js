@@ -29,13 +29,18 @@ export class Pace {
     if (this.reached?.seq !== reached.seq) this.reached = { seq: reached.seq, wall: reached.wall, drawn };
   }
 
-  /** See `createMap`. */
-  figures(now) {
+  /** Frames a second of late. */
+  rate(now) {
     const frames = this.recent.filter((at) => at >= now - SPAN);
     const span = frames.length > 1 ? frames.at(-1) - frames[0] : 0;
+    return span > 0 ? ((frames.length - 1) * 1000) / span : 0;
+  }
+
+  /** See `createMap`. */
+  figures(now) {
     return {
       count: this.count,
-      fps: span > 0 ? ((frames.length - 1) * 1000) / span : 0,
+      fps: this.rate(now),
       worst_ms: this.worst,
       draw_ms: this.draw,
       latest_scene: this.latest && { ...this.latest },
