@@ -31,8 +31,9 @@ def test_a_recording_is_seen_and_asked_about(crew: Crew, visit: Visits, tmp_path
         crew, "--replay", str(tape), "--keep-days", "0", extra={"PYTHONPATH": str(without)}
     )
     screen = visit(shown.address)
-    screen.until_at(8.0)
     expect(screen.page.locator("#strip")).to_contain_text("This is a recording.")
+    screen.until_at(8.0)
+    expect(screen.page.locator("#strip")).to_contain_text("The recording is over.")
     screen.until_map("map.vehicles.includes(0) && map.vehicles.length > 1")
     screen.until("() => window.xavi.store.roads?.lanes.length > 0")
     screen.drag_to(4.0)
