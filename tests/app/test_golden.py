@@ -71,7 +71,7 @@ def decision_in(folder: Path) -> PlanTrace:
     """A decision, recorded in a folder as one that a transcript may name."""
     trace = decision(MADE_UP)
     (folder / "traces").mkdir()
-    (folder / "traces" / "one.json.gz").write_bytes(gzip.compress(encode(trace)))
+    (folder / "traces" / "one.json.gz").write_bytes(gzip.compress(encode(trace), mtime=0))
     return trace
 
 
@@ -103,7 +103,7 @@ def test_what_was_planned_from_one_decision_lies_beside_it(tmp_path: Path) -> No
         replay_all(folder, accept=True, note=print)
     name = BESIDE.format(ride_file.key(need))
     assert name in str(missing.value)
-    (folder / "traces" / name).write_bytes(gzip.compress(encode(plan)))
+    (folder / "traces" / name).write_bytes(gzip.compress(encode(plan), mtime=0))
     assert replay_all(folder, accept=True, note=print) == 1
     assert "I would" in (folder / "one.txt").read_text(encoding="utf-8")
 
