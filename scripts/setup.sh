@@ -105,7 +105,7 @@ check_browser() {
     [ -n "$browser" ] || return 0
     find_browser && return
     [ -z "${XAVI_CHROMIUM:-}" ] || fail "XAVI_CHROMIUM names '$XAVI_CHROMIUM', which was not found"
-    system_install chromium
+    system_install chromium fonts-dejavu-core
     find_browser || fail "Chromium was installed, but there is no program 'chromium'"
 }
 
