@@ -45,7 +45,6 @@ TOO_OFTEN = 4429
 
 TOO_FAST = "You ask faster than the car can listen. Wait a second, then ask again."
 NOT_READ = "The dashboard could not read that message. Reload the page, in case it is an old one."
-TOO_SLOW = "This connection is too slow for what there is to tell."
 TOO_MANY = "Too much was said at once, so that this was not heard."
 
 Wanted: TypeAlias = Ask | Cancel | Suggest
