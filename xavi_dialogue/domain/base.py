@@ -1,0 +1,7 @@
+"""Base: the struct that all values of the domain are."""
+
+import msgspec
+
+
+class Value(msgspec.Struct, frozen=True, tag_field="is", tag=True, omit_defaults=True):
+    """A frozen value; its class name is its tag in JSON."""

@@ -1,0 +1,49 @@
+"""Discourse: what a conversation has come to, as far as understanding the next turn needs it."""
+
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.meaning import Act, Question
+from xavi_dialogue.domain.terms import Ego, Proposition, Thing, Vehicle, Vehicles
+
+
+class Mention(Value, frozen=True):
+    """A thing that was spoken of."""
+
+    thing: Ego | Vehicle | Vehicles | Thing
+    turn: int  # number of the turn
+    by_car: bool  # the car named it
+    salience: float  # higher is likelier meant by "it"
+    role: str | None = None  # subject, object, cause, other
+
+
+class Discourse(Value, frozen=True):
+    """The state of the conversation before a turn."""
+
+    turn: int = 0  # number of the coming turn
+    mentions: tuple[Mention, ...] = ()  # most salient first
+    question: Question | None = None  # under discussion, grounded
+    propositions: tuple[Proposition, ...] = ()  # asserted last by either side, latest first
+    episode: tuple[float, float] | None = None  # [s] what "that" was, "then"
+    offered: tuple[Act, ...] = ()  # readings that a clarification offered, grounded
+    offered_things: tuple[Thing, ...] = ()  # vehicles that a clarification offered
+    pending: Act | None = None  # the act that a clarification was about, to be completed
+    last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
+    asked_at: float | None = None  # [s] when the last question was asked
+
+
+class Span(Value, frozen=True):
+    """The part of the ride that an act is about."""
+
+    begin: float  # [s]
+    end: float  # [s]
+    said: bool = False  # the passenger said when; else it was inferred
+    ahead: bool = False  # it is to come
+
+
+class GroundedAct(Value, frozen=True):
+    """An act with its things, times and anaphors resolved."""
+
+    act: Act
+    span: Span | None = None  # None: no time was said and none is implied
+    leaned: bool = False  # it was completed from an earlier turn
+    doubts: tuple[str, ...] = ()  # words that were not understood, to be owned up to
+    presupposed: bool = True  # what it takes for granted holds, as far as could be checked

@@ -1,0 +1,358 @@
+"""Terms: things, times, events and propositions, of which questions and claims are built.
+
+A term is as spoken or grounded. Grounding replaces what depends on scene, record or discourse:
+of things, only `Ego`, `Vehicle`, `Vehicles`, `Nobody` and the places remain; of times, only `At`,
+`Between`, `Now`, `Next` and `WholeRide`, and `Unsaid` where the explainer is to decide.
+"""
+
+from typing import Literal, TypeAlias
+
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.vocabulary import (
+    ActionName,
+    Attribute,
+    Bearing,
+    Comparator,
+    Extreme,
+    Kind,
+    Manner,
+    Relation,
+    Side,
+    State,
+)
+
+# --- things -------------------------------------------------------------------------------------
+
+
+class Ego(Value, frozen=True):
+    """Our own car: "you", "we", "us", "the car" where it can be nobody else."""
+
+
+class Vehicle(Value, frozen=True):
+    """Another vehicle by its number on the screen."""
+
+    number: int
+
+
+class Vehicles(Value, frozen=True):
+    """Several vehicles, grounded, in the order in which they are to be named."""
+
+    numbers: tuple[int, ...]
+
+
+class Nobody(Value, frozen=True):
+    """No vehicle: "nobody", "no one", or a description that fits none (grounded)."""
+
+    described: "Described | None" = None
+
+
+class Described(Value, frozen=True):
+    """One or several road users by description: "the two red cars on our left that waited"."""
+
+    kind: Kind = "vehicle"
+    colour: str | None = None
+    size: Literal["big", "small"] | None = None
+    bearing: Bearing | None = None  # where it is
+    origin: Bearing | None = None  # where it comes or came from
+    of: "Thing | None" = None  # the bearing is seen from this, from us where it is None
+    doing: "Event | None" = None  # relative clause: "that cut in", "which we waited for"
+    plural: bool = False
+    number: int | None = None  # how many: "the two cars"
+    rank: int | None = None  # "the first" 1, "the second" 2, "the last" -1
+    extreme: Literal["nearest", "farthest", "fastest", "slowest", "biggest"] | None = None
+    other: bool = False  # "the other one", "another car": not the one spoken of
+    definite: bool = True  # False: "a car", "any car", "somebody"
+
+
+class Pronoun(Value, frozen=True):
+    """A word for what was spoken of or is pointed at."""
+
+    form: Literal["it", "he", "she", "they", "that", "this", "one", "who", "them-all"]
+
+
+class Wanted(Value, frozen=True):
+    """What the question asks for: "which car", "who", "what"."""
+
+    kind: Kind = "vehicle"
+
+
+class Everyone(Value, frozen=True):
+    """All road users, of a kind where one is said: "everybody", "all cars", "the others"."""
+
+    kind: Kind = "vehicle"
+
+
+class Destination(Value, frozen=True):
+    """Where the passenger is going."""
+
+
+class Junction(Value, frozen=True):
+    """A junction or roundabout; `rank` counts from here: 1 the next or this, -1 the last one."""
+
+    form: Literal["junction", "roundabout"] = "junction"
+    rank: int | None = None  # None: the one in question
+    time: float | None = None  # [s] grounded: when we are or were there
+
+
+class Exit(Value, frozen=True):
+    """An exit of a roundabout or road: by count, by side, or the one in question."""
+
+    rank: int | None = None
+    side: Side | None = None
+
+
+class Lane(Value, frozen=True):
+    """A lane of our road."""
+
+    which: Literal["own", "left", "right", "other", "rightmost", "leftmost", "any"] = "own"
+    of: "Thing | None" = None  # whose lane; None: ours
+
+
+class Road(Value, frozen=True):
+    """A road: ours, the one we came from, a side road."""
+
+    which: Literal["own", "side", "main", "left", "right", "any"] = "own"
+
+
+class Feature(Value, frozen=True):
+    """What a road has beside lanes."""
+
+    kind: Literal[
+        "light", "sign", "crossing", "curb", "parking", "building", "line", "bend", "queue",
+        "space", "way", "obstacle",
+    ]  # fmt: skip
+
+
+class Passenger(Value, frozen=True):
+    """Who speaks: "me", "I"."""
+
+
+class Record(Value, frozen=True):
+    """The ride, its log, the record or the screen."""
+
+
+class Unknown(Value, frozen=True):
+    """A thing named by words that have no sense here."""
+
+    words: str
+
+
+Thing: TypeAlias = (
+    Ego
+    | Vehicle
+    | Vehicles
+    | Nobody
+    | Described
+    | Pronoun
+    | Wanted
+    | Everyone
+    | Destination
+    | Junction
+    | Exit
+    | Lane
+    | Road
+    | Feature
+    | Passenger
+    | Record
+    | Unknown
+)
+
+# --- times --------------------------------------------------------------------------------------
+
+
+class Now(Value, frozen=True):
+    """The moment of the question: "now", "currently", "at the moment"."""
+
+
+class Unsaid(Value, frozen=True):
+    """No time was said: tense and discourse decide."""
+
+
+class At(Value, frozen=True):
+    """A time of the ride: "at 0:12", "at 12 seconds"."""
+
+    at: float  # [s] simulation time
+
+
+class Ago(Value, frozen=True):
+    """A time before now: "five seconds ago", "just now" (None: a few seconds)."""
+
+    seconds: float | None = None  # [s]
+
+
+class Within(Value, frozen=True):
+    """A time after now: "in five seconds", "soon" (None)."""
+
+    seconds: float | None = None  # [s]
+
+
+class Between(Value, frozen=True):
+    """An interval of the ride."""
+
+    begin: float  # [s]
+    end: float  # [s]
+
+
+class Relative(Value, frozen=True):
+    """While, before or after an event or thing: "when we turned", "before the roundabout"."""
+
+    relation: Literal["during", "before", "after", "until", "since"]
+    anchor: "Event | Thing"
+    rank: int | None = None  # 1 the first time, 2 the second, -1 the last
+
+
+class Back(Value, frozen=True):
+    """The episode spoken of: "then", "at that time", "back there", "before that"."""
+
+    relation: Literal["during", "before", "after"] = "during"
+
+
+class Rank(Value, frozen=True):
+    """Which of several times: "the first time", "the second time", "last time"."""
+
+    rank: int  # -1 the last
+
+
+class Start(Value, frozen=True):
+    """The beginning of the ride."""
+
+
+class WholeRide(Value, frozen=True):
+    """All of the ride so far: "so far", "ever", "the whole trip", "until now"."""
+
+
+class Next(Value, frozen=True):
+    """What comes next: "next", "from now on", "later"."""
+
+
+Time: TypeAlias = (
+    Now | Unsaid | At | Ago | Within | Between | Relative | Back | Rank | Start | WholeRide | Next
+)
+Tense: TypeAlias = Literal["past", "present", "future", "perfect"]
+
+# --- events and propositions --------------------------------------------------------------------
+
+
+class Event(Value, frozen=True):
+    """Somebody doing something."""
+
+    action: ActionName
+    actor: Thing = Ego()
+    object: Thing | None = None
+    side: Side | None = None
+    manner: tuple[Manner, ...] = ()
+    time: Time = Unsaid()
+    tense: Tense = "past"
+    modal: Literal["will", "would", "can", "could", "should", "must", "might", "want"] | None = None
+    then: "Event | None" = None  # done next: "change left and then turn right"
+
+
+class Measured(Value, frozen=True):
+    """An attribute of a thing at a time: "our speed", "his distance to us at 0:12"."""
+
+    attribute: Attribute
+    thing: Thing = Ego()
+    to: Thing | None = None  # the other thing of gap, distance, time to collision, ...
+    event: Event | None = None  # of duration, delay, deceleration: of this event
+    about: "Proposition | None" = None  # of probability: of this
+    time: Time = Unsaid()
+    tense: Tense = "present"
+
+
+class Quantity(Value, frozen=True):
+    """A number with the unit that was said, in SI."""
+
+    value: float
+    unit: Literal["m/s", "m", "s", "%", "m/s2", "count"] = "count"
+
+
+class Happens(Value, frozen=True):
+    """That an event happens, happened or will."""
+
+    event: Event
+
+
+class Related(Value, frozen=True):
+    """That two things stand in a relation at a time."""
+
+    relation: Relation
+    thing: Thing
+    to: Thing = Ego()
+    time: Time = Unsaid()
+    tense: Tense = "present"
+
+
+class Is(Value, frozen=True):
+    """That a thing or an event is in a state: "is that safe", "the left lane is free"."""
+
+    state: State
+    thing: Thing | None = None
+    event: Event | None = None
+    too: bool = False  # "too close"
+    time: Time = Unsaid()
+    tense: Tense = "present"
+
+
+class Has(Value, frozen=True):
+    """That an attribute has a value in words: "is it blue", "is he indicating left"."""
+
+    attribute: Attribute
+    value: str
+    thing: Thing = Ego()
+    time: Time = Unsaid()
+    tense: Tense = "present"
+
+
+class Compares(Value, frozen=True):
+    """How a measure compares with another, or with a number."""
+
+    left: Measured
+    comparator: Comparator
+    right: "Measured | Quantity | None" = None  # None: with what is usual or allowed
+    by: Quantity | None = None
+
+
+class Exists(Value, frozen=True):
+    """That there is such a thing: "is anybody behind us", "there is nobody in front"."""
+
+    thing: Thing
+    time: Time = Unsaid()
+    tense: Tense = "present"
+
+
+class Caused(Value, frozen=True):
+    """That a thing or a fact is why an event came about: "is it the truck?", "because of him"."""
+
+    cause: "Thing | Proposition"
+    effect: "Proposition | None" = None  # None: what is being spoken of
+
+
+class Believed(Value, frozen=True):
+    """That the car believed, expected, knew or saw something."""
+
+    content: "Proposition"
+    time: Time = Unsaid()
+    tense: Tense = "past"
+
+
+class Not(Value, frozen=True):
+    """The contrary."""
+
+    content: "Proposition"
+
+
+class Both(Value, frozen=True):
+    """Several that hold together ("and"), or one of which does ("or")."""
+
+    contents: tuple["Proposition", ...]
+    join: Literal["and", "or"] = "and"
+
+
+class That(Value, frozen=True):
+    """A proposition that was spoken of: "that", "so", "it" for a fact."""
+
+
+Proposition: TypeAlias = (
+    Happens | Related | Is | Has | Compares | Exists | Caused | Believed | Not | Both | That
+)
+Extremes: TypeAlias = Extreme

@@ -1,0 +1,171 @@
+"""Vocabulary: the names of actions, attributes, relations and states that terms are built of."""
+
+from typing import Literal, TypeAlias, get_args
+
+from planner.trace import Action as MacroAction
+
+#: What somebody does. First the macro actions, then what people say beside them. A lane change or
+#: turn whose side is open is "change-lane" or "turn" with `Event.side` None.
+ActionName: TypeAlias = Literal[
+    "continue",  # follow the lane, go straight on where no junction comes first
+    "change-left",
+    "change-right",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "stop",
+    "give-way",  # to the object
+    "slow-down",
+    "speed-up",
+    "overtake",  # the object
+    "change-lane",  # side open
+    "turn",  # side open
+    "u-turn",
+    "go",  # move on, proceed, set off, pull away
+    "move",  # be in motion, drive, as against standing
+    "wait",  # for the object
+    "stand",  # be at a standstill
+    "brake",
+    "swerve",
+    "enter",  # the object: a junction, roundabout, lane, road
+    "leave",  # the object: a roundabout, lane, road, junction; or go out of sight
+    "merge",
+    "cut-in",  # move in ahead of the object
+    "pull-out",  # come out of a side road or a parking place, before the object
+    "pass",  # go past the object, or go past us
+    "follow",  # the object
+    "keep-distance",  # to the object
+    "approach",  # the object
+    "come",  # towards us, from somewhere
+    "cross",  # the object's way
+    "let-go",  # let the object go first
+    "block",  # the object
+    "signal",  # a side, or "flash"
+    "collide",  # with the object
+    "nearly-collide",
+    "avoid",  # the object
+    "see",  # the object
+    "appear",
+    "disappear",
+    "arrive",  # at the object, the destination unless said
+    "head",  # be on the way to the object, a place or side
+    "keep-lane",
+    "change-plan",
+    "do",  # something: "what is he doing", "do that"
+    "happen",  # "what happened"
+    # What the car has no way of doing; told so when it is asked for.
+    "honk",
+    "flash",
+    "reverse",
+    "park",
+    "pull-over",
+    "drop-off",
+    "call",
+    "open",
+]
+
+Side: TypeAlias = Literal["left", "right", "straight"]
+
+#: How something is done.
+Manner: TypeAlias = Literal[
+    "hard", "gently", "suddenly", "fast", "slowly", "early", "late", "close", "again", "first",
+    "far", "long", "still", "already", "safely", "on-purpose",
+]  # fmt: skip
+
+#: What can be measured or read off. Units stand beside each; words have none.
+Attribute: TypeAlias = Literal[
+    "speed",  # [m/s]
+    "limit",  # [m/s] in force where the thing is
+    "excess",  # [m/s] speed over the limit
+    "acceleration",  # [m/s2] positive: speeding up
+    "deceleration",  # [m/s2] positive: braking; how hard
+    "gap",  # [m] bumper to bumper along the way, to the object
+    "headway",  # [s] gap over the follower's speed
+    "distance",  # [m] between bodies, to the object (a vehicle, junction, destination)
+    "time-to-collision",  # [s] gap over closing speed
+    "lane",  # which lane, from the right
+    "lane-count",
+    "indicator",  # lights shown
+    "brake-lights",
+    "colour",
+    "kind",
+    "size",  # [m] length
+    "name",  # number on the screen
+    "place",  # where it is, seen from us
+    "origin",  # where it came from
+    "heading",  # where it is going
+    "right-of-way",
+    "visibility",  # seen, hidden, lost; since when
+    "distance-to-go",  # [m] to the destination
+    "distance-driven",  # [m] of the ride so far
+    "time-to-go",  # [s] to the destination
+    "arrival-time",  # [s] clock of the ride
+    "time",  # [s] clock of the ride now, or how long the ride has lasted
+    "waiting-time",  # [s] spent at a standstill, or for the object
+    "duration",  # [s] of an event
+    "delay",  # [s] that an event cost or saved
+    "probability",  # of a proposition
+    "value",  # of an option
+    "comfort",  # peak deceleration, jerk
+    "jerk",  # [m/s3]
+    "cost",  # reward terms of an option
+    "exit-number",
+    "turn",  # which way at the next junction
+    "route",  # the way to the destination
+    "count",
+    "weather", "battery", "money", "law", "world",  # what no record holds
+]  # fmt: skip
+
+Relation: TypeAlias = Literal[
+    "ahead-of", "behind", "left-of", "right-of", "beside", "near", "oncoming-to", "between",
+    "on",  # a lane, road, roundabout
+    "from",  # comes from a place
+    "to",  # is going to a place
+    "has-priority-over",
+    "must-yield-to",
+    "waiting-for",
+    "can-see",
+    "in-the-way-of",
+    "same-as",
+    "faster-than",
+    "slower-than",
+    "closer-than",
+    "with",
+]  # fmt: skip
+
+#: What a thing or an event can be said to be.
+State: TypeAlias = Literal[
+    "safe", "dangerous", "comfortable", "uncomfortable", "allowed", "necessary", "possible",
+    "free",  # a lane, a way
+    "visible", "hidden", "stationary", "moving", "fast", "slow", "close", "far", "sure", "over",
+    "late", "wrong", "right", "present", "lost", "stuck", "at-fault", "first", "last", "dirty",
+    "big", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy",
+]  # fmt: skip
+
+#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be told.
+Kind: TypeAlias = Literal[
+    "vehicle", "car", "truck", "bus", "van", "motorcycle", "bicycle", "pedestrian", "tram", "taxi",
+    "emergency",
+]  # fmt: skip
+
+#: Where something is, seen from our car (or from the vehicle named beside it).
+Bearing: TypeAlias = Literal[
+    "ahead", "behind", "left", "right", "ahead-left", "ahead-right", "behind-left", "behind-right",
+    "beside", "beside-left", "beside-right", "oncoming", "around", "crossing-left",
+    "crossing-right", "here", "there", "far",
+]  # fmt: skip
+
+Comparator: TypeAlias = Literal["more", "less", "same", "at-least", "at-most", "too-much", "enough"]
+Extreme: TypeAlias = Literal["highest", "lowest", "first", "last", "mean", "total"]
+
+FeelingKind: TypeAlias = Literal[
+    "afraid", "nervous", "startled", "sick", "angry", "annoyed", "impatient", "bored", "happy",
+    "relieved", "surprised", "confused", "impressed", "distrustful", "sad", "tired", "curious",
+    "disliking", "liking",
+]  # fmt: skip
+
+MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)
+BEYOND: frozenset[ActionName] = frozenset(
+    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn")
+)
