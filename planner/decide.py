@@ -9,6 +9,7 @@ import numpy as np
 from planner.actions import Situation
 from planner.forward import DT
 from planner.recognise import Belief, Trajectory, recognise
+from planner.road_facts import road_facts
 from planner.rollout import Task
 from planner.search import Root, Search, Simulated
 from planner.trace import (
@@ -123,7 +124,8 @@ def record(
     frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], search: Search
 ) -> PlanTrace:
     """The trace of a decision."""
-    under_way = moment.root.under_way
+    under_way, plan = moment.root.under_way, search.plan()
+    view = frame.settings.view_radius
     trace = PlanTrace(
         schema=SCHEMA,
         vehicle=frame.vehicle,
@@ -142,9 +144,10 @@ def record(
         ),
         rollouts=rollouts(search.rollouts, moment.time),
         not_applicable=search.not_applicable(),
-        plan=search.plan(),
+        plan=plan,
         unseen=dict(sorted(moment.unseen.items())),
         waypoint=None if search.task.goal == frame.goal else search.task.goal,
+        road=road_facts(frame.roads, moment.scene, moment.root, plan, frame.goal, view),
     )
     return fitted(trace)
 

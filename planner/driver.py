@@ -11,6 +11,7 @@ from planner.control import Around, Driving, Outlook, control
 from planner.decide import Decision, Frame, Moment, decide, root_at
 from planner.events import Event, EventKind
 from planner.forward import DT, Hindrance, Lane, Motion, advance
+from planner.lights import lights
 from planner.memory import Memory
 from planner.routes import Refusal
 from planner.search import Root
@@ -126,7 +127,7 @@ class Driver:
             self._number,
             round(scene.time, 3),
             now,
-            {vehicle: self._memory.track(vehicle, scene.time) for vehicle in now},
+            {vehicle: self._memory.recorded(vehicle, scene.time) for vehicle in now},
             Root(self._situation(scene), under_way),
             self._memory.unseen,
         )
@@ -221,7 +222,16 @@ class Driver:
         self._note_waiting(hindrance, motion, later, current, events)
         position, heading = current.plan.path.pose(motion.arc, scene.ego.length)
         self._current = self._close(current, later, events)
-        return Command(position, heading, motion.speed, current.edges)
+        shown = self._lights(current, motion, (motion.speed - scene.ego.speed) / dt)
+        return Command(position, heading, motion.speed, current.edges, shown)
+
+    def _lights(self, current: _Execution, motion: Motion, acceleration: float) -> tuple[str, ...]:
+        """What the car shows the others in the coming step."""
+        plan = self._last.trace.plan if self._last is not None else ()
+        actions = tuple(planned.action for planned in plan)
+        later = actions[1:] if actions[:1] == (current.plan.action,) else ()
+        roads = self._frame.roads
+        return lights(roads, current.plan, motion.arc, motion.speed, acceleration, later)
 
     def _close(self, current: _Execution, time: float, events: list[Event]) -> _Execution | None:
         goal = current.plan.goal

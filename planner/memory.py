@@ -8,10 +8,12 @@ import math
 from collections import deque
 from dataclasses import dataclass, replace
 
+import msgspec
 import numpy as np
 
 from planner.forward import DT
 from planner.obstacles import Obstacle
+from planner.road import LightChange
 from planner.trace import Track
 from planner.tracks import Observed, coast
 from planner.trajectory import Roads
@@ -72,8 +74,13 @@ class Memory:
         return {vehicle: self._lost[vehicle].since for vehicle in sorted(self._lost)}
 
     def track(self, vehicle: int, time: float) -> Track:
-        """The history of a vehicle at 5 Hz, the last sample now."""
+        """The history of a vehicle at 5 Hz, the last sample now; without its lights."""
         return _resampled(self._seen[vehicle], time)
+
+    def recorded(self, vehicle: int, time: float) -> Track:
+        """The same with its lights, as the trace records it."""
+        track = self.track(vehicle, time)
+        return msgspec.structs.replace(track, lights=_lights(self._seen[vehicle], track.start))
 
     def _note(self, vehicle: int, time: float, state: VehicleState) -> None:
         seen = self._seen.setdefault(vehicle, deque())
@@ -162,3 +169,14 @@ def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
         tuple(state.heading for state in states),
         tuple(state.speed for state in states),
     )
+
+
+def _lights(seen: deque[tuple[float, VehicleState]], start: float) -> tuple[LightChange, ...]:
+    """The lights shown at a moment [s], and every change since."""
+    found: list[LightChange] = []
+    for time, state in seen:
+        if time <= start + 1e-3:
+            found = [LightChange(start, state.signals)]
+        elif not found or found[-1].shown != state.signals:
+            found.append(LightChange(round(time, 3), state.signals))
+    return tuple(found)

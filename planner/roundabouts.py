@@ -91,3 +91,17 @@ def _exits(network: Network, lanes: list[str], ring: frozenset[str]) -> list[Rin
         if onto is None or network.lanes[onto.to_lane].edge in seen:
             return found
         row += [*onto.via, onto.to_lane]
+
+
+def ring_exits(network: Network, edge: str, ring: frozenset[str]) -> tuple[str, ...]:
+    """The roads that leave a ring, in driving order once round from one of its edges on."""
+    found: dict[str, None] = {}
+    seen: set[str] = set()
+    here: str | None = edge
+    while here is not None and here not in seen:
+        seen.add(here)
+        links = [x for lane in network.edge_lanes(here) for x in network.links_from(lane.id)]
+        after = [network.lanes[x.to_lane].edge for x in links if x.direction != "turnaround"]
+        found.update(dict.fromkeys(name for name in after if name not in ring))
+        here = next((name for name in after if name in ring), None)
+    return tuple(found)

@@ -12,9 +12,11 @@ from typing import Literal
 
 import msgspec
 
+from planner.road import LightChange, RoadFacts
 from sim.scene import Point, VehicleState
 
-SCHEMA = "xavi.plan_trace/1"
+SCHEMA = "xavi.plan_trace/2"
+READABLE = ("xavi.plan_trace/1", SCHEMA)  # the older ones lack what was added since
 LARGEST = 1e6  # of a component, in its unit; nothing that a car does is beyond it
 MAX_BYTES = 256 * 1024
 IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
@@ -81,13 +83,14 @@ class EgoGoal(msgspec.Struct, frozen=True):
     lane: int | None  # None: any lane counts
 
 
-class Track(msgspec.Struct, frozen=True):
-    """One vehicle as observed, at 5 Hz; all lists have the same length N >= 1."""
+class Track(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One vehicle as observed, at 5 Hz; the lists of samples have the same length N >= 1."""
 
     start: float  # [s] time of the first sample
     position: tuple[Point, ...]  # [m] [N]
     heading: tuple[float, ...]  # [rad] [N]
     speed: tuple[float, ...]  # [m/s] [N]
+    lights: tuple[LightChange, ...] = ()  # at its start, and every change since; () unknown
 
 
 class HeldUp(msgspec.Struct, frozen=True):
@@ -214,6 +217,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     plan: tuple[PlannedAction, ...]
     unseen: dict[int, float] = {}  # hidden vehicles in the scene, and when [s] they were seen last
     waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
+    road: RoadFacts | None = None  # where everybody is on it, and what the ego comes to
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
 
     @cached_property
@@ -288,8 +292,9 @@ def decode(data: bytes) -> PlanTrace:
         trace = msgspec.json.decode(data, type=PlanTrace)
     except (msgspec.ValidationError, msgspec.DecodeError) as error:
         raise TraceError(f"not a plan trace: {error}") from error
-    if trace.schema != SCHEMA:
-        raise TraceError(f"trace schema is {trace.schema!r}; this version reads {SCHEMA!r}")
+    if trace.schema not in READABLE:
+        known = " and ".join(repr(name) for name in READABLE)
+        raise TraceError(f"trace schema is {trace.schema!r}; this version reads {known}")
     fault = fault_of(trace)
     if fault is not None:
         raise TraceError(f"not a plan trace: {fault}")
@@ -310,6 +315,10 @@ def fault_of(trace: PlanTrace) -> str | None:
     for vehicle, counts in ways.items():
         if not counts or min(counts) == 0:
             return f"vehicle {vehicle} has no goal, or one with no trajectory"
+    known = () if trace.road is None else trace.road.places.keys()
+    told = () if trace.road is None else {fact.vehicle for fact in trace.road.priority}
+    for vehicle in {*known, *told} - trace.scene.keys():
+        return f"vehicle {vehicle} is on the road and not in the scene"
     for rollout in trace.rollouts:
         for s in rollout.samples:
             counts = ways.get(s.vehicle, [])

@@ -64,7 +64,7 @@ def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> E
         if used + toll(roads, lane.id).time >= aim:
             return _at(roads, edge, (aim - used) * lane.speed_limit)
         used += toll(roads, lane.id).time
-        link = _next_link(roads, edge, goal)
+        link = next_link(roads, edge, goal)
         if link is None:
             return goal
         used += sum(toll(roads, via).time for via in link.via)
@@ -80,7 +80,7 @@ def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
     if goal.edge in edges:
         return tuple(edges[: edges.index(goal.edge) + 1])
     while edges and edges[-1] != goal.edge and math.isfinite(remaining(roads, edges[-1], goal)):
-        link = _next_link(roads, edges[-1], goal)
+        link = next_link(roads, edges[-1], goal)
         if link is None:
             break
         edges.append(network.lanes[link.to_lane].edge)
@@ -163,7 +163,7 @@ def _at(roads: Roads, edge: str, position: float) -> EgoGoal:
     return EgoGoal(edge, round(min(max(position, LEAST), 0.9 * length), 2), None)
 
 
-def _next_link(roads: Roads, edge: str, goal: EgoGoal) -> Link | None:
+def next_link(roads: Roads, edge: str, goal: EgoGoal) -> Link | None:
     """The link from an edge on the shortest way to the goal."""
     network = roads.network
     links = [x for lane in network.edge_lanes(edge) for x in network.links_from(lane.id)]

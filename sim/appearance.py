@@ -57,3 +57,13 @@ def lights(signals: int) -> tuple[str, ...]:
         "brake": signals & _BRAKE,
     }
     return tuple(light for light, on in shown.items() if on)
+
+
+def bits(shown: tuple[str, ...]) -> int:
+    """SUMO's bit field for lights, of left, right, brake.
+
+    Args:
+        shown: the lights that are on.
+    """
+    known = {"left": _LEFT, "right": _RIGHT, "brake": _BRAKE}
+    return sum(known[light] for light in set(shown))

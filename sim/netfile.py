@@ -20,6 +20,7 @@ from sim.scene import Point
 
 CAR = "passenger"
 DEFAULT_WIDTH = 3.2  # [m] SUMO's width of a lane that states none
+EQUAL = "right_before_left"
 NOT_FOR_VEHICLES = ("crossing", "walkingarea")
 
 _DIRECTIONS: dict[str, Direction] = {
@@ -83,7 +84,8 @@ def parse_network(data: bytes, name: str) -> Network:
     # The canonical form leaves out comments, among them netconvert's time stamp.
     canonical = ET.canonicalize(text, strip_text=True)
     digest = hashlib.sha256(canonical.encode()).hexdigest()[:16]
-    return Network(lanes, links, digest, _roundabouts(root, lanes) or find_rings(lanes, links))
+    rings = _roundabouts(root, lanes) or find_rings(lanes, links)
+    return Network(lanes, links, digest, rings, _equal(root))
 
 
 def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
@@ -156,6 +158,11 @@ def _roundabouts(root: ET.Element, lanes: dict[str, Lane]) -> tuple[frozenset[st
     edges = {lane.edge for lane in lanes.values()}
     named = (frozenset(x.get("edges", "").split()) & edges for x in root.iter("roundabout"))
     return tuple(ring for ring in named if ring)
+
+
+def _equal(root: ET.Element) -> frozenset[str]:
+    """The junctions at which no road has priority over another."""
+    return frozenset(x.get("id", "") for x in root.iter("junction") if x.get("type") == EQUAL)
 
 
 def _open_to_cars(lane: ET.Element) -> bool:

@@ -63,6 +63,7 @@ class Network:
     links: tuple[Link, ...]  # in file order
     hash: str  # of the network, independent of comments in its file
     roundabouts: tuple[frozenset[str], ...] = ()  # the edges of each ring
+    equal: frozenset[str] = frozenset()  # junctions where who comes from the right goes first
 
     def roundabout(self, edge: str) -> frozenset[str] | None:
         """The ring that an edge is part of."""

@@ -49,4 +49,5 @@ class Command:
     position: Point  # [m] centre of the front bumper
     heading: float  # [rad]
     speed: float  # [m/s]
-    edges: tuple[str, ...] = ()  # that it will drive along, as its indicators show; () unknown
+    edges: tuple[str, ...] = ()  # that it will drive along; () unknown
+    lights: tuple[str, ...] | None = None  # to show, of left, right, brake; None leaves it to SUMO

@@ -34,6 +34,7 @@ KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
 FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
 SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
 
+SUMO_LIGHTS = -1  # of setSignals: as SUMO sees fit
 THIN = 0.01  # [m]
 BESIDE = 0.5  # [m] from the edge of its lane at which the ego may cross it in the coming step
 
@@ -210,6 +211,8 @@ class Simulation:
         self._call(vehicle.setPreviousSpeed, ego, command.speed)
         self._call(vehicle.moveToXY, ego, "", -1, x, y, angle, KEEP_EXACT_PLACE)
         self._call(vehicle.setSpeed, ego, command.speed)
+        shown = SUMO_LIGHTS if command.lights is None else appearance.bits(command.lights)
+        self._call(vehicle.setSignals, ego, shown)
 
     def _announce(self, edges: tuple[str, ...]) -> None:
         """Let the others know where the ego goes: in SUMO, right of way goes by routes."""
@@ -240,6 +243,7 @@ class Simulation:
             self._call(vehicle.setLaneChangeMode, ego, SUMO_LANES)
             self._call(vehicle.setSpeed, ego, -1.0)
             self._call(vehicle.setWidth, ego, self._scene.ego.width)
+            self._call(vehicle.setSignals, ego, SUMO_LIGHTS)
             self._commanded = False
 
     def _look(self, ego_acceleration: float | None) -> Scene:

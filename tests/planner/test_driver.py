@@ -224,6 +224,35 @@ def test_what_is_committed_is_marked_under_way(drive: Ride) -> None:
             assert {rollout.actions[0].action for rollout in trace.rollouts} == set(inside)
 
 
+def test_a_lane_change_is_indicated_while_it_is_driven(drive: Ride) -> None:
+    """The lights commanded agree with the manoeuvres and the braking of the drive."""
+    changing: str | None = None
+    for scene, step in zip(drive.scenes, drive.steps, strict=True):
+        for event in step.events:
+            if event.kind == "action-started" and event.action in ("change-left", "change-right"):
+                changing = event.action.removeprefix("change-")
+            elif event.kind == "action-ended":
+                changing = None
+        lights = step.command.lights
+        assert lights is not None
+        if changing is not None:
+            assert changing in lights
+        slowing = (step.command.speed - scene.ego.speed) / STEP < -0.5 - 1e-6
+        assert "brake" in lights or not slowing
+        assert not {"left", "right"} <= set(lights)
+
+
+def test_the_road_ahead_shrinks_as_it_is_driven(drive: Ride) -> None:
+    roads_ahead = [trace.road for trace in drive.traces]
+    left = [road.distance for road in roads_ahead if road is not None and road.distance is not None]
+    assert len(left) == len(drive.traces)
+    assert left == sorted(left, reverse=True)
+    for trace, distance in zip(drive.traces[1:], left[1:], strict=True):
+        track = trace.history[EGO].position
+        driven = sum(math.dist(a, b) for a, b in itertools.pairwise(track[-6:]))
+        assert distance <= left[0] - driven + 1.0
+
+
 def test_a_slow_vehicle_that_cuts_in_is_passed() -> None:
     done = ride("s1", {1: slow_cutter()}, away=95.0)
     started = [event.action for event in done.events if event.kind == "action-started"]

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from planner.driver import Driver
-from planner.memory import HIDDEN, Memory
+from planner.memory import HIDDEN, HISTORY, Memory
 from planner.trace import Settings, decode, encode
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.worlds import LENGTH, WIDTH, before_end, goal, roads, still
@@ -90,3 +90,40 @@ def test_a_decision_reckons_with_the_hidden_and_records_it() -> None:
     assert 2 in traces[-1].scene
     assert [known.vehicle for known in traces[-1].predictions] == [1, 2]
     assert decode(encode(traces[-1])) == traces[-1]
+
+
+def test_lights_are_remembered_with_the_moments_they_changed() -> None:
+    memory = Memory(roads("s1"))
+    shown = {0.0: (), 0.5: ("left",), 1.3: ("left", "brake"), 1.4: ("left",), 2.0: ()}
+    lit: tuple[str, ...] = ()
+    for k in range(31):
+        now = scene(k * STEP)
+        lit = shown.get(now.time, lit)
+        vehicles = {**now.vehicles, 2: replace(now.vehicles[2], signals=lit)}
+        memory.observe(Scene(now.time, vehicles))
+    track = memory.recorded(2, 3.0)
+    assert [(change.time, change.shown) for change in track.lights] == list(shown.items())
+    assert [change.shown for change in memory.recorded(EGO, 3.0).lights] == [()]
+    assert memory.track(2, 3.0).lights == ()
+
+
+def test_lights_before_the_track_are_those_at_its_start() -> None:
+    memory = Memory(roads("s1"))
+    for k in range(round((HISTORY + 3.0) / STEP) + 1):
+        now = scene(k * STEP, speed=2.0)
+        lit = ("brake",) if now.time >= 1.0 else ()
+        vehicles = {**now.vehicles, 2: replace(now.vehicles[2], signals=lit)}
+        memory.observe(Scene(now.time, vehicles))
+    track = memory.recorded(2, HISTORY + 3.0)
+    assert track.start == pytest.approx(3.0)
+    assert [(change.time, change.shown) for change in track.lights] == [(track.start, ("brake",))]
+
+
+def test_a_decision_records_lights_and_the_road() -> None:
+    driver = Driver(roads("s1").network, goal("s1"), Settings(rollouts=10, min_rollouts=2), 0)
+    trace = driver.step(scene(0.0), STEP).trace
+    assert trace is not None
+    assert [len(track.lights) for track in trace.history.values()] == [1, 1, 1]
+    assert trace.road is not None
+    assert set(trace.road.places) == {0, 1, 2}
+    assert decode(encode(trace)) == trace

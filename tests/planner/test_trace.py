@@ -94,9 +94,20 @@ def test_what_is_no_trace_is_not_read(data: bytes) -> None:
 
 
 def test_another_schema_is_named(trace: PlanTrace) -> None:
-    other = msgspec.structs.replace(trace, schema="xavi.plan_trace/2")
-    with pytest.raises(TraceError, match=r"'xavi\.plan_trace/2'; this version reads"):
+    other = msgspec.structs.replace(trace, schema="xavi.plan_trace/3")
+    with pytest.raises(TraceError, match=r"'xavi\.plan_trace/3'; this version reads"):
         decode(encode(other))
+
+
+def test_a_trace_of_the_first_schema_is_read_and_keeps_its_name(trace: PlanTrace) -> None:
+    plain = json.loads(encode(trace))
+    del plain["road"]
+    written = msgspec.json.encode({**plain, "schema": "xavi.plan_trace/1"})
+    old = decode(written)
+    assert old.road is None
+    assert {track.lights for track in old.history.values()} == {()}
+    assert encode(old) == written
+    assert b"lights" not in written
 
 
 @pytest.mark.parametrize("key", ["schema", "scene", "rollouts", "plan", "settings"])
@@ -188,6 +199,10 @@ def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -
             "vehicle 1 has no goal, or one with no trajectory",
         ),
         (lambda t: {"predictions": []}, "samples what is not predicted"),
+        (
+            lambda t: {"road": {"places": {}, "priority": [{"vehicle": 7, "who": "ego"}]}},
+            "vehicle 7 is on the road and not in the scene",
+        ),
     ],
 )
 def test_a_trace_that_does_not_fit_together_is_refused(

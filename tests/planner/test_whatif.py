@@ -93,6 +93,17 @@ def test_a_removed_vehicle_is_nowhere(trace: PlanTrace, network: Network) -> Non
     assert (without.decision, without.sim_time, without.seed) == (3, 2.0, 5)
 
 
+def test_the_road_is_that_of_the_scene_that_is_planned_for(
+    trace: PlanTrace, network: Network
+) -> None:
+    more = replan(trace, network, WhatIf(("stop",), rollouts=4))
+    assert more.road is not None
+    assert more.road == trace.road
+    without = replan(trace, network, WhatIf(removed=1))
+    assert without.road is not None
+    assert set(without.road.places) == set(more.road.places) - {1} == {0, 4}
+
+
 def test_actions_can_be_forced_where_a_vehicle_is_removed(
     trace: PlanTrace, network: Network
 ) -> None:

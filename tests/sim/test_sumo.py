@@ -176,6 +176,22 @@ def test_lights_are_seen() -> None:
     assert shown == {"right", "brake"}
 
 
+def test_the_ego_shows_the_lights_that_it_is_told_to() -> None:
+    with Simulation(S1, 0) as world:
+        x, y = world.scene().ego.position
+        for k, lights in enumerate([("left",), ("right", "brake"), (), ("brake",)], 1):
+            command = Command((x + 0.8 * k, y), 0.0, 8.0, lights=lights)
+            assert world.step(command).ego.signals == lights
+        assert "brake" not in world.step(Command((x + 4.0, y), 0.0, 8.0)).ego.signals
+
+
+def test_the_ego_gets_its_own_lights_back_from_sumo() -> None:
+    with Simulation(S1, 0) as world:
+        x, y = world.scene().ego.position
+        world.step(Command((x + 0.8, y), 0.0, 8.0, lights=("left", "right")))
+        assert world.step(None).ego.signals != ("left", "right")
+
+
 def test_collisions_are_told_by_boxes_even_across_lanes() -> None:
     with Simulation(S1, 0) as world:
         assert world.collisions() == ()

@@ -429,9 +429,9 @@ def test_what_cannot_be_played_is_refused(what: list[Entry], why: str) -> None:
 
 def test_decisions_of_an_unknown_schema_are_refused() -> None:
     trace = json.loads(entries()[5].payload)
-    trace["trace"]["schema"] = "xavi.plan_trace/2"
+    trace["trace"]["schema"] = "xavi.plan_trace/3"
     strange = Entry("xavi/v1/car/trace", json.dumps(trace).encode(), 0, 0, 0)
-    with pytest.raises(NotARecording, match=r"unknown schema 'xavi.plan_trace/2'"):
+    with pytest.raises(NotARecording, match=r"unknown schema 'xavi.plan_trace/3'"):
         tape_of([strange])
 
 

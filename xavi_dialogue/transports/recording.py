@@ -279,7 +279,7 @@ def _add(tracks: dict[str, _Track], entry: Entry, kind: Any) -> None:
                 raise NotARecording(f"{one_line(entry.key)}: a scene without the car itself")
             track.scenes[report.sim_time] = entry.payload
         case TraceReport():
-            if report.trace.schema != plan_trace.SCHEMA:
+            if report.trace.schema not in plan_trace.READABLE:
                 other = one_line(report.trace.schema)[:64]
                 raise NotARecording(f"it holds decisions of the unknown schema {other!r}")
             track.traces[report.seq] = entry.payload
