@@ -9,7 +9,7 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat dashboard test drills lint format schema diagram judge bench fuzz clean runtime \
+.PHONY: help chat dashboard test drills lint format schema diagram bench fuzz clean runtime \
         develop browser test-browser screenshots
 
 help: ## show this list
@@ -52,9 +52,6 @@ schema: develop ## write docs/plan_trace.schema.json and docs/messages/ anew
 
 diagram: develop ## draw the conversation's states in ARCHITECTURE.md anew
 	@$(BIN)/python -m xavi_dialogue.app.diagram ARCHITECTURE.md
-
-judge: develop ## learn anew of what kind questions are, from those annotated
-	@$(BIN)/python -m xavi_dialogue.app.learn tests/language/questions/learn/*.jsonl
 
 bench: runtime ## measure; ARGS="dialogue --json" chooses
 	@$(BIN)/xavi bench $(or $(ARGS),plan)

@@ -1,1 +1,1 @@
-"""Language data: question and answer grammars, lexicon, rewrites."""
+"""Language data: grammars of questions and answers, lexicons, tables of words."""

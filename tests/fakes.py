@@ -1,4 +1,4 @@
-"""Stand-ins for the slow or outside parts: a scripted mind, a fake world, a recorded ride."""
+"""Stand-ins for the slow or outside parts: a fake world and driver, a recorded ride."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
@@ -12,70 +12,10 @@ from sim.scene import Command, Scene, VehicleState
 from tests.traces import Ride, s1_ride
 from xavi_dialogue.app.ride import Moment
 from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
-from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.explain.explanation import (
-    Activity,
-    Evidence,
-    Explanation,
-    NeedRollout,
-    NoExplanation,
-)
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.explain.record import Record
-from xavi_dialogue.language.parse import NotUnderstood
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports.messages import WhatIfRequest
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
-
-
-def activity(record: Record) -> Explanation:
-    """What the car is doing, according to the latest trace."""
-    traces = tuple(trace.trace_id for trace in record.traces[-1:])
-    return Explanation(
-        factual=("continue",),
-        counterfactual=(),
-        outcome=None,
-        effects=(),
-        causes=(),
-        evidence=Evidence("tree", 1, 1, traces),
-        activity=Activity(0, ("continue",), None, 10.0, "steady"),
-    )
-
-
-def scripted_mind() -> Mind:
-    """Understands the names of what it shall do.
-
-    These are "answer", "lack", "lack more", "suppose", "refuse", "huh", "either" and "quiz me".
-    """
-
-    def parse(text: str, _: frozenset[int], __: Query | None) -> Query | NotUnderstood:
-        if text == "huh":
-            return NotUnderstood("gibberish")
-        if text == "either":
-            readings = (Query(type="why", time="answer"), Query(type="what", time="refuse"))
-            return NotUnderstood("ambiguous", readings=readings)
-        if text == "quiz me":
-            return Query(type="smalltalk", event="quiz")
-        return Query(type="what", time=text, tense="present")
-
-    def explain(query: Query, record: Record) -> Explanation | NoExplanation | NeedRollout:
-        first = record.traces[0].trace_id if record.traces else "none"
-        wanted = {"lack": 1, "lack, break": 1, "lack more": 2, "lack forever": 99}.get(
-            query.time or "", 0
-        )
-        if query.time == "break" or (query.time == "lack, break" and record.extra):
-            raise ZeroDivisionError
-        if query.time == "refuse":
-            return NoExplanation(reason="too-little-evidence")
-        if query.time == "suppose" and not record.extra:
-            return NeedRollout(
-                trace_id=first, vehicle=1, goal="exit-right", vehicle_actions=("stop",)
-            )
-        if len(record.extra) < wanted:
-            return NeedRollout(trace_id=first, rollouts=len(record.extra) + 1)
-        return activity(record)
-
-    return Mind(parse, explain)
 
 
 def inputs_of(ride: Ride, *, ended: float | None = None) -> tuple[Input, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 from planner.events import Event
 from planner.trace import SAMPLE_PERIOD, Action, PlanTrace, Rollout, Track, WhatIf
 from tests.traces import World, joints, prior, trace_of
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide
 

@@ -18,11 +18,11 @@ from xavi_dialogue.app.bench import drive as bench_drive
 from xavi_dialogue.app.bench.runs import Run
 from xavi_dialogue.app.exit_status import status_of
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.domain.answers import Reason
 
 KEYS = [
-    *("text", "kind", "reason", "query", "explanation", "choices", "suggestions"),
-    *("trace_id", "sim_time", "timing_ms"),
+    *("schema", "text", "kind", "reason", "query", "explanation", "acts", "answers", "choices"),
+    *("suggestions", "trace_id", "sim_time", "timing_ms"),
 ]
 
 
@@ -181,10 +181,15 @@ def test_what_does_not_plan_does_not_load_the_planner(arguments: list[str]) -> N
 
 
 def test_a_question_is_parsed() -> None:
-    query = json.loads(xavi("parse", "Why did you change left?", "--json").stdout)
-    assert (query["type"], query["factual"]) == ("why", ["change-left"])
-    shown = xavi("parse", "Why did you change left?", "--explain").stdout
-    assert "tokens" in shown
+    text = "Please, why did you change left?"
+    meaning = json.loads(xavi("parse", text, "--json").stdout)
+    assert (meaning["query"]["type"], meaning["query"]["factual"]) == ("why", ["change-left"])
+    assert [act["is"] for act in meaning["acts"]] == ["Ask"]
+    shares = json.loads(xavi("parse", text, "--json", "--explain").stdout)["readings"][0]["shares"]
+    assert [share["share"] for share in shares][:2] == ["politeness", "meaning"]
+    shown = xavi("parse", text, "--explain").stdout.splitlines()
+    assert shown[0].split()[:2] == ["please", "politeness"]
+    assert "no such vehicle      9" in xavi("parse", "Why did vehicle 9 brake?").stdout
     assert xavi("parse", "asdf qwer").exit_code == 4
 
 

@@ -77,7 +77,7 @@ def test_it_gets_an_answer_and_the_decisions(root: Path, hub: str) -> None:
     out = run(program)
     while '"kind":"answer"' not in out and time.monotonic() < give_up:  # the car begins
         out = run(program)
-    assert '{"text":"I am ' in out
+    assert '"text":"I am ' in out
     assert '{"schema":"xavi.trace/1"' in out
 
 

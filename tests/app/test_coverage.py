@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from tests.traces import s1_ride
 from xavi_dialogue.__main__ import app
-from xavi_dialogue.app.coverage import Coverage, Item, measure
+from xavi_dialogue.app.coverage import Coverage, Item, _alternatives, measure
 from xavi_dialogue.app.golden import RIDES, transcripts_in
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide
@@ -36,39 +36,48 @@ def of(coverage: Coverage, group: str) -> dict[str, int]:
 
 
 def test_types_and_reasons_are_those_of_the_turns(folder: Path) -> None:
-    found = covered(folder, "Hello!", "Why did you not fly?", "asdf qwer", "Hello!")
-    assert of(found, "reasons") == {"not-understood": 1, "not-an-action": 1}
-    assert of(found, "question types") == {"smalltalk": 2, "out_of_scope": 1}
+    found = covered(folder, "Hello!", "How fast are we going?", "asdf qwer", "Hello!")
+    assert of(found, "reasons") == {"not-understood": 1}
+    assert of(found, "types of acts") == {"Social": 2, "Ask": 1}
+    assert of(found, "questions") == {"HowMuch": 1}
+    assert of(found, "answers") == {"Sociable": 2, "Measures": 1}
+    assert of(found, "refusals") == {"NotUnderstood": 1}
 
 
 def test_alternatives_are_named_with_their_place(folder: Path, root: Path) -> None:
-    found = of(covered(folder, "asdf qwer"), "alternatives of answer_refusals.rules")
-    places = {name.split(": ")[1]: name.split(": ")[0] for name in found}
-    assert sorted(places) == ["ASK 1", "NOT_UNDERSTOOD 8", "REFUSAL 1"]
-    path, line = places["NOT_UNDERSTOOD 8"].split(":")
-    assert "gibberish" in (root / path).read_text(encoding="utf-8").splitlines()[int(line) - 1]
+    found = of(covered(folder, "Hello!"), "alternatives of answer_talk.rules")
+    [name] = found
+    place, rule, text = name.split(": ", 2)
+    assert rule.startswith("SOCIAL ")
+    path, line = place.split(":")
+    assert text in (root / path).read_text(encoding="utf-8").splitlines()[int(line) - 1]
 
 
-def test_what_is_offered_and_not_shown_does_not_count(folder: Path) -> None:
-    found = of(covered(folder, "asdf qwer"), "alternatives of answer_questions.rules")
-    assert sum(name.split(": ")[1].startswith("QUESTION") for name in found) == 1
+def test_every_alternative_has_its_line(root: Path) -> None:
+    coverage = Coverage(dict.fromkeys(_alternatives().values(), 0))
+    for item in coverage.unseen:
+        place, _, text = item.name.split(": ", 2)
+        path, line = place.split(":")
+        assert text in (root / path).read_text(encoding="utf-8").splitlines()[int(line) - 1]
 
 
 def test_rules_of_questions_are_those_of_the_chosen_reading(folder: Path) -> None:
-    found = of(covered(folder, "Why did you change lanes?"), "rules of question.lark")
+    found = of(covered(folder, "How fast are we going?"), "rules of nlu_clauses.lark")
     names = {name.rpartition(" ")[2] for name in found}
-    assert {"why", "said"} <= names
-    assert not names & {"why_not", "what_if", "more"}
+    assert names & {"ask_inverted", "ask_measure"}
+    assert not names & {"supposed", "imperative", "talk"}
 
 
-def test_inlined_rules_count(folder: Path) -> None:
-    found = of(covered(folder, "Why did you change lanes?"), "rules of question.lark")
-    assert any(name.endswith(": _aux") for name in found)
+def test_rules_that_are_named_by_what_they_make_count(folder: Path) -> None:
+    found = of(covered(folder, "What is it?"), "rules of nlu_phrases.lark")
+    assert any(name.endswith(": wh_what") for name in found)
 
 
 def test_a_rule_counts_with_any_of_its_alternatives(folder: Path) -> None:
-    found = of(covered(folder, "asdf qwer"), "rules of answer_refusals.rules")
-    assert sorted(name.split(": ")[1] for name in found) == ["ASK", "NOT_UNDERSTOOD", "REFUSAL"]
+    coverage = covered(folder, "Hello!", "Thanks!")
+    rules = of(coverage, "rules of answer_talk.rules")
+    assert [name.split(": ")[1] for name in rules] == ["SOCIAL"]
+    assert sum(rules.values()) == 2
 
 
 def test_the_table_says_what_is_missing_and_then_what_is_merely_unseen() -> None:

@@ -115,7 +115,7 @@ def named(replies: list[Reply]) -> set[str]:
     """The decisions that answers name."""
     found = {reply.trace_id for reply in replies} - {None}
     explained = [reply.explanation for reply in replies if reply.explanation is not None]
-    return found.union(*(one.evidence.traces for one in explained))  # type: ignore[arg-type]
+    return found.union(*(one.get("evidence", {}).get("traces", ()) for one in explained))  # type: ignore[arg-type]
 
 
 def outcome(bus: Prompt, wanted: Message | bytes, at: str = EVIDENCE) -> Outcome:

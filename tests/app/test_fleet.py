@@ -4,13 +4,16 @@ import itertools
 import json
 import time
 from collections.abc import Callable
+from dataclasses import replace
+from typing import NoReturn
 
 import msgspec
 import pytest
 
 from planner import trace as plan_trace
 from tests.app.test_service import Bench
-from tests.fakes import activity, again, s1_moments, scripted_mind
+from tests.dialogue.scripted import activity, scripted_mind
+from tests.fakes import again, s1_moments
 from xavi_dialogue.app import desk as desks
 from xavi_dialogue.app import reception, service
 from xavi_dialogue.app.fair import FairQueue
@@ -19,12 +22,12 @@ from xavi_dialogue.app.memory import Keeping, Memory
 from xavi_dialogue.app.report import Reporter
 from xavi_dialogue.dialogue.events import RecordMissing, TraceRecorded
 from xavi_dialogue.dialogue.manager import advance, fold
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.recollection import Result
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.explain.explanation import NeedRollout
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.explain.recollection import Result
-from xavi_dialogue.explain.record import Record
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.transports.bus import (
     Bus,
     Call,
@@ -572,17 +575,14 @@ def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) 
 def foreseeing(bench: Bench, calls: list[NeedRollout]) -> None:
     """Have the mind need a plan to say why."""
 
-    def explain(query: Query, record: Record) -> Result:
+    def explain(act: GroundedAct, record: Record) -> Result:
         need = NeedRollout(trace_id=record.traces[0].trace_id, removed=1)
-        if query.type == "why" and not record.extra and need not in record.refused:
+        if not record.extra and need not in record.refused:
             calls.append(need)
             return need
         return activity(record)
 
-    bench.service.reception.mind = Mind(
-        lambda *_: Query(type="why"),
-        explain,  # whatever is said
-    )
+    bench.service.reception.mind = replace(scripted_mind(), explain=explain)
 
 
 def test_what_a_passenger_will_ask_for_is_planned_before(bench: Bench) -> None:
@@ -642,12 +642,12 @@ def test_nothing_is_foreseen_where_the_ride_is_no_ride(
 def test_a_fault_in_foreseeing_is_nobody_s_business(
     bench: Bench, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def explain(query: Query, record: Record) -> Result:
-        if query.type == "why":
+    def explain(act: GroundedAct, record: Record) -> Result:
+        if isinstance(act.act, Ask) and isinstance(act.act.question, Why):
             raise ZeroDivisionError
         return activity(record)
 
-    bench.service.reception.mind = Mind(lambda *_: Query(type="what", tense="present"), explain)
+    bench.service.reception.mind = replace(scripted_mind(), explain=explain)
     drive(bench, "car", 3.0)
     bench.service.work()
     assert "ZeroDivisionError" in caplog.text
@@ -737,11 +737,11 @@ def test_reading_makes_nothing_that_could_push_others_out(bench: Bench) -> None:
 def test_a_record_at_fault_gets_a_bare_refusal_and_the_service_goes_on(
     bench: Bench, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def explain(query: Query, record: Record) -> Result:
+    def fail(*_: object) -> NoReturn:
         raise OverflowError  # whatever is asked, and whatever is to be said instead
 
     sound = bench.service.reception.mind
-    bench.service.reception.mind = Mind(lambda *_: Query(type="what", tense="present"), explain)
+    bench.service.reception.mind = replace(scripted_mind(), explain=fail, say=fail)
     drive(bench, "bad", 3.0)
     bench.service.reception.mind = sound
     drive(bench, "car", 3.0)

@@ -18,7 +18,7 @@ from xavi_dialogue.app.golden import (
     transcripts_in,
 )
 from xavi_dialogue.app.local import make_mind
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transports.transcript import TranscriptError

@@ -12,7 +12,7 @@ import zenoh
 
 from sim.scenario import load
 from tests.app.test_keys import PATIENCE, until, world_of
-from tests.fakes import scripted_mind
+from tests.dialogue.scripted import scripted_mind
 from xavi_dialogue.app import company as company_module
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.company import Staff, company

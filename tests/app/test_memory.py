@@ -31,7 +31,7 @@ def new(
     session: str, text: str, ride: RideName | None, wall: float = 0.0, at: float = 8.0
 ) -> NewTurn:
     reply = Reply(text="So.", kind="answer", sim_time=at)
-    return NewTurn(session, ride, wall or time.time(), Turn(text=text, query=None, reply=reply))
+    return NewTurn(session, ride, wall or time.time(), Turn(text=text, reply=reply))
 
 
 @pytest.fixture

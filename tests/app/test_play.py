@@ -8,7 +8,7 @@ from tests.fakes import inputs_of
 from tests.traces import s1_ride
 from xavi_dialogue.app.local import Replan, make_mind
 from xavi_dialogue.app.play import Played, latest, play
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports.transcript import TranscriptError, read, write
 
 RIDE = s1_ride()

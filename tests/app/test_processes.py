@@ -105,7 +105,7 @@ def test_a_conversation_through_a_pipe() -> None:
     later = [json.loads(line) for line in out.splitlines()]
     assert status == 0
     assert [reply["sim_time"] for reply in later] == [1.0, 8.0]
-    assert first["trace_id"] not in {reply["trace_id"] for reply in later}
+    assert first["text"] not in {reply["text"] for reply in later}
     assert "/frob" in err
     assert "Traceback" not in err
     assert until(lambda: not any(map(alive, left_behind)))

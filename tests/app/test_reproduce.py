@@ -6,11 +6,10 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import Action, Component, Outcome, PlanTrace, WhatIf
+from planner.trace import UNITS, Action, Component, Outcome, PlanTrace, WhatIf
 from planner.whatif import WhatIfError
 from sim.network import Network
 from sim.scenario import load
-from tests.language.realise_cases import cause, effect, explanation
 from tests.traces import s1_world, trace_of
 from xavi_dialogue.app.bench.resimulate import Happened
 from xavi_dialogue.app.bench.runs import in_processes
@@ -22,13 +21,42 @@ from xavi_dialogue.app.reproduce.rows import FOILS, ROWS, STRAIGHT_ON, Foil, Row
 from xavi_dialogue.app.reproduce.tables import FoilFound, compare
 from xavi_dialogue.app.reproduce.weighing import Bearing, Weighed, weigh
 from xavi_dialogue.app.ride import network_of
-from xavi_dialogue.explain.explanation import Cause, Explanation
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.realise import realise
+from xavi_dialogue.domain.answers import (
+    Cause,
+    ChoiceReason,
+    Contrast,
+    Effect,
+    Evidence,
+    OutcomeEstimate,
+)
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.say import say
 
-WHY = Query(type="why", factual=("change-left",), counterfactual=("continue",))
 FACT: tuple[Action, ...] = ("change-left", "continue")
+
+
+def effect(component: Component, delta: float) -> Effect:
+    return Effect(component, UNITS[component], delta, delta - 0.4, delta + 0.4, 60, 20)
+
+
+def cause(vehicle: int, actions: tuple[Action, ...], probability: float) -> Cause:
+    return Cause(vehicle, actions, probability)
+
+
+def contrast(
+    foil: tuple[Action, ...],
+    outcome: Outcome = "done",
+    probability: float = 1.0,
+    effects: tuple[Effect, ...] = (),
+    causes: tuple[Cause, ...] = (),
+    *,
+    hit: int | None = None,
+) -> Contrast:
+    ends = OutcomeEstimate(outcome, probability, hit)
+    evidence = Evidence("tree", 120, 32, ("0123456789abcdef",))
+    return Contrast(FACT, foil, ends, effects, causes, evidence, 3.0)
+
+
 LATER = effect("time", 4.7)
 JERK = effect("jerk", 0.3)
 STEADY = effect("angular-acceleration", -0.04)
@@ -39,9 +67,9 @@ ENDS: dict[str, Outcome] = {"done": "done", "collision": "collision", "not-reach
 DELTAS: dict[str, float] = {"time": 4.0, "jerk": 0.4, "angular-acceleration": 0.1}
 
 
-def said(found: Explanation, effects: int = 1, causes: int = 1) -> Wording:
+def said(found: Contrast, effects: int = 1, causes: int = 1) -> Wording:
     context = SpeechContext(style="paper", max_effects=effects, max_causes=causes)
-    text = realise(WHY, found, context).text
+    text = say(ChoiceReason("why", None, found), context).text
     return Wording(effects, causes, text, claim_of(found, effects, causes))
 
 
@@ -52,7 +80,7 @@ def told(
     weighed: Weighed | None = None,
     happened: Outcome | None = None,
 ) -> Told:
-    found = explanation((foil.action,), "done", 1.0, (STEADY, LATER, JERK), causes)
+    found = contrast((foil.action,), "done", 1.0, (STEADY, LATER, JERK), causes)
     sizes = dict.fromkeys((row.effects, row.causes) for row in rows_of(foil))
     wordings = tuple(said(found, *size) for size in sizes)
     came = None if happened is None else Happened(happened)
@@ -63,8 +91,8 @@ def table_1(asked: list[Told]) -> FoilFound:
     return compare(asked)[0]
 
 
-def of_claim(row: Row) -> Explanation:
-    """An explanation that claims what a row does."""
+def of_claim(row: Row) -> Contrast:
+    """A contrast that claims what a row does."""
     sign = {"more": 1.0, "less": -1.0, "equal": 0.0}
     effects = []
     for change in row.claim.effects:
@@ -75,12 +103,12 @@ def of_claim(row: Row) -> Explanation:
         actions: tuple[Action, ...] = doing.actions  # type: ignore[assignment]
         causes.append(cause(doing.vehicle, actions, 0.5))
     name, hit = ENDS[row.claim.outcome], row.claim.collided_with
-    return explanation((row.foil.action,), name, 1.0, tuple(effects), tuple(causes), hit=hit)
+    return contrast((row.foil.action,), name, 1.0, tuple(effects), tuple(causes), hit=hit)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.table}:{row.text[-60:]}")
 def test_a_row_claims_what_its_sentence_says(row: Row) -> None:
-    """Our realiser says the row, but for adverbs, when it is given the row's claim."""
+    """Our car says the row, but for adverbs, when it is given the row's claim."""
     wording = said(of_claim(row), row.effects, row.causes)
     assert wording.claim == row.claim
 
@@ -92,8 +120,8 @@ def test_a_row_claims_what_its_sentence_says(row: Row) -> None:
 
 
 def test_claims_differ_by_content_and_not_by_adverbs() -> None:
-    likely = explanation(("continue",), "done", 0.8, (LATER,), (CUTS_IN,))
-    surely = explanation(("continue",), "done", 1.0, (LATER,), (cause(1, CUTS_IN.actions, 0.4),))
+    likely = contrast(("continue",), "done", 0.8, (LATER,), (CUTS_IN,))
+    surely = contrast(("continue",), "done", 1.0, (LATER,), (cause(1, CUTS_IN.actions, 0.4),))
     assert said(likely).text != said(surely).text
     assert differing(said(likely).claim, said(surely).claim) == ()
 
@@ -118,7 +146,7 @@ def test_claims_differ_by_content_and_not_by_adverbs() -> None:
     ],
 )
 def test_what_tells_claims_apart(other: Claim, parts: tuple[str, ...]) -> None:
-    ours = said(explanation(("continue",), "done", 1.0, (LATER,), (IN_LANE,))).claim
+    ours = said(contrast(("continue",), "done", 1.0, (LATER,), (IN_LANE,))).claim
     assert differing(ours, other) == parts
 
 
@@ -138,7 +166,7 @@ def test_sentences_are_counted_under_the_row_that_claims_the_same() -> None:
 
 
 def test_a_row_is_had_word_for_word_where_the_adverbs_agree() -> None:
-    found = explanation(("continue",), "done", 0.9, (LATER,), (cause(1, CUTS_IN.actions, 0.5),))
+    found = contrast(("continue",), "done", 0.9, (LATER,), (cause(1, CUTS_IN.actions, 0.5),))
     one = Told(STRAIGHT_ON, 0, wordings=(said(found),))
     (size,) = table_1([one]).sizes
     assert (size.rows[0].borne_out, size.rows[0].verbatim) == (1, 1)

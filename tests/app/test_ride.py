@@ -1,7 +1,8 @@
 import pytest
 
 from planner.events import Event
-from tests.fakes import FakeDriver, FakeWorld, again, s1_moments, scripted_mind
+from tests.dialogue.scripted import scripted_mind
+from tests.fakes import FakeDriver, FakeWorld, again, s1_moments
 from xavi_dialogue.app.local import Conversation, drive_to
 from xavi_dialogue.app.ride import halts, moments
 

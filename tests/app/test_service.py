@@ -12,7 +12,8 @@ import pytest
 
 from planner import trace as plan_trace
 from planner.events import Event
-from tests.fakes import again, s1_moments, scripted_mind
+from tests.dialogue.scripted import scripted_mind
+from tests.fakes import again, s1_moments
 from xavi_dialogue.app import memory
 from xavi_dialogue.app.client import Client, ServiceLost
 from xavi_dialogue.app.desk import MAX_PAST
@@ -129,7 +130,7 @@ def bench() -> Bench:
 
 def test_a_question_is_answered_from_the_reported_record(bench: Bench) -> None:
     bench.drive()
-    reply = bench.ask("answer")
+    reply = bench.ask("foil")
     assert (reply.kind, reply.sim_time) == ("answer", 7.0)
     assert reply.timing_ms is not None
     assert reply.trace_id == bench.service.desk().dialogue.traces[-1].trace_id
@@ -335,13 +336,13 @@ def reply_of(text: str) -> Reply:
 
 def test_a_history_has_the_latest_turns_that_fit(bench: Bench) -> None:
     large = reply_of("\U0001f600" * 10_000)
-    turns = tuple(Turn(text=str(k), query=None, reply=large) for k in range(60))
+    turns = tuple(Turn(text=str(k), reply=large) for k in range(60))
     bench.service.desk().resume("ada", turns)
     told = [int(text) for text in bench.history()]
     assert told == [*range(60 - len(told), 60)]
     size = len(pack(EMPTY)) + len(told) * len(msgspec.json.encode(PastTurn("59", large)))
     assert HistoryReply.LIMIT - 60_000 < size < HistoryReply.LIMIT
-    huge = Turn(text="huge", query=None, reply=reply_of("x" * 2**20))
+    huge = Turn(text="huge", reply=reply_of("x" * 2**20))
     bench.service.desk().resume("ada", (turns[0], huge, turns[1], turns[2]))
     assert bench.history() == ["1", "2"]
 
@@ -548,7 +549,7 @@ def test_a_conversation_goes_on_when_another_ride_begins() -> None:
 def test_no_more_is_resumed_than_can_be_used(kept: Keeping) -> None:
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
     with Store(kept.path) as store:
-        new = [Turn(text=str(k), query=None, reply=reply) for k in range(MAX_PAST + 5)]
+        new = [Turn(text=str(k), reply=reply) for k in range(MAX_PAST + 5)]
         store.keep(NewTurn("ada", None, time.time(), turn) for turn in new)
     bench = Bench(Memory(kept))
     bench.drive()
@@ -652,7 +653,7 @@ def test_a_file_that_cannot_be_used_is_told_once_and_answers_come(kept: Keeping)
 
 def test_what_is_too_old_goes_when_the_service_starts(kept: Keeping) -> None:
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
-    old = Turn(text="old", query=None, reply=reply)
+    old = Turn(text="old", reply=reply)
     with Store(kept.path) as store:
         store.keep([NewTurn("ada", None, time.time() - 31 * DAY, old)])
     Bench(Memory(kept)).service.work()
@@ -686,7 +687,7 @@ def test_what_no_file_can_hold_costs_no_other_turn(kept: Keeping) -> None:
     memory = Memory(kept, warnings.append)
     memory.hear(RideName("r1"), 2**63, 100.0, Event("arrived", 3.0))
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
-    memory.keep("ada", RideName("r1"), 100.0, Turn(text="Why?", query=None, reply=reply))
+    memory.keep("ada", RideName("r1"), 100.0, Turn(text="Why?", reply=reply))
     [warning] = warnings
     assert "cannot be kept" in warning
     assert texts(kept) == ["Why?"]
@@ -711,7 +712,7 @@ def test_what_is_erased_is_forgotten_once_nobody_reads_it_any_more(kept: Keeping
 def test_what_was_erased_is_purged_by_and_by(kept: Keeping) -> None:
     memory = Memory(kept)
     reply = Reply(text="xyzzy", kind="answer", sim_time=0.0)
-    memory.keep("ada", None, 100.0, Turn(text="Why?", query=None, reply=reply))
+    memory.keep("ada", None, 100.0, Turn(text="Why?", reply=reply))
     reader = sqlite3.connect(kept.path, isolation_level=None)
     reader.execute("BEGIN")
     reader.execute("SELECT * FROM turns").fetchall()

@@ -7,7 +7,7 @@ import pytest
 
 from xavi_dialogue.app.bench.explain import stories
 from xavi_dialogue.app.bench.factorisations import BEGIN, END, summary, table, written
-from xavi_dialogue.explain.ride import MIN_COVERAGE, MIN_DISTINCT
+from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT
 from xavi_dialogue.transports import ride_file
 
 

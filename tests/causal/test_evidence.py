@@ -7,7 +7,7 @@ import pytest
 from planner.trace import OUTCOMES
 from tests.traces import Aim, End, Way, World, joints, prior, random_world, trace_of
 from xavi_dialogue.causal.model import CausalModel
-from xavi_dialogue.explain.ride import MIN_COVERAGE, MIN_DISTINCT, enough
+from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT, enough
 
 
 def wide_world(seed: int) -> World:

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.fakes import again, scripted_mind
+from tests.dialogue.scripted import scripted_mind
+from tests.fakes import again
 from tests.traces import s1_ride
 from xavi_dialogue.app.diagram import drawn
 from xavi_dialogue.dialogue.events import (
@@ -39,7 +40,7 @@ from xavi_dialogue.dialogue.states import (
     diagram,
 )
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 
 ROOT = Path(__file__).resolve().parents[2]
 RIDE = s1_ride(draws=20)
@@ -133,7 +134,7 @@ def test_any_row_of_inputs_ends_in_a_legal_state(row: list[Input]) -> None:
             assert session.phase is not Phase.THINKING
             assert (session.pending is not None) == (session.phase is Phase.PLANNING)
             kept = [turn for turn in session.turns if not turn.turned_away]
-            assert session.phase is not Phase.CHOOSING or kept[-1].choices
+            assert session.phase is not Phase.CHOOSING or kept[-1].offer is not None
             assert session.phase is not Phase.QUIZZING or kept[-1].quiz is not None
         state = after_it
     assert fold(MIND, [*map(TraceRecorded, RIDE.traces), *legal]) == state

@@ -17,7 +17,6 @@ from hypothesis import strategies as st
 from planner.events import Event
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.query import Query
 from xavi_dialogue.transports.database import (
     Damaged,
     Database,
@@ -35,7 +34,7 @@ SECRET = "xyzzy-plugh"
 
 def turn(text: str = "Why?", at: float = 8.0, answer: str = "So.") -> Turn:
     reply = Reply(text=answer, kind="answer", sim_time=at)
-    return Turn(text=text, query=Query(type="why", tense="past"), reply=reply, mentioned=(1,))
+    return Turn(text=text, reply=reply, mentioned=(1,))
 
 
 def new(text: str = "Why?", session: str = "ada", wall: float = 100.0, **more: object) -> NewTurn:
@@ -116,7 +115,7 @@ def test_exported_lines_say_what_they_are(path: Path) -> None:
     with Store(path) as store:
         store.keep([event(), new("Why?"), new("Hm?", "bob", ride=RideName("r2"))])
         every, bobs = lines(store), lines(store, "bob")
-    assert {line["schema"] for line in every} == {"xavi.memory/1"}
+    assert {line["schema"] for line in every} == {"xavi.memory/2"}
     assert [line.get("session") for line in every] == ["ada", "bob", None]
     assert every[0]["number"] == 1
     assert every[0]["wall_time"] == 100.0
@@ -597,3 +596,17 @@ def test_an_owner_is_forgotten_with_the_session_and_is_a_digest(path: Path) -> N
         store.keep([new(session="cat", owner="no digest")])
         with pytest.raises(Damaged, match="cat"):
             store.owner("cat")
+
+
+def test_of_turns_that_were_understood_otherwise_text_and_reply_are_kept(path: Path) -> None:
+    with Store(path) as store:
+        store.keep([new("before")])
+    reply = {"text": "So.", "kind": "answer", "sim_time": 8.0, "query": {"type": "why"}}
+    turn = {"text": "before", "query": {"type": "why"}, "reply": reply, "focus": {"begin": 1.0}}
+    with sqlite3.connect(path) as old:  # as the version before had it
+        old.execute("UPDATE turns SET turn = ?", (json.dumps(turn),))
+        old.execute("PRAGMA user_version = 2")
+    old.close()
+    with Store(path) as store:
+        [kept] = store.turns("ada", 9)
+    assert (kept.text, kept.reply) == ("before", Reply(text="So.", kind="answer", sim_time=8.0))

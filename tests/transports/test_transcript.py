@@ -2,7 +2,7 @@ import pytest
 
 from planner.events import Event
 from tests.traces import s1_ride
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transports.transcript import (

@@ -8,7 +8,7 @@ from sim.scenario import Scenario
 from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
 from xavi_dialogue.app.ride import network_of, start
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.language.context import Style
+from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.transports.messages import MAX_TEXT
 from xavi_dialogue.transports.text import one_line
 

@@ -10,8 +10,9 @@ from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import DEADLINE, GRACE, Client, ServiceLost, new_request
 from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.narration import clock, plan_in_words
-from xavi_dialogue.dialogue.referents import vehicle_words
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.explain.facts.looks import look_in
+from xavi_dialogue.nlg.surface.referring import described
 from xavi_dialogue.transports.commands import forms
 from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.text import one_line
@@ -137,10 +138,11 @@ def vehicles_in_words(scene: SceneReport | None) -> str:
     """The other vehicles in view, a line each."""
     if scene is None:
         return ALONE
+    looks = (look_in(scene.vehicles, name, scene.sim_time) for name in sorted(scene.vehicles))
     lines = (
-        f"vehicle {name}: {words.description or 'a ' + one_line(scene.vehicles[name].kind)},"
-        f" {scene.vehicles[name].speed * KMH:.0f} km/h"
-        for name, words in vehicle_words(scene.vehicles).items()
+        f"vehicle {look.vehicle}: {one_line(described(look))}, {look.speed * KMH:.0f} km/h"
+        for look in looks
+        if look is not None
     )
     return "\n".join(lines) or ALONE
 

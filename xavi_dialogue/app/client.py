@@ -11,9 +11,8 @@ from typing import TypeAlias, TypeVar
 from planner import trace as plan_trace
 from planner.trace import PlanTrace, TraceError
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import NoExplanation, Reason
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.context import SpeechContext, Style
+from xavi_dialogue.domain.answers import Reason, Unavailable
+from xavi_dialogue.nlg.context import SpeechContext, Style
 from xavi_dialogue.transports.bus import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
 from xavi_dialogue.transports.messages import (
     MAX_TEXT,
@@ -270,10 +269,9 @@ def _bracketed(text: str, reason: Reason, at: float | None) -> Reply:
 def _late(at: float | None, style: Style) -> Reply:
     """What the service would have said, had it kept to its deadline."""
     # Deferred: a service that hangs is rare, and sentences take a while to load.
-    from xavi_dialogue.language.refusals import refuse
+    from xavi_dialogue.nlg.say import say
 
-    refusal = NoExplanation(reason="timed-out")
-    said = refuse(Query(type="what"), refusal, SpeechContext(style=style))
+    said = say(Unavailable("timed-out"), SpeechContext(style=style))
     return Reply(text=said.text, kind="refusal", reason="timed-out", sim_time=at or 0.0)
 
 

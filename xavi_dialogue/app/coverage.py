@@ -1,9 +1,9 @@
 """`xavi transcripts --coverage`: what the golden conversations exercise, and what none does.
 
-Counted are question types, reasons for refusals, the rules of the question grammar and of all
-answer grammars, and, as a finer list, the alternatives of the latter; and only what was understood
-and said. Which alternatives an answer was made of is watched from outside, as coverage tools do, so
-that the realiser need not know.
+Counted are types of acts, questions, answers and refusals, reasons, the rules of the question
+grammar and of all answer grammars, and, as a finer list, the alternatives of the latter; and only
+what was understood and said. Of which rules and alternatives a question was read and an answer was
+made is watched from outside, as coverage tools do, so that parser and realiser need not know.
 """
 
 import re
@@ -12,23 +12,34 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
-from importlib.resources.abc import Traversable
 from types import FrameType
-from typing import get_args
+from typing import TypeAlias, get_args
 
+from xavi_dialogue.app.bench.latency import forget
 from xavi_dialogue.app.golden import Written, by_ride, recording, replay_recorded
 from xavi_dialogue.app.local import make_mind
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import Reason
-from xavi_dialogue.explain.query import Query, QueryType
-from xavi_dialogue.language.generator import choose
-from xavi_dialogue.language.grammar import GRAMMAR_FILES, grammar, rules_of
-from xavi_dialogue.language.orthography import capitalise
-from xavi_dialogue.language.parse import NotUnderstood, ParseReport, explained
-from xavi_dialogue.language.rules import Alternative, load_grammar
+from xavi_dialogue.domain.answers import Answer, Reason, Refusal
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.meaning import Act, Question, Reading
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.nlg.surface.generator import choose
+from xavi_dialogue.nlg.surface.orthography import capitalise
+from xavi_dialogue.nlg.surface.realiser import GRAMMARS
+from xavi_dialogue.nlg.surface.realiser import grammar as passenger_grammar
+from xavi_dialogue.nlg.surface.rules import Alternative, Grammar, load_grammar
+from xavi_dialogue.nlu.compose.acts import Composer
+from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.rules import GRAMMAR_FILES
+from xavi_dialogue.nlu.grammar.rules import grammar as question_grammar
+from xavi_dialogue.nlu.grounding.result import Grounding
 
-_RULE = re.compile(r"^[?!]?([a-z_]\w*)\s*:(?!:)")
+_RULE = re.compile(r"(?:^!?|->\s*)([a-z]\w*)(?=(?:\.-?\d+)?\s*:|\s*$)")
+PAPER = "answer_paper"
+ACTS, QUESTIONS, ANSWERS, REFUSALS = "types of acts", "questions", "answers", "refusals"
+#: An alternative beside its file and its line there.
+Placed: TypeAlias = tuple[str, int, str, Alternative]
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -77,7 +88,10 @@ def measure(written: Sequence[Written]) -> Coverage:
     rules, alternatives = _answer_rules(), _alternatives()
     counts = dict.fromkeys(
         (
-            *(Item("question types", name) for name in get_args(QueryType)),
+            *_types(ACTS, Act),
+            *_types(QUESTIONS, Question),
+            *_types(ANSWERS, Answer),
+            *_types(REFUSALS, Refusal),
             *(Item("reasons", name) for name in get_args(Reason)),
             *_question_rules().values(),
             *rules.values(),
@@ -89,57 +103,97 @@ def measure(written: Sequence[Written]) -> Coverage:
         ride = recording(path)
         for one in about:
             ear = _Ear()
-            with _watched() as mouth:
+            forget()
+            with _watched(ear) as mouth:
                 played = replay_recorded(one.transcript, ride, ear.mind())
             for item in _exercised(played.replies, ear, mouth, (rules, alternatives)):
                 counts[item] += 1
     return Coverage(counts)
 
 
+def _types(group: str, union: object) -> Iterator[Item]:
+    yield from (Item(group, one.__name__) for one in get_args(union))
+
+
 def _exercised(
     replies: Iterable[Reply], ear: "_Ear", mouth: "_Mouth", answers: Sequence[dict[int, Item]]
 ) -> Iterator[Item]:
-    """What one conversation exercises; each as often as it does."""
+    """Yield what one conversation exercises; each as often as it does."""
     said = tuple(reply.text.casefold() for reply in replies)
     for reply in replies:
-        if reply.query is not None:
-            yield Item("question types", reply.query.type)
-        elif reply.kind == "clarification":
-            yield Item("question types", "ambiguous")
+        yield from _typed(reply)
         if reply.reason is not None:
             yield Item("reasons", reply.reason)
     for text, chosen in mouth.spoken:
-        if any(text.casefold() in one for one in said):
-            yield from (items[id(one)] for items in answers for one in chosen)
+        if any(text.casefold().rstrip(".?!") in one for one in said):
+            yield from (items[id(one)] for items in answers for one in chosen if id(one) in items)
     rules = _question_rules()
-    for report in ear.reports:
-        if isinstance(report.result, Query) and report.readings:
-            best = report.readings[0]
-            if best.tree is not None and best.query == report.result:
-                yield from (rules[name] for name in sorted(rules_of(best.tree) & rules.keys()))
+    for names in ear.read_by:
+        yield from (rules[name] for name in sorted(names & rules.keys()))
+
+
+def _typed(reply: Reply) -> Iterator[Item]:
+    """Yield the types of what was asked and answered in a turn."""
+    refusals = {one.__name__ for one in get_args(Refusal)}
+    for grounded in reply.acts:
+        act = grounded["act"]
+        assert isinstance(act, dict)
+        yield Item(ACTS, act["is"])
+        if "question" in act and act["is"] == "Ask":
+            yield Item(QUESTIONS, act["question"]["is"])
+    for answer in reply.answers:
+        name = str(answer["is"])
+        yield Item(REFUSALS if name in refusals else ANSWERS, name)
 
 
 @dataclass
 class _Ear:
-    """What the parser reported of all that it was asked about."""
+    """Of which rules the readings that were chosen are made."""
 
-    reports: list[ParseReport] = field(default_factory=list)
+    composed: list[tuple[Node, tuple[tuple[Act, ...], ...]]] = field(default_factory=list)
+    read_by: list[frozenset[str]] = field(default_factory=list)  # names of rules, of each text
+    _readings: tuple[Reading, ...] = ()
 
     def mind(self) -> Mind:
-        """Our mind, hearing with this ear."""
-        return replace(make_mind(), parse=self._parse)
+        """Return our mind, hearing with this ear."""
+        mind = make_mind()
 
-    def _parse(
-        self, text: str, vehicles: frozenset[int], previous: Query | None
-    ) -> Query | NotUnderstood:
-        self.reports.append(explained(text, previous, vehicles))
-        return self.reports[-1].result
+        def read(text: str) -> tuple[Reading, ...]:
+            self._readings = mind.read(text)
+            return self._readings
+
+        def ground(
+            readings: tuple[Reading, ...], record: Record, discourse: Discourse
+        ) -> Grounding:
+            found = mind.ground(readings, record, discourse)
+            if found.acts and found.reading in readings:
+                self._note(self._readings[readings.index(found.reading)])
+            self.composed.clear()
+            return found
+
+        return replace(mind, read=read, ground=ground)
+
+    def _note(self, chosen: Reading) -> None:
+        """Take note of the rules of the units that a reading is composed of."""
+        names: set[str] = set()
+        for unit, ways in self.composed:
+            if any(acts and set(acts) <= set(chosen.acts) for acts in ways):
+                names |= set(_names(unit))
+        self.read_by.append(frozenset(names))
+
+
+def _names(node: Node) -> Iterator[str]:
+    yield node.name
+    for part in node.parts:
+        if isinstance(part, Node):
+            yield from _names(part)
 
 
 @dataclass
 class _Mouth:
     """All texts that were finished, each with the alternatives chosen since the one before."""
 
+    ear: _Ear
     spoken: list[tuple[str, tuple[Alternative, ...]]] = field(default_factory=list)
     chosen: list[Alternative] = field(default_factory=list)
 
@@ -152,12 +206,15 @@ class _Mouth:
         elif frame.f_code is capitalise.__code__ and isinstance(value, str):
             self.spoken.append((value, tuple(self.chosen)))
             self.chosen.clear()
+        elif frame.f_code is Composer.compose.__code__ and isinstance(value, list):
+            ways = tuple(acts for acts, _ in value)
+            self.ear.composed.append((frame.f_locals["unit"], ways))
 
 
 @contextmanager
-def _watched() -> Iterator[_Mouth]:
-    """Watch what the realiser does. A profiler that is at work has to wait."""
-    mouth = _Mouth()
+def _watched(ear: _Ear) -> Iterator[_Mouth]:
+    """Watch what parser and realiser do. A profiler that is at work has to wait."""
+    mouth = _Mouth(ear)
     before: Callable[..., object] | None = sys.getprofile()
     sys.setprofile(mouth.see)
     try:
@@ -167,44 +224,64 @@ def _watched() -> Iterator[_Mouth]:
 
 
 def _answer_rules() -> dict[int, Item]:
-    """The rules of the answer grammars, by the identity of each of their alternatives."""
+    """Return the rules of the answer grammars, by the identity of each of their alternatives."""
+    places: dict[tuple[str, str], int] = {}
     items: dict[int, Item] = {}
-    for path in _grammars():
-        for rule in load_grammar(path.name.removesuffix(".rules")).values():
-            name = f"grammars/{path.name}:{rule.alternatives[0].line}: {rule.name}"
-            item = Item(f"rules of {path.name}", name)
-            items |= {id(one): item for one in rule.alternatives}
+    for file, line, rule, one in _placed():
+        first = places.setdefault((file, rule), line)
+        items[id(one)] = Item(f"rules of {file}", f"grammars/{file}:{first}: {rule}")
     return items
 
 
 def _alternatives() -> dict[int, Item]:
-    """All alternatives of the answer grammars, by identity: two may be alike."""
+    """Return all alternatives of the answer grammars, by identity: two may be alike."""
     items: dict[int, Item] = {}
-    for path in _grammars():
-        lines = path.read_text(encoding="utf-8").splitlines()
-        for rule in load_grammar(path.name.removesuffix(".rules")).values():
-            for number, one in enumerate(rule.alternatives, 1):
-                text = re.sub(r"^[A-Z_]+\[.*?\]\s*->|^\s*\|", "", lines[one.line - 1]).strip()
-                name = f"grammars/{path.name}:{one.line}: {rule.name} {number}: {text}"
-                items[id(one)] = Item(f"alternatives of {path.name}", name, fine=True)
+    numbers: dict[tuple[str, str], int] = {}
+    for file, line, rule, one in _placed():
+        number = numbers[file, rule] = numbers.get((file, rule), 0) + 1
+        text = _lines(file)[line - 1]
+        text = re.sub(r"^[A-Z_]+\[.*?\]\s*->|^\s*\|", "", text).strip()
+        name = f"grammars/{file}:{line}: {rule} {number}: {text}"
+        items[id(one)] = Item(f"alternatives of {file}", name, fine=True)
     return items
 
 
-def _grammars() -> list[Traversable]:
-    """The files of the answer grammars, by name."""
-    paths = sorted(files("grammars").iterdir(), key=lambda path: path.name)
-    return [path for path in paths if path.name.endswith(".rules")]
+def _placed() -> Iterator[Placed]:
+    """Yield the alternatives of the answer grammars; those for passengers are read as one text."""
+    starts, before = [], 0
+    for name in GRAMMARS:
+        starts.append((before, f"{name}.rules"))
+        before += len(_lines(f"{name}.rules"))
+    for rule, one in _every(passenger_grammar()):
+        start, file = max(place for place in starts if place[0] < one.line)
+        yield file, one.line - start, rule, one
+    for rule, one in _every(load_grammar(PAPER)):
+        yield f"{PAPER}.rules", one.line, rule, one
+
+
+def _every(grammar: Grammar) -> Iterator[tuple[str, Alternative]]:
+    for rule in grammar.values():
+        yield from ((rule.name, one) for one in rule.alternatives)
+
+
+def _lines(file: str) -> list[str]:
+    return (files("grammars") / file).read_text(encoding="utf-8").split("\n")
 
 
 def _question_rules() -> dict[str, Item]:
-    """The rules of the question grammar, by name."""
-    made = {rule.origin.name for rule in grammar().rules}
+    """Return the rules of the question grammar that show in what is read, by name."""
+    made = {
+        name
+        for phrase in question_grammar().phrases
+        if not phrase.splices
+        for state in phrase.states
+        for name, _ in state.complete
+    }
     items: dict[str, Item] = {}
-    for name in GRAMMAR_FILES:
-        lines = (files("grammars") / name).read_text(encoding="utf-8").splitlines()
-        for number, line in enumerate(lines, 1):
-            found = _RULE.match(line)
-            if found is not None and found[1] in made:
-                place = f"grammars/{name}:{number}: {found[1]}"
-                items[found[1]] = Item(f"rules of {name}", place)
+    for file in GRAMMAR_FILES:
+        for number, line in enumerate(_lines(file), 1):
+            for name in _RULE.findall(line):
+                if name in made and name not in items:
+                    place = f"grammars/{file}:{number}: {name}"
+                    items[name] = Item(f"rules of {file}", place)
     return items

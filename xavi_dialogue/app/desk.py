@@ -33,10 +33,9 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.dialogue.states import IllegalEvent, Phase
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation, Reason
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.refusals import refuse
+from xavi_dialogue.domain.answers import NeedRollout, Reason, Unavailable
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.say import say
 from xavi_dialogue.transports.messages import AskRequest, CancelRequest
 
 _LOG = logging.getLogger(__name__)
@@ -316,8 +315,7 @@ def _plan_again(question: Question, need: NeedRollout) -> PlanAgain:
 
 def sorry(asked: AskRequest, at: float) -> Reply:
     """What is said where nothing else can be, for the record itself may be at fault."""
-    why = NoExplanation(reason="planner-failed")
-    said = refuse(Query(type="what"), why, SpeechContext(style=asked.style))
+    said = say(Unavailable("planner-failed"), SpeechContext(style=asked.style))
     return Reply(text=said.text, kind="refusal", reason="planner-failed", sim_time=at)
 
 

@@ -17,7 +17,7 @@ from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.owners import Owners
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import EPSILON
-from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.transports.bus import (
     DEFAULT_VEHICLE,
     Bus,

@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports.bus import Call
 from xavi_dialogue.transports.messages import AskRequest
 

@@ -7,8 +7,7 @@ from planner.trace import TraceError
 from sim.scenario import ScenarioError
 from sim.sumo import SimulationError
 from xavi_dialogue.app.bench.browser import NoBrowser
-from xavi_dialogue.app.bench.fuzz import FaultFound
-from xavi_dialogue.app.bench.questions import QuestionFileError
+from xavi_dialogue.app.bench.errors import FaultFound, QuestionFileError
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError

@@ -11,13 +11,16 @@ from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.manager import MAX_ROUNDS
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.explain.explanation import NeedRollout
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.meaning import Ask, Reading, Why
+from xavi_dialogue.domain.terms import Event, Happens
 from xavi_dialogue.transports.messages import SceneReport
 
 AHEAD = 5.0  # [s] that such a plan may take
 FASTEST = 2.0  # simulated seconds per second; beyond it decisions come faster than plans
-WHY = Query(type="why")
+#: "Why did you do that?", of what was done last.
+WHY = Reading(acts=(Ask(Why(Happens(Event("do")))),), shares=())
 
 
 @dataclass
@@ -45,9 +48,12 @@ class Foreseen:
 
 def _wanted(mind: Mind, dialogue: Dialogue, at: float) -> NeedRollout | None:
     """What an answer lacks beyond all that was planned before."""
+    grounding = mind.ground((WHY,), dialogue.record(at), Discourse())
+    if not grounding.acts:
+        return None
     extra: tuple[PlanTrace, ...] = ()
     for _ in range(MAX_ROUNDS):
-        found = mind.explain(WHY, dialogue.record(at, extra))
+        found = mind.explain(grounding.acts[0], dialogue.record(at, extra))
         if not isinstance(found, NeedRollout):
             return None
         known = dialogue.planned.get(found)

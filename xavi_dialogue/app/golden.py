@@ -21,7 +21,7 @@ from xavi_dialogue.app.play import Played, latest, play
 from xavi_dialogue.app.ride import clock, network_of, start
 from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.explain.explanation import NeedRollout
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports import ride_file
 from xavi_dialogue.transports.ride_file import RecordedRide, RideFileError, key
 from xavi_dialogue.transports.transcript import Transcript, TranscriptError, read, write

@@ -13,7 +13,7 @@ from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.language.rules import load_all
+from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.transports.link import Link
 from xavi_dialogue.transports.zenoh_bus import host
 
@@ -56,5 +56,5 @@ def _told_to_quit(orders: control.Orders) -> bool:
 
 def _warm(mind: Mind) -> None:
     """Have parser and sentences read their grammars, so that the first passenger need not wait."""
-    load_all()
+    grammar()
     advance(mind, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))

@@ -24,12 +24,13 @@ from xavi_dialogue.dialogue.events import (
 )
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.recollection import Recollection
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.explain.recollection import Recollection
-from xavi_dialogue.language.context import Style
-from xavi_dialogue.language.parse import Parser
+from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.nlg.say import say
+from xavi_dialogue.nlu.parse import Parser
 
 SESSION = "passenger"
 
@@ -46,11 +47,10 @@ class NoPlan(Exception):
 
 
 def make_mind() -> Mind:
-    """The mind with our parser and our explanations."""
-    parser = Parser()
+    """Make the mind of our parser, our explanations and our words."""
+    known = Recollection()
     return Mind(
-        parse=lambda text, vehicles, previous: parser.follow(text, previous, vehicles),
-        explain=Recollection().explain,
+        read=Parser().read, ground=known.ground, explain=known.explain, say=say, see=known.see
     )
 
 

@@ -1,12 +1,16 @@
-"""`xavi parse`: the query that a question means."""
+"""`xavi parse`: what a question means."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
-import lark
 import msgspec
 
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.parse import NotUnderstood, Parser, ParseReport, as_query
+from xavi_dialogue.domain.meaning import Act, Reading, TokenShare
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlu.grounding.rewriting import parts
+from xavi_dialogue.nlu.notation import acts_line, reading_line
+from xavi_dialogue.nlu.parse import Parser
+from xavi_dialogue.nlu.projection import QueryFields, project
+from xavi_dialogue.nlu.projection.fields import TALK
 from xavi_dialogue.transports.text import one_line
 
 MAX_VEHICLE = 10_000
@@ -17,7 +21,7 @@ class ParseUsageError(ValueError):
 
 
 def vehicle_names(text: str) -> frozenset[int]:
-    """The names in "0-5" or "0,2,7".
+    """Return the names in "0-5" or "0,2,7".
 
     Raises:
         ParseUsageError: the text is neither.
@@ -31,17 +35,34 @@ def vehicle_names(text: str) -> frozenset[int]:
     return frozenset(names)
 
 
+class Meaning(msgspec.Struct, frozen=True, omit_defaults=True):
+    """What a question means, as `xavi parse --json` prints it."""
+
+    text: str
+    query: QueryFields  # of the first act
+    acts: tuple[Act, ...]
+    unknown: tuple[str, ...]  # words without a part in it
+    strangers: tuple[int, ...]  # vehicles that there are not
+    readings: tuple[Reading, ...] = ()  # likeliest first, with what each word contributes
+
+
 def parse_text(
     text: str, vehicles: frozenset[int], *, explain: bool, as_json: bool
 ) -> tuple[str, bool]:
-    """What a question means, for people or as JSON, and whether it was understood."""
-    report = Parser().explain(one_line(text), vehicles=vehicles)
-    understood = isinstance(report.result, Query)
-    told = report if explain else report.result
-    shown = msgspec.json.encode(told, enc_hook=_tree).decode()
-    if not as_json:
-        shown = _steps(report) if explain else _lines(report.result)
-    return shown, understood
+    """Return what a question means, for people or as JSON, and whether it was understood."""
+    typed = one_line(text)
+    readings = Parser().read(typed)
+    best = readings[0]
+    meaning = Meaning(
+        text=typed,
+        query=project(best.acts),
+        acts=best.acts,
+        unknown=best.unknown,
+        strangers=_strangers(best.acts, vehicles),
+        readings=readings if explain else (),
+    )
+    shown = msgspec.json.encode(meaning).decode() if as_json else _lines(meaning)
+    return shown, bool(best.acts)
 
 
 class Line(msgspec.Struct, frozen=True):
@@ -55,9 +76,14 @@ class Line(msgspec.Struct, frozen=True):
 def parse_lines(
     lines: Iterable[str], vehicles: frozenset[int], note: Callable[[str], None]
 ) -> Iterator[str]:
-    """The answer line to each question line such as {"id": "q1", "text": "...", "context": []}.
+    """Return the answer line to each question line such as {"id": "q1", "text": "..."}.
 
     A line that is none is noted, and the others are answered all the same.
+
+    Args:
+        lines: the question lines, with the earlier turns in `context` where there are any.
+        vehicles: names of the vehicles there are; a question about another is noted.
+        note: takes notes.
 
     Raises:
         ParseUsageError: at the end, where some lines were none.
@@ -72,48 +98,46 @@ def parse_lines(
             shown = one_line(line)[:60]
             note(f'line {count} is not {{"id": .., "text": ..}} ({error}); it is: {shown}')
             continue
-        context = question.context or ()
-        query = as_query(parser.parse(question.text, vehicles=vehicles, context=context))
+        for name in _strangers(parser.read(question.text)[0].acts, vehicles):
+            note(f"line {count}: there is no vehicle {name}")
+        query = query_of(parser, question.text, question.context or ())
         yield msgspec.json.encode({"id": question.id, "query": query}).decode()
     if broken:
         raise ParseUsageError(f"{broken} of {count} lines hold no question")
 
 
-def _tree(value: object) -> object:
-    """What the grammar read, as JSON: a list of rule and parts, and words with their terminals."""
-    if isinstance(value, lark.Tree):
-        return [str(value.data), *value.children]
-    if isinstance(value, lark.Token):
-        return f"{value.type}={value}"
-    raise NotImplementedError(type(value))
+def query_of(parser: Parser, text: str, context: Sequence[str] = ()) -> QueryFields:
+    """Return the query fields of a text after earlier turns, oldest first."""
+    previous: QueryFields | None = None
+    for turn in context:
+        found = project(parser.read(turn)[0].acts, previous)
+        previous = previous if found.type in TALK else found
+    return project(parser.read(text)[0].acts, previous)
 
 
-def _lines(result: Query | NotUnderstood) -> str:
-    """The fields that say something, a line each."""
-    if isinstance(result, NotUnderstood):
-        unknown = f" ({', '.join(result.hints)})" if result.hints else ""
-        return f"not understood: {result.cause}{unknown}"
-    fields = msgspec.structs.asdict(result)
-    return "\n".join(f"{name:20} {_word(value)}" for name, value in fields.items() if value)
+def _strangers(acts: tuple[Act, ...], vehicles: frozenset[int]) -> tuple[int, ...]:
+    named = {vehicle.number for act in acts for vehicle in parts(act, Vehicle)}
+    return tuple(sorted(named - vehicles))
+
+
+def _lines(meaning: Meaning) -> str:
+    """Write what a question means, then its fields that say something, a line each."""
+    lines = [_shares(reading.shares) for reading in meaning.readings[:1]]
+    lines += [f"{'reading':20} {reading_line(reading)}" for reading in meaning.readings]
+    lines.append(f"{'meaning':20} {acts_line(meaning.acts) if meaning.acts else 'not understood'}")
+    noted = {"unknown words": meaning.unknown, "no such vehicle": meaning.strangers}
+    fields = {**noted, **(msgspec.structs.asdict(meaning.query) if meaning.acts else {})}
+    lines += [f"{name:20} {_word(value)}" for name, value in fields.items() if value]
+    return "\n".join(line for line in lines if line)
 
 
 def _word(value: object) -> str:
-    return ", ".join(value) if isinstance(value, tuple) else str(value)
+    return ", ".join(map(str, value)) if isinstance(value, tuple) else str(value)
 
 
-def _steps(report: ParseReport) -> str:
-    corrected = ", ".join(f"{a} -> {b}" for a, b in report.corrections)
-    lines = [
-        "tokens      " + "  ".join(f"{token.terminal}={token.text}" for token in report.tokens),
-        f"corrected   {corrected or '-'}",
-    ]
-    for reading in report.readings:
-        query = msgspec.structs.asdict(reading.query)
-        said = ", ".join(f"{name}={_word(value)}" for name, value in query.items() if value)
-        manner = "loose " if reading.loose else ""
-        lines.append(f"reading     {reading.score:6.2f}  {manner}{reading.rule}: {said}")
-    for kind in report.kinds:
-        lines.append(
-            f"judged      {kind.probability:6.2f}  {kind.name}: {'; '.join(kind.telling) or '-'}"
-        )
-    return "\n".join((*lines, "result", _lines(report.result)))
+def _shares(shares: tuple[TokenShare, ...]) -> str:
+    """Write what each word contributes, a line each."""
+    return "\n".join(
+        f"{share.text:20} {share.share:10} {share.read:20} {share.part}".rstrip()
+        for share in shares
+    )

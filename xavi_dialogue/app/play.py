@@ -14,8 +14,8 @@ from xavi_dialogue.dialogue.events import Input, Resumed
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.language.context import Style
+from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.transports.transcript import (
     At,
     Befallen,

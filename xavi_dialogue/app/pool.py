@@ -25,7 +25,7 @@ from typing import Self, TypeAlias
 import msgspec
 
 from xavi_dialogue.app.worker import READY, Result
-from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.transports.messages import Failure
 
 WAITING = 8  # jobs that may wait for a worker

@@ -15,7 +15,7 @@ from xavi_dialogue.app.errands import Question
 from xavi_dialogue.app.memory import Memory
 from xavi_dialogue.app.owners import UNKNOWN, Owners
 from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.transports.bus import Call, vehicle_in
 from xavi_dialogue.transports.messages import (
     KIB,

@@ -13,7 +13,7 @@ from xavi_dialogue.app.minutes import Minutes
 from xavi_dialogue.app.piped import Piped, Write
 from xavi_dialogue.app.talking import Typed, Unasked, talk
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.language.context import Style
+from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.transports.bus import EVERY_CAR, HubUnreachable, Keys, NobodyThere, vehicle_in
 from xavi_dialogue.transports.commands import CommandError
 from xavi_dialogue.transports.link import Link

@@ -25,7 +25,7 @@ from planner.whatif import Inapplicable, NotInView, WhatIfError, replan
 from sim.netfile import read_network
 from sim.network import Network, point_at
 from sim.scene import EGO, VehicleState
-from xavi_dialogue.explain.explanation import Reason
+from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.transports.messages import Failure
 
 READY = b"ready\n"

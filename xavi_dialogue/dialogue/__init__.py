@@ -1,1 +1,1 @@
-"""The sans-I/O dialogue manager: events in, events out."""
+"""Dialogue: the conversation as a function of its inputs. No sockets, clock or threads."""

@@ -1,209 +1,255 @@
-"""Going deeper: what a bare "why?", "how do you know?" or "which car?" asks after an answer.
+"""Going deeper: what a bare "why?", "how do you know?" or "are you sure?" asks after an answer.
 
-A row of whys goes one level down each time: from a decision to the prediction of the vehicle
-behind it, from there to the evidence for the prediction, and there it ends.
+A row of whys goes one level down each time: from a decision to the belief about the vehicle
+behind it, from there to the evidence for the belief, and there it ends.
 """
 
-from typing import Literal
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
 
-import msgspec
+from msgspec.structs import replace
 
-from sim.scene import EGO
-from xavi_dialogue.dialogue.memory import Memory
-from xavi_dialogue.dialogue.referents import PREFIX
+from xavi_dialogue.dialogue.discourse import event_of
+from xavi_dialogue.dialogue.memory import is_about_drive
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.avoidance import CRASH
-from xavi_dialogue.explain.details import Impact
-from xavi_dialogue.explain.explanation import Cause, Explanation, NoExplanation
-from xavi_dialogue.explain.query import Query, QueryAction
+from xavi_dialogue.domain.answers import (
+    Activity,
+    Again,
+    Answer,
+    Avoidance,
+    Beliefs,
+    Bound,
+    CannotSay,
+    Cause,
+    Certainty,
+    ChoiceReason,
+    Comforting,
+    Contrast,
+    Declined,
+    DidNotHappen,
+    Grounds,
+    Happenings,
+    Judged,
+    Measures,
+    Method,
+    MotionCause,
+    MotionReason,
+    NotApplicable,
+    Options,
+    OtherReason,
+    Pivot,
+    PlanAhead,
+    Refusal,
+    SupposedOfOther,
+    SupposedOfUs,
+    TooLittle,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Belief, Measure
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    HowKnow,
+    HowSure,
+    Reading,
+    Repair,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    At,
+    Believed,
+    Ego,
+    Event,
+    Happens,
+    Not,
+    Proposition,
+    That,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
 
-WHICH = "which"  # the event of "which car?"
-#: Beneath the evidence, and what the road allows, there are no further reasons.
-BOTTOM = NoExplanation(reason="out-of-scope", facts={"what": "deeper"})
+#: Nothing lies beneath the last answer; or the words alone are to be understood.
+Deeper: TypeAlias = Act | Literal["bottom", "leave"]
+BOTTOM = CannotSay(topic="deeper")
+MORE = Repair(kind="longer")
 
-_REASONED = frozenset({"why", "why_not", "what_if", "compare", "how_avoid", "sensitivity"})
 
+def recast(reading: Reading, turns: Sequence[Turn]) -> Reading:
+    """Put in the place of bare follow-ups what they ask after the answers so far.
 
-def deeper(memory: Memory, query: Query) -> Query | None:
-    """What a bare "why?" asks after an answer; None where there is nothing beneath it.
-
-    Args:
-        memory: the conversation.
-        query: the bare "why?" as the words alone are understood.
+    An act beneath which nothing lies is left as `Repair(kind="why")`.
     """
-    last = _reasoned(memory)
+    last = _last(turns)
     if last is None:
-        return query
-    before, found = last.query, last.reply.explanation
-    if before is None:
-        return query
-    if found is None:
-        return _of_refusal(query, last)
-    if found.impact is not None:
-        return _of_collision(before, found.impact)
-    foretold = before.type == "what" and before.tense == "future" and before.actor != "ego"
-    if before.type == "what" and not (foretold and before.factual):
-        return _of_doing(query, found)
-    if before.type not in (*_REASONED, "confidence", "how", "where_goal", "what"):
-        return query
-    if before.type == "what_if" and before.intervention == "remove" and found.factual:
-        return Query(
-            type="why", factual=found.factual[:1], tense=before.tense, refers_to_previous=True
-        )
-    if before.actor == "ego" and before.type in _REASONED:
-        cause = _first_cause(last)
-        if cause is not None:
-            return _motive(cause, before)
-        return msgspec.structs.replace(query, detail="more") if before.detail != "more" else None
-    if before.type == "where_goal" and before.actor == "ego":
-        return query
-    if before.type in ("why", "confidence", "where_goal", "what"):
-        return Query(
-            type="how",
-            actor=before.actor,
-            factual=(before.factual if foretold else None) or _expected(last)[-1:] or None,
-            tense=before.tense,
-            refers_to_previous=True,
-        )
+        return reading
+    return replace(reading, acts=tuple(_recast(act, last) for act in reading.acts))
+
+
+def _recast(act: Act, last: Turn) -> Act:
+    if _is_bare_why(act):
+        found = deeper(last)
+        return act if found == "leave" else Repair(kind="why") if found == "bottom" else found
+    match act:
+        case Ask(question=HowKnow(of=None | That())):
+            event = _blamed(_main(last))
+            return act if event is None else Ask(HowKnow(Happens(event)))
+        case Ask(question=HowSure(of=None | That(), changed=False) as question):
+            event = _doubted(_main(last))
+            return act if event is None else Ask(replace(question, of=Happens(event)))
+    return act
+
+
+def deeper(last: Turn) -> Deeper:
+    """Return what a bare "why?" asks after a turn."""
+    result = _main(last)
+    match result:
+        case ChoiceReason() | MotionReason() | SupposedOfUs() | DidNotHappen() | Declined():
+            return _of_ours(result, last)
+        case OtherReason(goal=Belief() as belief) | Bound(belief=Belief() as belief):
+            return _evidence(belief)
+        case Beliefs(history=history) if history:
+            return _evidence(history[-1])
+        case Activity(actor=Vehicle(), belief=Belief() as belief):
+            return _evidence(belief)
+        case Verdict(that=that, holds=bool() as holds):
+            return Ask(Why(that if holds else _contrary(that)))
+        case Happenings(episodes=episodes) if episodes:
+            return Ask(Why(Happens(event_of(episodes[-1]))))
+        case Measures(measures=(Measure(attribute="speed", gap=None) as speed, *_)):
+            driving = Event("move", speed.thing, time=At(speed.time), tense="present")
+            return Ask(Why(Happens(driving)))
+        case Activity(doing=doing) if doing:
+            return Ask(Why(Happens(event_of(doing[-1]))))
+        case PlanAhead(steps=steps) if steps:
+            return Ask(Why(Happens(Event(steps[0][0], tense="future", modal="will"))))
+        case SupposedOfOther(plan=plan) if plan:
+            return Ask(Why(Happens(Event(plan[0], tense="past" if result.past else "present"))))
+        case Options(options=options, decided=decided):
+            chosen = [one.action for one in options if one.chosen]
+            return Ask(Why(Happens(Event(chosen[0], time=At(decided))))) if chosen else "bottom"
+        case OtherReason() | Grounds() | Certainty() | Method() | Pivot() | Avoidance():
+            return "bottom"
+        case CannotSay() | NotApplicable() | TooLittle():
+            return "bottom"
+    return "leave"
+
+
+def _of_ours(
+    result: ChoiceReason | MotionReason | SupposedOfUs | DidNotHappen | Declined, last: Turn
+) -> Deeper:
+    """Return what lies beneath an answer about what we did or might have done."""
+    if isinstance(result, DidNotHappen):
+        if result.answer is not None:
+            return "bottom"
+        deeds = result.instead[-1:]
+        return Ask(Why(Happens(event_of(deeds[0])))) if deeds else "leave"
+    if isinstance(result, Declined):
+        return Ask(Why(Not(Happens(replace(result.request.event, actor=Ego(), tense="present")))))
+    event = _blamed(result)
+    if event is not None:
+        time = event.time
+        return Ask(Why(Believed(Happens(event), time=time)))
+    cause = _seen(result)
+    if cause is not None:
+        return cause
+    asked_more = any(isinstance(r, Again) and r.how == "longer" for r in last.results)
+    return "bottom" if asked_more else MORE
+
+
+def _seen(result: ChoiceReason | MotionReason | SupposedOfUs) -> Act | None:
+    """Return why a vehicle did what was in our way before our eyes."""
+    if not isinstance(result, MotionReason):
+        return None
+    first = next((c for c in result.causes if c.vehicle), None)
+    if first is None or first.vehicle is None:
+        return None
+    if first.did is not None:
+        return Ask(Why(Happens(event_of(first.did))))
+    doing: ActionName = "stand" if first.speed is not None and first.speed < 0.5 else "move"
+    return Ask(Why(Happens(Event(doing, Vehicle(first.vehicle), time=At(result.deed.begin)))))
+
+
+def _blamed(result: Answer | Refusal | None) -> Event | None:
+    """Return what was expected of the vehicle that an answer names first, as of the decision."""
+    match result:
+        case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
+            return _of_contrast(contrast)
+        case MotionReason(causes=causes, deed=deed):
+            first = next((c for c in causes if c.vehicle), None)
+            return None if first is None else _foreseen(first, deed.begin)
+        case OtherReason(goal=Belief() as belief) | Bound(belief=Belief() as belief):
+            return _expected(belief)
+        case Activity(actor=Vehicle(), belief=Belief() as belief):
+            return _expected(belief)
+        case Beliefs(history=history) if history:
+            return _expected(history[-1])
     return None
 
 
-def _of_refusal(query: Query, last: Turn) -> Query | None:
-    """After a wrong premise: why we did what we did, or do what we do, instead."""
-    if last.reply.reason != "did-not-happen":
+def _doubted(result: Answer | Refusal | None) -> Event | None:
+    """Return the event of which "are you sure?" asks; None where the words alone tell."""
+    match result:
+        case ChoiceReason(deed=deed) if deed is not None:
+            return event_of(deed)
+        case MotionReason() | OtherReason() | Bound() | Beliefs() | Activity():
+            return _blamed(result)
+        case PlanAhead(steps=steps) if steps:
+            return Event(steps[0][0], tense="future", modal="will")
+    return None
+
+
+def _of_contrast(contrast: Contrast) -> Event | None:
+    first = next((c for c in contrast.causes if c.vehicle != 0), None)
+    if first is None or (first.mechanism is not None and first.mechanism.present):
         return None
-    if last.leans is not None:
-        return msgspec.structs.replace(query, detail=None)
-    said = last.query
-    if said is not None and said.actor != "ego" and said.tense != "past" and said.factual:
-        return Query(  # "I do not expect vehicle 12 to stop": how we know
-            type="how",
-            actor=said.actor,
-            factual=said.factual,
-            tense=said.tense,
-            refers_to_previous=True,
-        )
-    if query.actor != "ego" or query.tense != "present" or query.type != "why":
+    return _foreseen(first, contrast.decided)
+
+
+def _foreseen(cause: Cause | MotionCause, time: float) -> Event | None:
+    if cause.vehicle is None or not cause.actions:
         return None
-    return msgspec.structs.replace(query, factual=None, underspecified=None, detail=None)
+    return Event(cause.actions[-1], Vehicle(cause.vehicle), time=At(time), modal="will")
 
 
-def _of_doing(query: Query, found: Explanation) -> Query:
-    """After an answer that told what we did, or what another does: why that is done."""
-    doing = found.activity
-    if query.actor != "ego":
-        return msgspec.structs.replace(query, detail="more")
-    told = doing is not None and doing.vehicle == EGO and query.tense == "past"
-    if doing is None or not told or query.factual or not doing.actions:
-        return query
-    return msgspec.structs.replace(query, factual=doing.actions[:1])
-
-
-def _of_collision(before: Query, impact: Impact) -> Query | None:
-    """After an answer that told of a collision: why, and then what we expected of that vehicle."""
-    if before.type not in ("why", "how"):
-        return Query(type="why", event=CRASH, refers_to_previous=True)
-    if impact.vehicle is None or not impact.actions:
+def _expected(belief: Belief) -> Event | None:
+    likeliest = belief.expectations[:1]
+    if not likeliest or not likeliest[0].actions:
         return None
-    expected = _last_of(impact.actions)
-    actor = f"{PREFIX}{impact.vehicle}"
-    return Query(type="how", actor=actor, factual=expected, refers_to_previous=True)
+    action = likeliest[0].actions[-1]
+    return Event(action, Vehicle(belief.vehicle), time=At(belief.time), modal="will")
 
 
-def _reasoned(memory: Memory) -> Turn | None:
-    """The turn whose reasons are asked for: of "are you sure?", the one that was doubted."""
-    about = [turn for turn in memory.turns if turn.query is not None and turn.reply.explanation]
-    last = memory.last
-    while last is not None and last in about and _doubts(last):
-        before = about[: about.index(last)]
-        last = before[-1] if before else None
-    return last if last is not None else memory.last
+def _evidence(belief: Belief) -> Deeper:
+    event = _expected(belief)
+    return "bottom" if event is None else Ask(HowKnow(Happens(event)))
 
 
-def _doubts(turn: Turn) -> bool:
-    query = turn.query
-    return query is not None and (query.type, query.actor) == ("confidence", "ego")
+def _contrary(that: Proposition) -> Proposition:
+    return that.content if isinstance(that, Not) else Not(that)
 
 
-def evidence_for(last: Turn) -> Query | None:
-    """What "how do you know?" asks after an answer that blames a vehicle: how we saw it coming."""
-    before, cause = last.query, _first_cause(last)
-    if before is None or cause is None or before.actor != "ego" or before.type not in _REASONED:
-        return None
-    return Query(
-        type="how",
-        actor=f"{PREFIX}{cause.vehicle}",
-        factual=_last_of(cause.actions),
-        tense=before.tense,
-        refers_to_previous=True,
-    )
+def _is_bare_why(act: Act) -> bool:
+    return act in (Repair(kind="why"), Elliptic(form="why"), Elliptic(form="why-not"))
 
 
-def doubted(last: Turn) -> Query | Literal["seen"] | None:
-    """What "are you sure?" doubts after an answer that says what held us up.
-
-    Returns:
-        How sure we are of what that vehicle was expected to do; "seen" where it was in our way
-        before our eyes; None where the answer compared what could be done.
-    """
-    before, found = last.query, last.reply.explanation
-    if before is None or found is None or before.type != "why" or found.counterfactual:
-        return None
-    cause = _first_cause(last)
-    if cause is None or before.actor != "ego":
-        return None
-    seen = cause.mechanism is not None and cause.mechanism.present
-    if seen or not cause.actions:
-        return "seen"
-    return Query(
-        type="confidence",
-        actor=f"{PREFIX}{cause.vehicle}",
-        factual=_last_of(cause.actions),
-        tense=before.tense,
-        refers_to_previous=True,
-    )
+def _last(turns: Sequence[Turn]) -> Turn | None:
+    """Return the turn whose answer is asked about: small talk and repeats are passed over."""
+    return next((turn for turn in reversed(turns) if _counts(turn)), None)
 
 
-def meant_vehicle(query: Query, memory: Memory) -> Query | None:
-    """What "which car?" asks after an answer: about the vehicle it named first."""
-    named = next((t.mentioned for t in reversed(memory.turns) if t.mentioned), ())
-    if not named:
-        return None
-    return Query(
-        type="what",
-        actor=f"{PREFIX}{named[0]}",
-        tense="present",
-        event=WHICH,
-        refers_to_previous=query.refers_to_previous,
-    )
+def _counts(turn: Turn) -> bool:
+    told = any(isinstance(result, Again) for result in turn.results)
+    return is_about_drive(turn) or told or BOTTOM in turn.results
 
 
-def _motive(cause: Cause, before: Query) -> Query:
-    return Query(
-        type="why",
-        actor=f"{PREFIX}{cause.vehicle}",
-        tense=before.tense,
-        detail="more",
-        refers_to_previous=True,
-    )
-
-
-def _first_cause(last: Turn) -> Cause | None:
-    found = last.reply.explanation
-    others = () if found is None else tuple(c for c in found.causes if c.vehicle != 0)
-    return others[0] if others else None
-
-
-def _expected(last: Turn) -> tuple[QueryAction, ...]:
-    """What the last answer expected of a vehicle."""
-    found = last.reply.explanation
-    if found is None:
-        return ()
-    if found.activity is not None and found.activity.probability is not None:
-        return found.activity.actions
-    kind = None if found.destination is None else found.destination.kind
-    return () if kind is None else (kind,)
-
-
-def _last_of(actions: tuple[QueryAction, ...]) -> tuple[QueryAction, ...] | None:
-    return actions[-1:] or None
+def _main(turn: Turn) -> Answer | Refusal | None:
+    """Return the answer of a turn that reasons are asked for: the last that is no mere talk."""
+    for result in reversed(turn.results):
+        match result:
+            case Again(answer=inner) | Comforting(fact=inner) | Judged(answer=inner):
+                if inner is not None:
+                    return inner
+            case _:
+                return result
+    return None

@@ -1,4 +1,4 @@
-"""What the dialogue manager is told, and what it hands out. No clock: times are given."""
+"""Events: inputs and outputs of the dialogue manager. No clock: times are given."""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -7,8 +7,8 @@ from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.language.context import Style
+from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.nlg.context import Style
 
 
 @dataclass(frozen=True, slots=True)

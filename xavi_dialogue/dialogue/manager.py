@@ -1,4 +1,4 @@
-"""The dialogue manager, sans I/O: inputs in, outputs out, and the state a fold over inputs.
+"""Manager: the dialogue sans I/O. Inputs in, outputs out; the state is a fold over inputs.
 
 It has no sockets, clock or threads. Where evidence is lacking it hands out RolloutsWanted and
 goes on when RolloutsArrived or RolloutsFailed comes back. An input that has no place in the
@@ -31,8 +31,9 @@ from xavi_dialogue.dialogue.events import (
     TurnedAway,
 )
 from xavi_dialogue.dialogue.memory import remember
-from xavi_dialogue.dialogue.mind import Mind, Said, Situation, refuse, turn_away
-from xavi_dialogue.dialogue.quizzing import respond
+from xavi_dialogue.dialogue.mind import Mind, Said, Situation, turn_away
+from xavi_dialogue.dialogue.quizzing import reply_to
+from xavi_dialogue.dialogue.standing import failed
 from xavi_dialogue.dialogue.state import Dialogue, Pending, Session
 from xavi_dialogue.dialogue.states import (
     PHASES,
@@ -45,7 +46,7 @@ from xavi_dialogue.dialogue.states import (
 )
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.dialogue.understanding import understand
-from xavi_dialogue.explain.explanation import NeedRollout, NoExplanation
+from xavi_dialogue.domain.answers import NeedRollout
 
 MAX_ROUNDS = 5  # of planning again for one question
 MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
@@ -58,7 +59,7 @@ Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
 
 
 def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
-    """The state after one input, and what is handed out.
+    """Return the state after one input, and what is handed out.
 
     Raises:
         IllegalEvent: the input has no place in the present state.
@@ -87,7 +88,7 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
 
 
 def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
-    """The state after a row of inputs."""
+    """Return the state after a row of inputs."""
     state = Dialogue() if dialogue is None else dialogue
     for event in events:
         state, _ = advance(mind, state, event)
@@ -121,33 +122,38 @@ def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
         return _tell(dialogue, session, asked, turn_away(now, "busy"))
     understood = understand(now, _open_turn(session))
     session = replace(session, phase=phase)
-    if isinstance(understood, Said):
-        return _speak(dialogue, session, asked, understood)
     return _think(mind, dialogue, session, Pending(asked, understood))
 
 
 def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Step:
-    """Explain; what was planned again for an earlier question need not be planned anew."""
-    asked, understood, extra = question.asked, question.understood, question.extra
+    """Answer act by act; what was planned again before need not be planned anew."""
+    while True:
+        assert question.understood is not None
+        now = _situation(mind, dialogue, session, question)
+        found = reply_to(now, question.understood, question.done)
+        if isinstance(found, Said):
+            return _speak(dialogue, session, question.asked, found)
+        question = replace(question, done=found.done)
+        step = _evidence(dialogue, question, found.need)
+        if step is None:
+            return _want(dialogue, session, replace(question, need=found.need))
+        question = step
+
+
+def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pending | None:
+    """Return the question with a plan it needs or without; None: it has to be planned again."""
+    understood, extra = question.understood, question.extra
     assert understood is not None
-    now = _situation(mind, dialogue, session, question)
-    found = respond(now, understood)
-    if isinstance(found, NeedRollout):
-        known = dialogue.planned.get(found)
-        endless = len(extra) >= MAX_ROUNDS or known in extra
-        if endless and understood.aim == "quiz":  # there are other questions to put
-            question = replace(question, refused=(*question.refused, found))
-            return _think(mind, dialogue, session, question)
-        if endless:
-            found = refuse(now, understood.query, NoExplanation(reason="too-little-evidence"))
-        elif found in question.refused:  # there is no answer without it
-            found = refuse(now, understood.query, NoExplanation(reason=question.why))
-        elif known is not None:
-            question = replace(question, extra=(*extra, known))
-            return _think(mind, dialogue, session, question)
-        else:
-            return _want(dialogue, session, replace(question, need=found))
-    return _speak(dialogue, session, asked, found)
+    known = dialogue.planned.get(need)
+    rounds = MAX_ROUNDS * max(1, len(understood.acts))
+    endless = len(extra) >= rounds or known in extra
+    if endless and understood.aim == "quiz":  # there are other questions to put
+        return replace(question, refused=(*question.refused, need))
+    if endless:
+        return replace(question, done=(*question.done, (failed("too-little-evidence"),)))
+    if need in question.refused:  # there is no answer without it
+        return replace(question, done=(*question.done, (failed(question.why),)))
+    return None if known is None else replace(question, extra=(*extra, known))
 
 
 def _situation(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Situation:
@@ -165,7 +171,7 @@ def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
 
 
 def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[Session, Pending]:
-    """The session that waits for rollouts for this request, moved on.
+    """Return the session that waits for rollouts for this request, moved on.
 
     Raises:
         IllegalEvent: it waits for nothing, or for another request.
@@ -199,7 +205,7 @@ def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogu
 
 
 def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
-    """Whether a trace is the decision that was to be planned again, changed as it was to be."""
+    """Tell whether a trace is the decision that was to be planned again, as it was wanted."""
     if trace.what_if != msgspec.convert(msgspec.to_builtins(need), WhatIf):
         return False
     moment = (trace.sim_time, trace.decision)
@@ -238,20 +244,20 @@ def _tell(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Ste
 
 
 def _ending(said: Said | Turn) -> Move:
-    if said.choices:
+    if said.offer is not None:
         return Move.ASKED_BACK
     return Move.QUIZZED if said.quiz is not None else Move.ANSWERED
 
 
 def _open_turn(session: Session) -> Turn | None:
-    """The turn that ended with a question of ours, which may be answered now."""
+    """Return the turn that ended with a question of ours, which may be answered now."""
     if session.phase not in (Phase.CHOOSING, Phase.QUIZZING):
         return None
     return next(turn for turn in reversed(session.turns) if not turn.turned_away)
 
 
 def _resumed(dialogue: Dialogue, name: str, turns: tuple[Turn, ...]) -> Session:
-    """The session as its last turn left it; offers of another ride are void.
+    """Return the session as its last turn left it; offers of another ride are void.
 
     Raises:
         IllegalEvent: it has gone on already.

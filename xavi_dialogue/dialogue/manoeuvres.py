@@ -9,7 +9,7 @@ MANOEUVRES: tuple[Action, ...] = ("change-left", "change-right", "exit-left", "e
 
 
 def carried_out(events: Iterable[Event]) -> tuple[Event, ...]:
-    """The ends of the manoeuvres that were carried out, oldest first.
+    """Return the ends of the manoeuvres that were carried out, oldest first.
 
     An action that ends before it is committed was given up, and is not among them.
     """

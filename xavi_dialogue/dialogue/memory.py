@@ -1,22 +1,22 @@
 """Memory: what later turns may draw on, read off the turns of a conversation.
 
-Vehicles and offers belong to the ride in which they came up; what was explained, and how much
-the passenger wants to hear, outlasts it.
+Vehicles and offers belong to the ride in which they came up; how much the passenger wants to
+hear outlasts it.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import msgspec
-
+from xavi_dialogue.dialogue.discourse import causes_of, discourse_of
 from xavi_dialogue.dialogue.turn import Quiz, Turn
-from xavi_dialogue.explain.explanation import Explanation
-from xavi_dialogue.explain.query import Detail, Query
-from xavi_dialogue.language.context import Told, told
+from xavi_dialogue.domain.answers import Answer, Refusal
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Repair, Request
+from xavi_dialogue.nlg.context import Detail, Told
 
-_TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
 _FRESH = 3  # replies after which the same may be suggested again
 _STANDING = 2  # requests in a row for more, or less, that make it the rule
+_WISHES: dict[str, Detail] = {"longer": "more", "shorter": "less", "simpler": "simpler"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,68 +24,45 @@ class Memory:
     """What a conversation has come to."""
 
     turns: tuple[Turn, ...]  # about this ride, oldest first
-    before: int  # turns about other rides
+    discourse: Discourse
     named: frozenset[int]  # vehicles that were spoken of
-    topic: int | None  # the one that was spoken of last
     last: Turn | None  # the last turn that was about the drive
-    detail: Detail | None  # how much the passenger wants to hear
+    detail: Detail  # how much the passenger wants to hear
     missed: frozenset[int]  # vehicles whose part in things the passenger got wrong
     quizzed: tuple[Quiz, ...]  # questions put to the passenger so far
     suggested: frozenset[str]  # what the last replies said could be asked
 
     @property
     def is_quizzing(self) -> bool:
-        """Whether the last turn put a question to the passenger, or judged the answer to one."""
+        """Tell whether the last turn put a question to the passenger, or judged the reply."""
         last = self.turns[-1] if self.turns else None
         return last is not None and (last.quiz is not None or last.answered is not None)
 
     @property
-    def previous(self) -> Query | None:
-        """What a follow-up leans on; how much was to be told is said anew each time."""
-        leans = None if self.last is None else self.last.leans or self.last.query
-        return None if leans is None else msgspec.structs.replace(leans, detail=None)
-
-    @property
-    def asked(self) -> tuple[Query, ...]:
-        """What was asked so far, oldest first."""
-        return tuple(turn.query for turn in self.turns if turn.query is not None)
-
-    @property
     def told(self) -> Told:
-        """The causes that the passenger was told of, and did not get wrong since."""
-        causes = {cause for found in self.explained for cause in told(found)}
+        """Return the causes that the passenger was told of, and did not get wrong since."""
+        causes = {
+            cause for turn in self.turns for result in turn.results for cause in causes_of(result)
+        }
         return frozenset(cause for cause in causes if cause[0] not in self.missed)
 
-    def answered(self, query: Query, found: Explanation) -> bool:
-        """Whether the same was answered before to the same question, however it was worded."""
+    def answered(self, act: GroundedAct, result: Answer | Refusal) -> bool:
+        """Tell whether the same was answered before to the same question."""
         return any(
-            turn.query is not None
-            and turn.reply.explanation == found
-            and _asks_for(turn.query) == _asks_for(query)
+            part.act is not None and part.act.act == act.act and part.result == result
             for turn in self.turns
+            for part in turn.parts
         )
-
-    @property
-    def explained(self) -> tuple[Explanation, ...]:
-        """What was answered so far, oldest first."""
-        found = (turn.reply.explanation for turn in self.turns)
-        return tuple(one for one in found if one is not None)
-
-
-def _asks_for(query: Query) -> tuple[object, ...]:
-    return (query.type, query.actor, query.factual, query.counterfactual, query.detail)
 
 
 def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
-    """What the turns of a conversation, oldest first, come to during a ride."""
+    """Return what the turns of a conversation, oldest first, come to during a ride."""
     here = tuple(turn for turn in turns if turn.ride == ride)
-    named = [name for turn in here for name in turn.mentioned]
-    about = [turn for turn in here if turn.query is not None and turn.query.type not in _TALK]
+    about = [turn for turn in here if is_about_drive(turn)]
     return Memory(
         turns=here,
-        before=len(turns) - len(here),
-        named=frozenset(named),
-        topic=named[-1] if named else None,
+        discourse=discourse_of(here),
+        named=frozenset(name for turn in here for name in turn.mentioned),
         last=about[-1] if about else None,
         detail=_detail(turns),
         missed=_missed(here),
@@ -99,19 +76,25 @@ def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
     )
 
 
-def _detail(turns: Sequence[Turn]) -> Detail | None:
-    """What was asked for twice in a row, until the opposite is asked for."""
-    standing: Detail | None = None
+def is_about_drive(turn: Turn) -> bool:
+    """Tell whether a turn was about the drive; what is asked about it then stands."""
+    return any(isinstance(one.act, Ask | Claim | Request | Feel) for one in turn.acts)
+
+
+def _detail(turns: Sequence[Turn]) -> Detail:
+    """Return what was asked for twice in a row, until something else is asked for."""
+    standing: Detail = "usual"
     run: list[Detail] = []
     for turn in turns:
-        wanted = None if turn.query is None else turn.query.detail
-        if wanted is None:
-            continue
-        run = [*run, wanted] if run[-1:] == [wanted] else [wanted]
-        if standing is not None and wanted != standing:
-            standing = None
-        if len(run) >= _STANDING:
-            standing = wanted
+        for act in turn.acts:
+            if not isinstance(act.act, Repair) or act.act.kind not in _WISHES:
+                continue
+            wanted = _WISHES[act.act.kind]
+            run = [*run, wanted] if run[-1:] == [wanted] else [wanted]
+            if wanted != standing:
+                standing = "usual"
+            if len(run) >= _STANDING:
+                standing = wanted
     return standing
 
 
@@ -120,7 +103,6 @@ def _missed(turns: Sequence[Turn]) -> frozenset[int]:
     for turn in turns:
         if turn.answered is None or turn.right is None:
             continue
-        known = turn.reply.explanation
-        vehicles = set() if known is None else {cause.vehicle for cause in known.causes}
+        vehicles = {vehicle for result in turn.results for vehicle, _ in causes_of(result)}
         missed = missed - vehicles if turn.right else missed | vehicles
     return frozenset(missed)

@@ -1,48 +1,41 @@
 """Mind: the faculties that the dialogue rests on, and how what is said comes about. Pure."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
-import msgspec
-
-from planner.trace import PlanTrace
-from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.events import Asked
-from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.dialogue.explanation import as_json, evidence_of, explanation_of
 from xavi_dialogue.dialogue.memory import Memory
-from xavi_dialogue.dialogue.referents import PREFIX, vehicle_words
-from xavi_dialogue.dialogue.reply import Kind, Reply
-from xavi_dialogue.dialogue.turn import Quiz, Turn
-from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation, Reason
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.explain.record import Record
-from xavi_dialogue.explain.when import Focus
-from xavi_dialogue.language.context import SpeechContext, Utterance
-from xavi_dialogue.language.realise import realise
-from xavi_dialogue.language.suggestions import about_vehicle, from_situation
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.standing import failed, standing_of
+from xavi_dialogue.dialogue.turn import Offer, Part, Quiz, Turn
+from xavi_dialogue.domain.answers import Answer, Comforting, NeedRollout, Reason, Refusal
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct
+from xavi_dialogue.domain.meaning import Reading
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.nlg.context import Looks, SpeechContext, Utterance
+from xavi_dialogue.nlu.grounding.result import Grounding
+from xavi_dialogue.nlu.projection import project
 
+AT_MOST = 4  # sentences of a reply to several acts
 
-class NotUnderstood(Protocol):
-    """What a parser returns instead of a query."""
-
-    @property
-    def cause(self) -> str: ...
-
-    @property
-    def readings(self) -> tuple[Query, ...]: ...
-
-
-Parse: TypeAlias = Callable[[str, frozenset[int], Query | None], Query | NotUnderstood]
-Explain: TypeAlias = Callable[[Query, Record], Explanation | NoExplanation | NeedRollout]
+Read: TypeAlias = Callable[[str], tuple[Reading, ...]]
+Ground: TypeAlias = Callable[[tuple[Reading, ...], Record, Discourse], Grounding]
+Explain: TypeAlias = Callable[[GroundedAct, Record], Answer | Refusal | NeedRollout]
+Say: TypeAlias = Callable[[Answer | Refusal, SpeechContext], Utterance]
+See: TypeAlias = Callable[[Record], Looks]
 
 
 @dataclass(frozen=True, slots=True)
 class Mind:
-    """The two faculties that the dialogue rests on, as functions."""
+    """The faculties that the dialogue rests on, as functions."""
 
-    parse: Parse  # text, vehicles that exist, the question before
+    read: Read  # text into readings, best first
+    ground: Ground  # readings into acts about this world and conversation
     explain: Explain
+    say: Say
+    see: See  # how vehicles look, for words that describe them
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,28 +52,24 @@ class Situation:
 class Said:
     """A reply, and what the conversation keeps of it."""
 
-    query: Query | None
     reply: Reply
-    leans: Query | None = None
-    focus: Focus | None = None
+    parts: tuple[Part, ...] = ()
     mentioned: tuple[int, ...] = ()
-    choices: tuple[Query, ...] = ()
+    offer: Offer | None = None
     quiz: Quiz | None = None
     answered: Quiz | None = None
     right: bool | None = None
     turned_away: bool = False
 
     def turn(self, asked: Asked, ride: str | None) -> Turn:
-        """The turn to be kept."""
+        """Return the turn to be kept."""
         return Turn(
             text=asked.text,
-            query=self.query,
+            parts=self.parts,
             reply=self.reply,
             ride=ride,
-            leans=self.leans,
-            focus=self.focus,
             mentioned=self.mentioned,
-            choices=self.choices,
+            offer=self.offer,
             quiz=self.quiz,
             answered=self.answered,
             right=self.right,
@@ -88,105 +77,110 @@ class Said:
         )
 
 
-def speech(now: Situation, trace: PlanTrace | None = None) -> SpeechContext:
-    """The situation in which something is said: about `trace`, or else about now."""
-    record, memory = now.record, now.memory
-    if trace is None and record.traces:
-        trace = record.traces[-1]
-    done = tuple(e.action for e in carried_out(record.events) if e.action is not None)
+def speech(now: Situation) -> SpeechContext:
+    """Return the situation in which something is said."""
+    memory = now.memory
     return SpeechContext(
         style=now.asked.style,
-        vehicles={} if trace is None else vehicle_words(trace.scene),
+        now=now.record.now,
+        looks=now.mind.see(now.record),
         named=memory.named,
         detail=memory.detail,
-        now=record.now,
-        done=done,
-        asked=memory.asked,
         turn=len(memory.turns),
         told=memory.told,
         suggested=memory.suggested,
     )
 
 
-def inviting(now: Situation, context: SpeechContext, more: tuple[Query, ...] = ()) -> SpeechContext:
-    """The situation with what of all that might be suggested would be declined."""
-    offered = (*more, *from_situation(context))
-    explain, record = now.mind.explain, replace(now.record, focus=None)
-    closed = [q for q in offered if isinstance(explain(q, record), NoExplanation)]
-    return replace(context, closed=tuple(closed))
-
-
-def refuse(now: Situation, query: Query, why: NoExplanation) -> Said:
-    """Say why there is no answer."""
+def speak(now: Situation, said: Sequence[Part], offer: Offer | None = None) -> Said:
+    """Put results into words, one after the other, nothing twice."""
     context = speech(now)
-    more = (*why.suggestions, *about_vehicle(query, context))
-    utterance = realise(query, why, inviting(now, context, more))
-    reply = reply_of(now.record, utterance, why.reason, query)
-    return Said(
-        query,
-        reply,
-        leans=_corrected(query, why),
-        focus=now.record.focus,
-        mentioned=topics(query, utterance),
+    utterances: list[Utterance] = []
+    for part in said:
+        repeated = part.act is not None and now.memory.answered(part.act, part.result)
+        detail = "less" if len(said) > 1 and _is_aside(part.result) else context.detail
+        one = now.mind.say(part.result, replace(context, repeated=repeated, detail=detail))
+        context = replace(context, named=context.named | frozenset(one.mentioned))
+        utterances.append(one)
+    whole = joined(utterances)
+    open_offer = offer if whole.choices else None
+    return Said(reply_of(now, said, whole), tuple(said), whole.mentioned, open_offer)
+
+
+def _is_aside(result: Answer | Refusal) -> bool:
+    """Tell whether a result only goes before another: sympathy, where the fact comes after."""
+    return isinstance(result, Comforting) and result.fact is None
+
+
+def reply_of(now: Situation, said: Sequence[Part], whole: Utterance) -> Reply:
+    """Return the reply that says it."""
+    results = tuple(part.result for part in said)
+    acts = tuple(dict.fromkeys(part.act for part in said if part.act is not None))
+    kind, reason = standing_of(results)
+    evidence = evidence_of(results)
+    return Reply(
+        text=whole.text,
+        kind=kind,
+        reason=reason,
+        query=project(tuple(act.act for act in acts)) if acts else None,
+        explanation=explanation_of(results) if kind == "answer" else None,
+        acts=tuple(as_json(act) for act in acts),
+        answers=tuple(as_json(result) for result in results),
+        choices=whole.choices,
+        suggestions=whole.suggestions,
+        trace_id=None if evidence is None else evidence.traces[0],
+        sim_time=now.record.now,
     )
 
 
-def bottom(now: Situation, query: Query) -> Said:
-    """Say that there are no further reasons; what was spoken of remains so."""
-    last = now.memory.last
-    said = refuse(now, msgspec.structs.replace(query, detail=None), BOTTOM)
-    return replace(said, focus=None if last is None else last.focus)
+def joined(utterances: Sequence[Utterance]) -> Utterance:
+    """Join what is said of several results; a sentence that was said is not said again.
+
+    Several results are told in `AT_MOST` sentences, or in one for each where they are more.
+    """
+    rows: list[tuple[str, ...]] = []
+    known: set[str] = set()
+    for one in utterances:
+        row = tuple(s for s in dict.fromkeys(sentences(one.text)) if s not in known)
+        known.update(row)
+        rows.append(row)
+    told = [said for row in _short(rows, utterances) for said in row]
+    return Utterance(
+        text=" ".join(told),
+        mentioned=tuple(dict.fromkeys(v for one in utterances for v in one.mentioned)),
+        choices=next((one.choices for one in utterances if one.choices), ()),
+        suggestions=tuple(dict.fromkeys(s for one in utterances for s in one.suggestions)),
+    )
+
+
+def _short(
+    rows: Sequence[tuple[str, ...]], utterances: Sequence[Utterance]
+) -> list[tuple[str, ...]]:
+    """Cut the ends off what is said of several results; choices are left whole."""
+    if len(rows) < 2:
+        return list(rows)
+    spare = max(AT_MOST - sum(bool(row) for row in rows), 0)
+    found: list[tuple[str, ...]] = []
+    for row, one in zip(rows, utterances, strict=True):
+        length = len(row) if one.choices else min(len(row), 1 + spare)
+        spare -= max(length - 1, 0)
+        found.append(row[:length])
+    return found
+
+
+def sentences(text: str) -> tuple[str, ...]:
+    """Cut a text behind the marks that end a sentence; a choice in brackets is no sentence."""
+    found: list[str] = []
+    begin = depth = 0
+    for index, mark in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(mark, 0)
+        if mark in ".!?" and depth == 0 and text[index + 1 : index + 2] in (" ", ""):
+            found.append(text[begin : index + 1].strip())
+            begin = index + 1
+    rest = text[begin:].strip()
+    return tuple(one for one in (*found, rest) if one)
 
 
 def turn_away(now: Situation, reason: Reason) -> Said:
     """Say that the question cannot be taken up at all."""
-    context = inviting(now, speech(now))
-    utterance = realise(Query(type="what"), NoExplanation(reason=reason), context)
-    return Said(None, reply_of(now.record, utterance, reason), turned_away=True)
-
-
-def topics(query: Query, utterance: Utterance) -> tuple[int, ...]:
-    """The vehicles that question and reply name, the most recent last."""
-    tail = query.actor.removeprefix(PREFIX)
-    asked = (int(tail),) if tail.isdecimal() and int(tail) != 0 else ()
-    return (*utterance.mentioned, *asked)
-
-
-def reply_of(
-    record: Record, utterance: Utterance, reason: Reason | None, query: Query | None = None
-) -> Reply:
-    """The reply that says it: an answer where there is no reason against one."""
-    kind: Kind = "answer" if reason is None else "refusal"
-    if reason == "ambiguous":
-        kind = "clarification"
-    return Reply(
-        text=utterance.text,
-        kind=kind,
-        reason=reason,
-        query=query,
-        choices=utterance.choices,
-        suggestions=utterance.suggestions,
-        sim_time=record.now,
-    )
-
-
-def _corrected(query: Query, why: NoExplanation) -> Query | None:
-    """What a follow-up leans on after a refusal.
-
-    Where a wrong premise was put right, on what did happen; where the foil was declined, on the
-    question without it.
-    """
-    if why.reason in ("not-applicable", "too-little-evidence", "effect-too-small"):
-        return msgspec.structs.replace(query, counterfactual=None, negated=False)
-    happened = why.facts.get("happened")
-    if why.reason != "did-not-happen" or not isinstance(happened, tuple) or not happened:
-        return None
-    if why.facts.get("planned") is True:
-        return None
-    return msgspec.convert(
-        {
-            **msgspec.to_builtins(Query(type="why", actor=query.actor, tense="past")),
-            "factual": happened,
-        },
-        Query,
-    )
+    return replace(speak(now, (Part(None, failed(reason)),)), turned_away=True)

@@ -1,255 +1,169 @@
-"""Quiz: questions of ours to the passenger, their answers, and what replies to them come to.
+"""Quiz: questions of ours to the passenger and their solutions. Pure.
 
-`candidates` lists what might be asked, `filled` puts in the answer once it is explained, or says
-that there is none to ask for, and `judged` compares a reply with it. All are pure.
+`candidates` lists what might be asked, and `solved` adds the solution from the answer that the
+record gives, or says that there is none that is sure enough to be asked for.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-import msgspec
+from msgspec.structs import replace
 
-from planner.trace import PlanTrace
+from planner.trace import Action, PlanTrace
 from sim.scene import EGO
+from xavi_dialogue.dialogue.discourse import event_of
 from xavi_dialogue.dialogue.manoeuvres import carried_out
-from xavi_dialogue.dialogue.referents import PREFIX, Scope
-from xavi_dialogue.dialogue.referents import candidates as fitting
-from xavi_dialogue.dialogue.turn import Judgement, Quiz
-from xavi_dialogue.explain.bearings import Vehicles
-from xavi_dialogue.explain.explanation import Cause, Explanation
-from xavi_dialogue.explain.query import Query, QueryAction, Tense
-from xavi_dialogue.explain.record import Record
-from xavi_dialogue.language.content import select
-from xavi_dialogue.language.doings import LANE_CHANGES, vehicle_of
-from xavi_dialogue.language.points import Budget, Constraint, Contrast, Supposition
-from xavi_dialogue.language.retorts import Named, Retort, retort
+from xavi_dialogue.dialogue.turn import Quiz, Turn
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Cause,
+    ChoiceReason,
+    Contrast,
+    MotionCause,
+    MotionReason,
+    Posed,
+    Refusal,
+    SupposedOfOther,
+    SupposedOfUs,
+)
+from xavi_dialogue.domain.meaning import Question, WhatIf, Why
+from xavi_dialogue.domain.terms import (
+    At,
+    Event,
+    Exists,
+    Happens,
+    Not,
+    Tense,
+    Time,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.explain.history.record import Record
 
 CLEAR = 1.0  # [s] a difference in time that is fit to be asked for
-LIKELY = 0.5  # a cause that is less probable is no answer
+LIKELY = 0.5  # a cause that is less probable is no solution
 MANY = 8  # candidates worth trying
-_HELD_UP: tuple[QueryAction, ...] = ("slow-down", "stop", "give-way")
-_REASONED = frozenset({"why", "why_not", "what_if", "compare"})
-_BARELY = Budget(1, 1)
+LANE_CHANGES: tuple[Action, ...] = ("change-left", "change-right")
 
 
-def candidates(
-    asked: tuple[Query, ...],
-    explained: tuple[Query, ...],
-    quizzed: tuple[Quiz, ...],
-    record: Record,
-) -> tuple[Quiz, ...]:
-    """Questions worth trying, best first, their answers not yet filled in.
+def candidates(turns: Sequence[Turn], quizzed: Sequence[Quiz], record: Record) -> tuple[Posed, ...]:
+    """Return questions worth trying, best first.
 
     First about what was talked about last, then about the last manoeuvre, the last slowing, and
-    the plan. What was asked before is left out; what the last answer told comes last.
-
-    Args:
-        asked: what the passenger asked so far, oldest first.
-        explained: those of them that were answered with an explanation, oldest first.
-        quizzed: questions put to the passenger so far.
-        record: the ride so far.
+    those in our way. What was asked before is left out; what the last answer told comes last.
     """
     if not record.traces:
         return ()
-    known = {(quiz.kind, quiz.about) for quiz in quizzed}
-    pool = dict.fromkeys((*_talked_about(explained, record), *_of_ride(explained, record)))
-    fresh = [quiz for quiz in pool if (quiz.kind, quiz.about) not in known]
-    last = explained[-1] if explained and asked[-1:] == explained[-1:] else None
-    fresh.sort(key=lambda quiz: last is not None and _told(quiz, last))
+    known = {replace(quiz.posed, again=False) for quiz in quizzed}
+    pool = dict.fromkeys((*_talked_about(turns, record), *_of_ride(record)))
+    fresh = [posed for posed in pool if posed not in known]
+    told = _told(turns[-1].results) if turns else frozenset()
+    fresh.sort(key=lambda posed: _gives_away(posed, told))
     return tuple(fresh[:MANY])
 
 
-def filled(quiz: Quiz, found: Explanation) -> Quiz | None:
-    """The question with its answer; None where there is none that is sure enough to be asked for.
+def solved(posed: Posed, found: Answer | Refusal, at: float) -> Quiz | None:
+    """Return the question with its solution; None where there is none to ask for.
 
     Args:
-        quiz: the question.
-        found: the explanation of `quiz.about`.
+        posed: the question.
+        found: what the record answers to it.
+        at: [s] when it is put.
     """
-    content = select(quiz.about, found, _BARELY, found.sim_time)
-    match quiz.kind:
-        case "vehicle":
-            who = _blamed(content, found)
-            return None if who is None else msgspec.structs.replace(quiz, vehicle=who)
-        case "deed":
-            if not isinstance(content, Supposition) or not found.factual:
-                return None
-            mine = (found.counterfactual or found.factual)[:1]
-            return msgspec.structs.replace(
-                quiz, actions=mine, same=content.same, sooner=_sooner(found)
+    match posed.kind, found:
+        case "vehicle", ChoiceReason(contrast=contrast):
+            who = _blamed(contrast.causes)
+            return None if who is None else Quiz(posed=posed, at=at, vehicle=who)
+        case "vehicle", MotionReason(causes=causes):
+            who = _blamed(causes)
+            return None if who is None else Quiz(posed=posed, at=at, vehicle=who)
+        case "deed", SupposedOfOther(plan=plan, then=then, same=same) if plan:
+            sooner = None if found.contrast is None else _sooner(found.contrast)
+            actions = (plan if same else then)[:1]
+            return Quiz(posed=posed, at=at, actions=actions, same=same, sooner=sooner)
+        case "sooner", SupposedOfUs(contrast=contrast, done=False):
+            sooner = _sooner(contrast)
+            arrives = contrast.outcome is not None and contrast.outcome.name == "done"
+            return (
+                Quiz(posed=posed, at=at, sooner=sooner) if arrives and sooner is not None else None
             )
-        case "sooner":
-            outcome, sooner = found.outcome, _sooner(found)
-            if outcome is None or outcome.name != "done" or not found.counterfactual:
-                return None
-            return None if sooner is None else msgspec.structs.replace(quiz, sooner=sooner)
-
-
-def judged(quiz: Quiz, text: str, scenes: tuple[Vehicles, ...]) -> Judgement | None:
-    """What a reply to a question of ours comes to; None where it is no reply to it.
-
-    It is "passed" where the passenger does not know, or does not settle on one answer.
-
-    Args:
-        quiz: the question, with its answer.
-        text: what was typed.
-        scenes: where the vehicles are that it may describe; one is meant where a description
-            fits it alone in any of them. Best: the decision that was asked about, and now.
-    """
-    said = retort(text)
-    if said is None:
-        return None
-    verdict = {"vehicle": _vehicle, "deed": _deed, "sooner": _time}[quiz.kind](quiz, said, scenes)
-    return "passed" if verdict is None and said.passed else verdict
-
-
-def _vehicle(quiz: Quiz, said: Retort, scenes: tuple[Vehicles, ...]) -> Judgement | None:
-    meant = [_matches(named, quiz.vehicle, scenes) for named in said.vehicles if not named.denied]
-    if not meant:
-        if any(_matches(n, quiz.vehicle, scenes) is True for n in said.vehicles) or said.nobody:
-            return "wrong"
-        return "passed" if said.vehicles else None
-    if False in meant:
-        return "wrong"
-    return "right" if True in meant else "passed"
-
-
-def _matches(named: Named, vehicle: int | None, scenes: tuple[Vehicles, ...]) -> bool | None:
-    """Whether it is that vehicle that is spoken of; None where it may be one of several."""
-    numbers = [int(word) for word in named.descriptions if word.isdecimal()]
-    if numbers:
-        return numbers[0] == vehicle
-    fits = [_fits(named.descriptions, scene) for scene in scenes]
-    if any(found == {vehicle} for found in fits):
-        return True
-    return None if any(found is None or vehicle in found for found in fits) else False
-
-
-def _fits(descriptions: tuple[str, ...], scene: Vehicles) -> set[int] | None:
-    """The vehicles that all descriptions fit; None where none of them tells vehicles apart."""
-    scope = Scope((scene,), None)
-    found = [set(known) for d in descriptions if (known := fitting(d, scope)) is not None]
-    return set.intersection(*found) if found else None
-
-
-def _deed(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None:
-    ours = set(quiz.actions)
-    unclear = bool(quiz.same) and quiz.sooner is None
-    if said.torn:
-        return "passed"
-    if said.deeds:
-        first = said.deeds[0]
-        if "speed-up" in first or "slow-down" in first:
-            quicker = bool(quiz.same) and quiz.sooner is ("speed-up" in first)
-            return "passed" if unclear else _right(quicker)
-        if said.sooner is not None and unclear:
-            return "passed"
-        quicker = said.sooner is not None and bool(quiz.same) and said.sooner is quiz.sooner
-        return _right(quicker or bool(ours & set(first)))  # "gone faster"
-    if said.same is not None:
-        if said.same or quiz.same:
-            return _right(said.same is quiz.same)
-        return "passed"  # something else, but not what
-    if said.denied:
-        denied = set(said.denied[0])
-        stays = "continue" in ours and not denied.isdisjoint(LANE_CHANGES)
-        return "wrong" if ours & denied else "right" if stays else "passed"
-    if said.sooner is not None:
-        return "passed" if unclear else _right(bool(quiz.same) and quiz.sooner is said.sooner)
     return None
 
 
-def _time(quiz: Quiz, said: Retort, _: tuple[Vehicles, ...]) -> Judgement | None:
-    if said.torn:
-        return "passed"
-    if said.sooner is not None:
-        return _right(said.sooner is quiz.sooner)
-    if said.same is not None:
-        return "wrong" if said.same else "passed"
-    return None if said.yes is None else _right(said.yes is quiz.sooner)
+def _talked_about(turns: Sequence[Turn], record: Record) -> Iterator[Posed]:
+    """Yield questions about what was explained, the latest first."""
+    for turn in reversed(turns):
+        for result in turn.results:
+            match result:
+                case ChoiceReason(contrast=contrast, deed=deed):
+                    at = contrast.decided if deed is not None else None
+                    yield from (_without(c.vehicle, at) for c in contrast.causes[:1])
+                    yield from (_sooner_with(a) for a in contrast.foil[:1])
+                    if deed is not None:
+                        yield _who(Why(Happens(event_of(deed))))
+                case MotionReason(causes=causes, deed=slowing):
+                    named = [c.vehicle for c in causes[:1] if c.vehicle]
+                    yield from (_without(vehicle, slowing.begin) for vehicle in named)
+                case SupposedOfUs(contrast=contrast):
+                    yield from (_sooner_with(a) for a in contrast.foil[:1])
 
 
-def _right(holds: bool) -> Judgement:
-    return "right" if holds else "wrong"
-
-
-def _talked_about(explained: tuple[Query, ...], record: Record) -> Iterator[Quiz]:
-    """About what was explained, the latest first."""
-    for query in reversed(explained):
-        vehicle = vehicle_of(query.actor)
-        if vehicle is not None:
-            yield _without(vehicle, _tense(record))
-        elif query.type in _REASONED:
-            yield from _of_contrast(query, record)
-
-
-def _of_contrast(query: Query, record: Record) -> Iterator[Quiz]:
-    """About what we did and did not do: who goes with it, then when we would have been there."""
-    suspect = vehicle_of(query.hypothesised_cause or "")
-    others = (suspect,) if suspect is not None else _in_our_way(record)[:1]
-    yield from (_without(vehicle, _tense(record)) for vehicle in others)
-    deed, foil = query.factual, query.counterfactual
-    if foil:
-        yield _sooner_with(foil, deed, query.tense)
-    if deed and query.type == "why":
-        yield _who(deed, query.tense)
-
-
-def _of_ride(explained: tuple[Query, ...], record: Record) -> Iterator[Quiz]:
-    """About the last manoeuvre, whoever held us up, and the plan."""
-    tense = _tense(record)
+def _of_ride(record: Record) -> Iterator[Posed]:
+    """Yield questions about the last manoeuvre, whoever held us up, and the plan."""
     done = [event.action for event in carried_out(record.events) if event.action is not None]
-    named = (vehicle_of(query.actor) for query in reversed(explained))
-    near = tuple(dict.fromkeys([*(n for n in named if n is not None), *_in_our_way(record)]))
+    near = _in_our_way(record)
+    at = _decided(record)
     for action in done[-1:]:
         if action in LANE_CHANGES:
-            yield _sooner_with(("continue",), (action,), "past")
-        yield from (_without(vehicle, tense) for vehicle in near[:1])
-        yield _who((action,), "past")
-    for deed in _HELD_UP:
-        yield _who((deed,), "past")
-    yield from (_without(vehicle, tense) for vehicle in near[:2])
-    yield from (_going_on(vehicle, tense) for vehicle in near[:1])
+            yield _sooner_with("continue")
+        yield from (_without(vehicle, at) for vehicle in near[:1])
+        yield _who(Why(Happens(Event(action))))
+    for deed in ("slow-down", "stop", "give-way"):
+        yield _who(Why(Happens(Event(deed))))
+    yield from (_without(vehicle, at) for vehicle in near[:2])
+    yield from (_going_on(vehicle, at) for vehicle in near[:1])
 
 
-def _without(vehicle: int, tense: Tense) -> Quiz:
-    about = Query(
-        type="what_if",
-        actor=f"{PREFIX}{vehicle}",
-        negated=True,
-        tense=tense,
-        intervention="remove",
+def _without(vehicle: int, at: float | None) -> Posed:
+    """Ask what we would do without a vehicle, or would have done at a past decision [s]."""
+    there = Exists(Vehicle(vehicle), time=_time(at), tense=_tense(at))
+    return Posed("deed", WhatIf(Not(there)))
+
+
+def _going_on(vehicle: int, at: float | None) -> Posed:
+    event = Event(
+        "exit-straight", Vehicle(vehicle), time=_time(at), tense=_tense(at), modal="would"
     )
-    return Quiz(kind="deed", about=about)
+    return Posed("deed", WhatIf(Happens(event)))
 
 
-def _going_on(vehicle: int, tense: Tense) -> Quiz:
-    actor = f"{PREFIX}{vehicle}"
-    about = Query(type="what_if", actor=actor, counterfactual=("exit-straight",), tense=tense)
-    return Quiz(kind="deed", about=about)
+def _sooner_with(foil: Action) -> Posed:
+    return Posed("sooner", WhatIf(Happens(Event(foil, modal="would"))))
 
 
-def _sooner_with(
-    foil: tuple[QueryAction, ...], deed: tuple[QueryAction, ...] | None, tense: Tense
-) -> Quiz:
-    about = Query(type="what_if", factual=deed, counterfactual=foil, tense=tense)
-    return Quiz(kind="sooner", about=about)
+def _who(question: Question) -> Posed:
+    return Posed("vehicle", question)
 
 
-def _who(deed: tuple[QueryAction, ...], tense: Tense) -> Quiz:
-    return Quiz(kind="vehicle", about=Query(type="why", factual=deed, tense=tense))
+def _tense(at: float | None) -> Tense:
+    return "present" if at is None else "past"
 
 
-def _tense(record: Record) -> Tense:
-    """Of the last manoeuvre, where there was one."""
-    return "past" if carried_out(record.events) else "present"
+def _time(at: float | None) -> Time:
+    return Unsaid() if at is None else At(at)
+
+
+def _decided(record: Record) -> float | None:
+    """Return the time [s] of the decision behind the last manoeuvre; None where there is none."""
+    decisions = [event.decision for event in carried_out(record.events)][-1:]
+    return next((t.sim_time for t in record.traces if t.decision in decisions), None)
 
 
 def _in_our_way(record: Record) -> tuple[int, ...]:
-    """The others, those first that were in our way in most drives simulated for the manoeuvre."""
+    """Return the others, those first that were in our way in most drives that were simulated."""
     decisions = [event.decision for event in carried_out(record.events)][-1:]
     behind = [trace for trace in record.traces if trace.decision in decisions]
-    return _ranked((*behind, *record.traces)[0] if behind else record.traces[-1])
+    return _ranked(behind[0] if behind else record.traces[-1])
 
 
 def _ranked(trace: PlanTrace) -> tuple[int, ...]:
@@ -262,38 +176,39 @@ def _ranked(trace: PlanTrace) -> tuple[int, ...]:
     return tuple(sorted(others, key=lambda vehicle: (-held[vehicle], vehicle)))
 
 
-def _told(quiz: Quiz, last: Query) -> bool:
-    """Whether the answer to the last question gives the answer to this one."""
-    about = quiz.about
-    if quiz.kind == "deed":
-        same = about.actor == last.actor and last.type == "what_if"
-        return same and about.counterfactual == last.counterfactual
-    if last.type not in _REASONED or vehicle_of(last.actor) is not None:
-        return False
-    return last.factual is None or about.factual is None or last.factual == about.factual
+def _told(results: Iterable[Answer | Refusal]) -> frozenset[str]:
+    """Return the kinds of questions whose solution the last answer told."""
+    told: set[str] = set()
+    for result in results:
+        match result:
+            case ChoiceReason() | MotionReason():
+                told |= {"vehicle", "sooner"}
+            case SupposedOfUs():
+                told.add("sooner")
+            case SupposedOfOther():
+                told.add("deed")
+    return frozenset(told)
 
 
-def _blamed(content: object, found: Explanation) -> int | None:
-    """The one vehicle that made us do it; None where there is doubt, or more than one."""
-    if not isinstance(content, Contrast | Constraint) or content.because is None:
+def _gives_away(posed: Posed, told: frozenset[str]) -> bool:
+    return posed.kind in told
+
+
+def _blamed(causes: Sequence[Cause | MotionCause]) -> int | None:
+    """Return the one vehicle that made us do it; None where there is doubt, or more than one."""
+    if not causes or not causes[0].vehicle:
         return None
-    if isinstance(content, Constraint) and (content.cleared or content.denied):
+    first, *others = causes
+    unlikely = first.probability is not None and first.probability <= LIKELY
+    if first.necessary is False or unlikely:
         return None
-    first, *others = found.causes
-    doubted = first.necessary is False or first.probability <= LIKELY
-    if first.vehicle == EGO or doubted or _rival(first, others):
-        return None
-    return first.vehicle
+    rivals = (c for c in others if c.vehicle and not (first.necessary and c.necessary is False))
+    return None if any(True for _ in rivals) else first.vehicle
 
 
-def _rival(first: Cause, others: Iterable[Cause]) -> bool:
-    """Whether another vehicle may be blamed as well."""
-    return any(not (first.necessary and other.necessary is False) for other in others)
-
-
-def _sooner(found: Explanation) -> bool | None:
-    """Whether the foil gets us there sooner, where that is clear."""
-    time = next((effect for effect in found.effects if effect.component == "time"), None)
+def _sooner(contrast: Contrast) -> bool | None:
+    """Return whether the foil gets us there sooner, where that is clear."""
+    time = next((effect for effect in contrast.effects if effect.component == "time"), None)
     if time is None or abs(time.delta) < CLEAR or time.low * time.high <= 0.0:
         return None
     return time.delta < 0.0

@@ -1,23 +1,25 @@
 """Reply: one turn of the car, the object that `xavi ask --json` prints."""
 
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
-from xavi_dialogue.explain.explanation import Explanation, Reason
-from xavi_dialogue.explain.query import Query
-
-Kind = Literal["answer", "refusal", "clarification"]
+from xavi_dialogue.dialogue.standing import Kind
+from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.nlu.projection import QueryFields
 
 
 class Reply(msgspec.Struct, frozen=True, kw_only=True):
     """What the car says, and what it rests on. All keys are always there."""
 
+    schema: Literal["xavi.reply/2"] = "xavi.reply/2"
     text: str
     kind: Kind
     reason: Reason | None = None  # null of an answer
-    query: Query | None = None  # null where nothing was understood
-    explanation: Explanation | None = None  # null unless kind is answer
+    query: QueryFields | None = None  # of the first act; null where nothing was understood
+    explanation: dict[str, Any] | None = None  # null unless kind is answer
+    acts: tuple[dict[str, Any], ...] = ()  # meanings, grounded, in the order of the text
+    answers: tuple[dict[str, Any], ...] = ()  # what answers them, told apart by `is`
     choices: tuple[str, ...] = ()  # of a clarification, numbered from 1
     suggestions: tuple[str, ...] = ()  # what can be asked next
     trace_id: str | None = None  # of the decision explained
@@ -26,5 +28,5 @@ class Reply(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def encode(reply: Reply) -> str:
-    """One line of JSON: the same reply gives the same text."""
+    """Encode a reply as one line of JSON: the same reply gives the same text."""
     return msgspec.json.encode(reply).decode()

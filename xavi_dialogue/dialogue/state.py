@@ -1,4 +1,4 @@
-"""The state of all conversations about one ride: a value, folded from inputs."""
+"""State: all conversations about one ride as a value, folded from inputs."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -8,28 +8,25 @@ from planner.events import Event
 from planner.trace import PlanTrace
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.states import Phase, RidePhase
-from xavi_dialogue.dialogue.turn import Judgement, Quiz, Turn
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.explain.query import Detail, Query
-from xavi_dialogue.explain.record import Record
-from xavi_dialogue.explain.when import Focus
+from xavi_dialogue.dialogue.turn import Judgement, Offer, Quiz, Turn
+from xavi_dialogue.domain.answers import Answer, NeedRollout, Reason, Refusal
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.explain.history.record import Record
 
 EPSILON = 1e-6  # [s] times nearer than this are the same
 
 
 @dataclass(frozen=True, slots=True)
 class Understood:
-    """What a passenger said, where it takes the record to reply to it."""
+    """A passenger's turn, as it is to be replied to."""
 
-    text: str  # see Turn
-    query: Query
-    focus: Focus | None = None  # the part of the ride that it is about; None: what fits best
-    again: bool = False  # a bare "why?", which asks for what was not told yet
-    detail: Detail | None = None  # how much to tell this once, where nothing else was asked for
-    aim: Literal["answer", "quiz", "verdict"] = "answer"
-    quiz: Quiz | None = None  # of a verdict: the question that was answered ...
+    acts: tuple[GroundedAct, ...] = ()  # in the order in which they are answered
+    before: tuple[Refusal, ...] = ()  # what is put right before they are
+    behind: tuple[Refusal, ...] = ()  # what is declined or asked back after that
+    offer: Offer | None = None  # what is offered where it is asked back
+    aim: Literal["answer", "quiz", "again", "verdict"] = "answer"
+    quiz: Quiz | None = None  # the question of ours that was answered, or was not ...
     judgement: Judgement | None = None  # ... and how
-    posed_at: float | None = None  # ... and when [s] it was put
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +35,7 @@ class Pending:
 
     asked: Asked
     understood: Understood | None = None  # None: not looked at yet
+    done: tuple[tuple[Answer | Refusal, ...], ...] = ()  # what its first acts were answered
     need: NeedRollout | None = None  # what it waits for
     extra: tuple[PlanTrace, ...] = ()  # what arrived for it so far
     refused: tuple[NeedRollout, ...] = ()  # what could not be had for it
@@ -67,7 +65,7 @@ class Dialogue:
     planned: Mapping[NeedRollout, PlanTrace] = field(default_factory=dict)  # planned again so far
 
     def session(self, name: str) -> Session:
-        """A passenger's conversation, a fresh one at first."""
+        """Return a passenger's conversation, a fresh one at first."""
         return self.sessions.get(name, Session())
 
     def record(
@@ -76,7 +74,7 @@ class Dialogue:
         extra: tuple[PlanTrace, ...] = (),
         refused: tuple[NeedRollout, ...] = (),
     ) -> Record:
-        """All that was known at a moment [s]; after the ride, at its end.
+        """Return all that was known at a moment [s]; after the ride, at its end.
 
         Args:
             at: the moment [s].
@@ -91,7 +89,7 @@ class Dialogue:
 
 
 def up_to(record: Record, time: float) -> Record:
-    """What was known at an earlier moment [s] of a record."""
+    """Return what was known at an earlier moment [s] of a record."""
     return replace(
         record,
         now=time,

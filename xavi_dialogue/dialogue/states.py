@@ -1,4 +1,4 @@
-"""The conversation as a table; everything that decides what may follow what stands here.
+"""States: the conversation as a table; everything that decides what may follow what stands here.
 
 A session listens, thinks about one question at a time, and may have to wait for new rollouts
 before it can go on thinking. It may end a turn with a question of its own: which of several
@@ -13,7 +13,7 @@ from typing import TypeVar
 
 
 class Phase(Enum):
-    """Where a session stands. THINKING never outlasts the input that led to it."""
+    """State of a session. THINKING never outlasts the input that led to it."""
 
     LISTENING = "listening"
     THINKING = "thinking"
@@ -23,7 +23,7 @@ class Phase(Enum):
 
 
 class Move(Enum):
-    """What happens to a session."""
+    """Transition of a session."""
 
     ASKED = "asked"
     TURNED_AWAY = "turned away"  # the shell could not have the question answered
@@ -38,14 +38,14 @@ class Move(Enum):
 
 
 class RidePhase(Enum):
-    """Where the ride stands."""
+    """State of the ride."""
 
     UNDER_WAY = "under way"
     OVER = "over"
 
 
 class RideMove(Enum):
-    """What happens to the ride."""
+    """Transition of the ride."""
 
     RECORDED = "recorded"
     ENDED = "ended"
@@ -87,7 +87,7 @@ class IllegalEvent(Exception):
 
 
 def after(table: Mapping[tuple[State, Input], State], state: State, move: Input) -> State:
-    """The state that follows.
+    """Return the state that follows.
 
     Raises:
         IllegalEvent: the table has no such transition.
@@ -99,7 +99,7 @@ def after(table: Mapping[tuple[State, Input], State], state: State, move: Input)
 
 
 def diagram() -> str:
-    """Both tables as Mermaid state diagrams, in Markdown."""
+    """Return both tables as Mermaid state diagrams, in Markdown."""
     lines = ["```mermaid", "stateDiagram-v2", "    [*] --> listening"]
     lines += [f"    {a.value} --> {b.value}: {move.value}" for (a, move), b in PHASES.items()]
     lines += ["```", "", "```mermaid", "stateDiagram-v2"]

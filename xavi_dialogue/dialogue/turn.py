@@ -1,42 +1,66 @@
-"""Turn: one question and its reply, with all that later turns need of it. Plain data."""
+"""Turn: what was said once by either side, with all that later turns need of it. Plain data."""
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import msgspec
 
+from planner.trace import Action
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.when import Focus
+from xavi_dialogue.domain.answers import Answer, Posed, Refusal
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Act
+from xavi_dialogue.domain.terms import Thing
 
-#: What kind of thing the passenger is asked for.
-QuizKind = Literal["vehicle", "deed", "sooner"]
-#: What a reply comes to; "passed": the passenger does not know, or does not commit to one answer.
-Judgement = Literal["right", "wrong", "passed"]
+#: What a reply comes to; "passed": the passenger does not know, or does not settle on one answer.
+Judgement: TypeAlias = Literal["right", "wrong", "passed"]
+
+
+class Part(msgspec.Struct, frozen=True):
+    """One act of the passenger with what answers it."""
+
+    act: GroundedAct | None  # None where it could not be grounded
+    result: Answer | Refusal
 
 
 class Quiz(msgspec.Struct, frozen=True, kw_only=True):
-    """A question of ours to the passenger, and the answer that follows from the record."""
+    """A question of ours to the passenger, with its solution from the record."""
 
-    kind: QuizKind
-    about: Query  # the question whose explanation is the answer
+    posed: Posed
+    at: float  # [s] when it was put
     vehicle: int | None = None  # of kind vehicle: the one that is meant
-    actions: tuple[QueryAction, ...] = ()  # of kind deed: what we would have done
+    actions: tuple[Action, ...] = ()  # of kind deed: what we would have done
     same: bool | None = None  # of kind deed: whether that is what we did anyway
     sooner: bool | None = None  # whether we would have been there sooner; None: not clear
+
+
+class Offer(msgspec.Struct, frozen=True, kw_only=True):
+    """What a clarification offered: the readings, in the order in which they are numbered."""
+
+    acts: tuple[Act, ...] = ()  # one for each choice, as far as they are whole acts
+    things: tuple[Thing, ...] = ()  # the vehicles to choose from
+    pending: Act | None = None  # the act to be completed with one of them
 
 
 class Turn(msgspec.Struct, frozen=True, kw_only=True):
     """One question and its reply."""
 
-    text: str  # as asked; where a choice was picked, the question it stands for
-    query: Query | None  # as understood, with vehicles by number
+    text: str  # as typed
+    parts: tuple[Part, ...] = ()  # as understood, in order
     reply: Reply
     ride: str | None = None  # id of the first trace of the ride that it is about
-    leans: Query | None = None  # what a follow-up leans on, where that is not the query
-    focus: Focus | None = None  # the part of the ride that it is about
-    mentioned: tuple[int, ...] = ()  # vehicles that question and reply name, the latest last
-    choices: tuple[Query, ...] = ()  # offered by the reply
+    mentioned: tuple[int, ...] = ()  # vehicles that the reply names, in order
+    offer: Offer | None = None  # of a clarification
     quiz: Quiz | None = None  # put by the reply
     answered: Quiz | None = None  # which the text answers ...
     right: bool | None = None  # ... and whether rightly; None: the passenger does not know
     turned_away: bool = False  # the question was not taken up
+
+    @property
+    def acts(self) -> tuple[GroundedAct, ...]:
+        """What was meant, each act once."""
+        return tuple(dict.fromkeys(p.act for p in self.parts if p.act is not None))
+
+    @property
+    def results(self) -> tuple[Answer | Refusal, ...]:
+        """What was replied to it."""
+        return tuple(part.result for part in self.parts)

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Proposition,
     Quantity,
+    Tense,
     Thing,
     Time,
     Unsaid,
@@ -99,7 +100,7 @@ class Doing(Value, frozen=True):
 
     actor: Thing | None = Ego()
     time: Time = Unsaid()
-    tense: Literal["past", "present", "future"] = "present"
+    tense: Tense = "present"
     besides: Proposition | None = None  # what else
 
 
@@ -292,6 +293,7 @@ class TokenShare(Value, frozen=True):
     read: str  # as read, spelling corrected
     share: Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
     part: str = ""  # what it stands for, for developers
+    act: int | None = None  # index of the act that it belongs to; None: not told
 
 
 class Reading(Value, frozen=True):

@@ -8,6 +8,19 @@ of things, only `Ego`, `Vehicle`, `Vehicles`, `Nobody` and the places remain; of
 from typing import Literal, TypeAlias
 
 from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.times import (
+    Ago,
+    At,
+    Back,
+    Between,
+    Next,
+    Now,
+    Rank,
+    Start,
+    Unsaid,
+    WholeRide,
+    Within,
+)
 from xavi_dialogue.domain.vocabulary import (
     ActionName,
     Attribute,
@@ -20,6 +33,15 @@ from xavi_dialogue.domain.vocabulary import (
     Side,
     State,
 )
+
+__all__ = [
+    "Ago", "At", "Back", "Believed", "Between", "Both", "Caused", "Compares", "Described",
+    "Destination", "Ego", "Event", "Everyone", "Exists", "Exit", "Extremes", "Feature",
+    "Happens", "Has", "Is", "Junction", "Lane", "Measured", "Next", "Nobody", "Not", "Now",
+    "Passenger", "Pronoun", "Proposition", "Quantity", "Rank", "Record", "Related", "Relative",
+    "Road", "Start", "Tense", "That", "Thing", "Time", "Unknown", "Unsaid", "Vehicle",
+    "Vehicles", "Wanted", "WholeRide", "Within",
+]  # fmt: skip
 
 # --- things -------------------------------------------------------------------------------------
 
@@ -56,6 +78,7 @@ class Described(Value, frozen=True):
     origin: Bearing | None = None  # where it comes or came from
     of: "Thing | None" = None  # the bearing is seen from this, from us where it is None
     doing: "Event | None" = None  # relative clause: "that cut in", "which we waited for"
+    such: "Proposition | None" = None  # any other relative clause: "that you cannot see"
     plural: bool = False
     number: int | None = None  # how many: "the two cars"
     rank: int | None = None  # "the first" 1, "the second" 2, "the last" -1
@@ -160,69 +183,12 @@ Thing: TypeAlias = (
 # --- times --------------------------------------------------------------------------------------
 
 
-class Now(Value, frozen=True):
-    """The moment of the question: "now", "currently", "at the moment"."""
-
-
-class Unsaid(Value, frozen=True):
-    """No time was said: tense and discourse decide."""
-
-
-class At(Value, frozen=True):
-    """A time of the ride: "at 0:12", "at 12 seconds"."""
-
-    at: float  # [s] simulation time
-
-
-class Ago(Value, frozen=True):
-    """A time before now: "five seconds ago", "just now" (None: a few seconds)."""
-
-    seconds: float | None = None  # [s]
-
-
-class Within(Value, frozen=True):
-    """A time after now: "in five seconds", "soon" (None)."""
-
-    seconds: float | None = None  # [s]
-
-
-class Between(Value, frozen=True):
-    """An interval of the ride."""
-
-    begin: float  # [s]
-    end: float  # [s]
-
-
 class Relative(Value, frozen=True):
     """While, before or after an event or thing: "when we turned", "before the roundabout"."""
 
     relation: Literal["during", "before", "after", "until", "since"]
     anchor: "Event | Thing"
     rank: int | None = None  # 1 the first time, 2 the second, -1 the last
-
-
-class Back(Value, frozen=True):
-    """The episode spoken of: "then", "at that time", "back there", "before that"."""
-
-    relation: Literal["during", "before", "after"] = "during"
-
-
-class Rank(Value, frozen=True):
-    """Which of several times: "the first time", "the second time", "last time"."""
-
-    rank: int  # -1 the last
-
-
-class Start(Value, frozen=True):
-    """The beginning of the ride."""
-
-
-class WholeRide(Value, frozen=True):
-    """All of the ride so far: "so far", "ever", "the whole trip", "until now"."""
-
-
-class Next(Value, frozen=True):
-    """What comes next: "next", "from now on", "later"."""
 
 
 Time: TypeAlias = (
@@ -245,6 +211,7 @@ class Event(Value, frozen=True):
     tense: Tense = "past"
     modal: Literal["will", "would", "can", "could", "should", "must", "might", "want"] | None = None
     then: "Event | None" = None  # done next: "change left and then turn right"
+    where: "Related | None" = None  # beside what it is done: "wait behind the lorry"
 
 
 class Measured(Value, frozen=True):

@@ -17,8 +17,8 @@ from planner.events import Event
 from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import Reason
-from xavi_dialogue.language.context import Style
+from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.transports.text import clean, one_line
 
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$(?!\n)")]
@@ -141,7 +141,7 @@ class AskReply(Reply, frozen=True, kw_only=True):
 
     LIMIT: ClassVar[int] = 256 * KIB
 
-    schema: Literal["xavi.reply/1"] = "xavi.reply/1"
+    schema: Literal["xavi.reply/2"] = "xavi.reply/2"
     request: Name
     seq: Count
     wall_time: float
@@ -179,7 +179,7 @@ class HistoryReply(Message, frozen=True, kw_only=True):
 
     LIMIT = 1024 * KIB
 
-    schema: Literal["xavi.history_reply/1"] = "xavi.history_reply/1"
+    schema: Literal["xavi.history_reply/2"] = "xavi.history_reply/2"
     session: Name
     seq: Count
     sim_time: Seconds
@@ -193,7 +193,7 @@ class TurnReport(Message, frozen=True, kw_only=True):
 
     LIMIT = 256 * KIB + 4 * KIB
 
-    schema: Literal["xavi.turn/1"] = "xavi.turn/1"
+    schema: Literal["xavi.turn/2"] = "xavi.turn/2"
     session: Name
     seq: Count  # of the service's shared turns about this car
     sim_time: Seconds  # at which it was asked

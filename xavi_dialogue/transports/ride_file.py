@@ -9,8 +9,8 @@ from pathlib import Path
 import msgspec
 
 from planner.events import Event
-from planner.trace import PlanTrace
-from xavi_dialogue.explain.explanation import NeedRollout
+from planner.trace import PlanTrace, WhatIf
+from xavi_dialogue.domain.answers import NeedRollout
 
 
 class RideFileError(ValueError):
@@ -45,8 +45,12 @@ class RecordedRide:
 
 
 def key(need: NeedRollout) -> str:
-    """The name under which what was planned for a request is kept."""
-    return hashlib.sha256(msgspec.json.encode(need, order="deterministic")).hexdigest()[:16]
+    """Return the name under which what was planned for a request is kept.
+
+    It is the hash of what the planner is asked: the decision, and what is changed in it.
+    """
+    what_if = msgspec.convert(msgspec.to_builtins(need), WhatIf)
+    return hashlib.sha256(msgspec.json.encode((need.trace_id, what_if))).hexdigest()[:16]
 
 
 def dump(ride: RecordedRide) -> bytes:

@@ -16,8 +16,8 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.transports.database import Database, Unfit, Writing
 from xavi_dialogue.transports.rows import Line, Summary, checked, decoded, decoded_owner, known
 
-VERSION = 2
-SCHEMA = "xavi.memory/1"  # of exported lines
+VERSION = 3
+SCHEMA = "xavi.memory/2"  # of exported lines
 RECENT = 10  # turns among which a request that comes again is looked for
 MAX_TURN = 256 * 1024  # bytes
 PATIENCE = 5.0  # [s] to wait for others that write
@@ -43,7 +43,13 @@ CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)
 # What brings tables of a version to the next.
 _MIGRATIONS = {
     1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL);"
-    " ALTER TABLE turns ADD COLUMN request TEXT"
+    " ALTER TABLE turns ADD COLUMN request TEXT",
+    # What was understood is of another form: of a turn, text and reply are kept as they were.
+    2: "UPDATE turns SET turn = json_object("
+    "'text', json_extract(turn, '$.text'), 'reply', json_object("
+    "'text', json_extract(turn, '$.reply.text'), 'kind', json_extract(turn, '$.reply.kind'),"
+    " 'reason', json_extract(turn, '$.reply.reason'),"
+    " 'sim_time', json_extract(turn, '$.reply.sim_time'))) WHERE json_valid(turn)",
 }
 
 

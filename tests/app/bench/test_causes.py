@@ -17,6 +17,9 @@ from xavi_dialogue.app.bench.necessity import (
 )
 from xavi_dialogue.app.bench.worlds.generate import generate, kind_of
 from xavi_dialogue.app.ride import network_of
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.domain.terms import Event as Deed
+from xavi_dialogue.domain.terms import Happens, Not
 
 STEP = 0.1  # [s]
 
@@ -79,12 +82,11 @@ def test_what_the_road_alone_slows_is_no_deed() -> None:
 def test_being_slow_from_the_start_is_no_slowing_down() -> None:
     found = question(ridden(*[5.0] * 12), ALONE)
     assert found.deed == "continue"
-    assert found.query.counterfactual == ("continue",)
+    assert found.act.act == Ask(Why(Not(Happens(Deed("continue")))))
 
 
 def test_deeds_are_asked_about_as_facts() -> None:
-    assert Question("give-way", 1.0).query.factual == ("give-way",)
-    assert Question("give-way", 1.0).query.type == "why"
+    assert Question("give-way", 1.0).act.act == Ask(Why(Happens(Deed("give-way"))))
 
 
 def test_the_record_ends_when_it_is_asked() -> None:

@@ -84,7 +84,7 @@ def test_those_answered_are_timed():
     watch = Watch()
     ride = ride_file.load((FOLDER / "s1-0.ride.jsonl.gz").read_bytes())
     recorded("s1", ride, watch)
-    assert {"all", "s1 why_not", "s1 what_if"} <= set(watch.taken)
+    assert {"all", "s1 why not stop", "s1 what if stopped"} <= set(watch.taken)
     assert len(watch.taken["all"]) == sum(
         len(taken) for name, taken in watch.taken.items() if name != "all"
     )

@@ -6,16 +6,19 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from xavi_dialogue.app.bench.questions import QuestionFileError, read, read_folder
+from xavi_dialogue.app.bench.errors import QuestionFileError
+from xavi_dialogue.app.bench.questions import read, read_folder
 from xavi_dialogue.app.bench.scoring import Question, Verdict, agreement, verdict
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.nlu.projection import QueryFields
 
-WHY = Query(type="why", actor="vehicle:1", factual=("exit-right",), tense="past")
-DECLINED = Query(type="out_of_scope", reason="off-topic")
+WHY = QueryFields(type="why", actor="vehicle:1", factual=("exit-right",), tense="past")
+DECLINED = QueryFields(type="out_of_scope", reason="off-topic")
 RIGHT = Verdict(type=True, exact=True, exact_primary=True, false_confident=False)
 
 
-def asked(query: Query, *alternatives: Query, underspecified: str | None = None) -> Question:
+def asked(
+    query: QueryFields, *alternatives: QueryFields, underspecified: str | None = None
+) -> Question:
     return Question("q", "text", query, "clean", alternatives, (), underspecified)
 
 
@@ -36,13 +39,13 @@ def test_the_annotated_query_is_right_and_an_alternative_is_as_good() -> None:
         replace(WHY, detail="more"),
     ],
 )
-def test_a_wrong_field_is_not_exact_and_not_yet_a_confident_error(wrong: Query) -> None:
+def test_a_wrong_field_is_not_exact_and_not_yet_a_confident_error(wrong: QueryFields) -> None:
     expected = Verdict(type=True, exact=False, exact_primary=False, false_confident=False)
     assert verdict(asked(WHY), wrong) == expected
 
 
 @pytest.mark.parametrize("wrong", [replace(WHY, actor="ego"), replace(WHY, negated=True)])
-def test_another_vehicle_or_the_opposite_is_a_confident_error(wrong: Query) -> None:
+def test_another_vehicle_or_the_opposite_is_a_confident_error(wrong: QueryFields) -> None:
     assert verdict(asked(WHY), wrong).false_confident
     assert not verdict(asked(WHY, replace(wrong, tense="future")), wrong).false_confident
 

@@ -95,6 +95,20 @@ def test_a_long_conversation_is_not_known_for_ever() -> None:
     assert conversation.turn(10) == said[10]
 
 
+def test_what_the_latest_answer_says_could_be_asked_is_known() -> None:
+    conversation, said = Conversation(), [turn("a")]
+    look(conversation, said)
+    assert conversation.suggestions == ()
+    offers = ("What is it?", "Why?")
+    answer = Reply(text="So.", kind="answer", suggestions=offers, sim_time=1.0)
+    said.append(PastTurn("b", answer))
+    look(conversation, said)
+    assert conversation.suggestions == offers
+    said.append(PastTurn("c", Reply(text="No.", kind="refusal", suggestions=offers, sim_time=1.0)))
+    look(conversation, said)
+    assert conversation.suggestions == ()  # the page shows those of a refusal beside it
+
+
 @given(st.lists(st.integers(0, 3).flatmap(lambda n: st.lists(st.text(max_size=3), max_size=n))))
 def test_whatever_is_said_when_all_of_it_is_known_in_order(batches: list[list[str]]) -> None:
     conversation, said = Conversation(), []

@@ -17,8 +17,7 @@ from tests.stories import rides
 from tests.traces import s1_ride, straight_track
 from xavi_dialogue.app.dashboard.suggest import MOST, suggestions
 from xavi_dialogue.app.local import Conversation, NoPlan, planner_for
-from xavi_dialogue.explain.explanation import NeedRollout
-from xavi_dialogue.explain.query import Query
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transports import ride_file
 
 SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
@@ -80,7 +79,9 @@ def test_suggestions_are_few_and_understood_and_never_about_ourselves_as_a_vehic
         assert len(set(found)) == len(found)
         seen = frozenset(v for t in ride(name).traces if t.sim_time <= at for v in t.scene)
         for text in found:
-            assert isinstance(MIND.parse(text, seen | {0}, None), Query), text
+            [best, *_] = MIND.read(text)
+            assert best.acts, text
+            assert not best.unknown, text
             named = {int(number) for number in re.findall(r"vehicle (\d+)", text)}
             assert named <= seen - {0}
 
@@ -135,6 +136,18 @@ def test_a_collision_comes_first() -> None:
     crash = rides()["crash"]
     found = suggestions(crash.traces[-1], crash.events, crash.halt)
     assert found[0] == "How could that have been avoided?"
+
+
+def test_what_the_car_said_could_be_asked_comes_after_what_has_just_happened() -> None:
+    told = s1_ride()
+    said = ("How fast were we going?", "Why did you move to the left lane?")
+    found = suggestions(told.traces[-1], told.events, 7.0, said)
+    assert found[:3] == (
+        "Why did you move to the left lane?",
+        "What if you had gone straight on?",
+        "How fast were we going?",
+    )
+    assert len(set(found)) == len(found) <= MOST
 
 
 def test_a_long_calm_has_questions_too() -> None:

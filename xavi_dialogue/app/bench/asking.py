@@ -6,6 +6,7 @@ giving way, where it did so about then; stopping, where it stood; else slowing d
 nothing of all this happened, the foil `continue` is asked about.
 """
 
+import math
 from bisect import bisect_left
 from collections import Counter
 from dataclasses import dataclass
@@ -18,13 +19,18 @@ from planner.trace import PlanTrace
 from planner.whatif import WhatIfError
 from sim.network import Network
 from sim.scenario import Scenario
+from sim.scene import EGO
 from xavi_dialogue.app.local import Replan
 from xavi_dialogue.app.ride import Ending, clock, start
+from xavi_dialogue.dialogue.explanation import evidence_of
 from xavi_dialogue.dialogue.manoeuvres import carried_out
-from xavi_dialogue.explain.engine import explain
-from xavi_dialogue.explain.explanation import Explanation, NeedRollout, NoExplanation
-from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.record import Record
+from xavi_dialogue.domain.answers import Answer, NeedRollout, Refusal, Unavailable
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.domain.terms import Event as Doing
+from xavi_dialogue.domain.terms import Happens, Not
+from xavi_dialogue.explain.answers.engine import explain
+from xavi_dialogue.explain.history.record import Record
 
 Deed: TypeAlias = Literal[
     "change-left", "change-right", "give-way", "stop", "slow-down", "continue"
@@ -70,12 +76,10 @@ class Question:
     now: float  # [s]
 
     @property
-    def query(self) -> Query:
-        """The question as a query."""
-        if self.deed == "continue":
-            return Query(type="why_not", counterfactual=("continue",))
-        deed: QueryAction = self.deed
-        return Query(type="why", factual=(deed,))
+    def act(self) -> GroundedAct:
+        """The question as it is meant."""
+        done = Happens(Doing(self.deed))
+        return GroundedAct(Ask(Why(Not(done) if self.deed == "continue" else done)))
 
 
 def ride(scenario: Scenario, network: Network) -> Ridden:
@@ -126,13 +130,13 @@ def question(ridden: Ridden, alone: Ridden) -> Question:
 
 def ask(
     asked: Question, ridden: Ridden, again: Replan
-) -> tuple[Explanation | NoExplanation, tuple[PlanTrace, ...]]:
+) -> tuple[Answer | Refusal, tuple[PlanTrace, ...]]:
     """The answer, and the plans that were made again for it."""
     record = ridden.record(asked.now)
     extra: tuple[PlanTrace, ...] = ()
     for _ in range(ROUNDS):
         found = explain(
-            asked.query, Record(record.now, record.traces, record.events, record.ended, extra)
+            asked.act, Record(record.now, record.traces, record.events, record.ended, extra)
         )
         if not isinstance(found, NeedRollout):
             return found, extra
@@ -142,7 +146,22 @@ def ask(
             extra = (*extra, again(trace, found))
         except WhatIfError:
             break
-    return NoExplanation(reason="planner-failed"), extra
+    return Unavailable("planner-failed"), extra
+
+
+def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrace:
+    """Return the decision that an answer rests on; the last one, where it names none."""
+    evidence = evidence_of((found,))
+    named = () if evidence is None else evidence.traces
+    known = [trace for trace in ridden.traces if trace.sim_time <= now]
+    return next((trace for trace in known if trace.trace_id in named), known[-1])
+
+
+def nearest(trace: PlanTrace) -> int | None:
+    """Return the vehicle nearest to the ego in a decision."""
+    here = trace.scene[EGO].position
+    others = [vehicle for vehicle in trace.scene if vehicle != EGO]
+    return min(others, key=lambda v: math.dist(trace.scene[v].position, here), default=None)
 
 
 def _slowest(ridden: Ridden, alone: Ridden) -> int | None:

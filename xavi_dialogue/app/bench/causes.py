@@ -5,7 +5,6 @@ it, ask about the most marked deed (see `asking`), and compare the vehicles name
 planted one. Named vehicles, and as many unnamed ones, are then taken away (see `necessity`).
 """
 
-import math
 import shutil
 import tempfile
 from collections.abc import Callable, Sequence
@@ -13,10 +12,16 @@ from pathlib import Path
 
 import msgspec
 
-from planner.trace import PlanTrace
 from sim.network import Network
-from sim.scene import EGO
-from xavi_dialogue.app.bench.asking import Deed, Ridden, ask, question, ride
+from xavi_dialogue.app.bench.asking import (
+    Deed,
+    Ridden,
+    ask,
+    decision_of,
+    nearest,
+    question,
+    ride,
+)
 from xavi_dialogue.app.bench.figures import in_columns
 from xavi_dialogue.app.bench.necessity import (
     Removal,
@@ -31,7 +36,9 @@ from xavi_dialogue.app.bench.worlds.generate import Planted, generate, kind_of
 from xavi_dialogue.app.bench.worlds.values import KINDS, Kind
 from xavi_dialogue.app.local import planner_for
 from xavi_dialogue.app.ride import network_of
-from xavi_dialogue.explain.explanation import Cause, Explanation
+from xavi_dialogue.dialogue.explanation import contrastive
+from xavi_dialogue.dialogue.standing import reason_of
+from xavi_dialogue.domain.answers import Cause
 
 ALL = "all"
 EVERY = 5  # worlds after which progress is told
@@ -224,16 +231,17 @@ def _examined(planted: Planted, network: Network) -> Case:
         at=round(asked.now, 3),
         matters=ride_changes(ridden, less(world.planted)),
     )
-    if not isinstance(found, Explanation):
-        return msgspec.structs.replace(case, refused=found.reason)
-    named = tuple(cause.vehicle for cause in found.causes)
-    trace = next(t for t in ridden.traces if t.sim_time == found.sim_time)
+    told, refused = contrastive(found), reason_of(found)
+    if told is None or refused is not None:
+        return msgspec.structs.replace(case, refused=refused or "no-influence")
+    named = tuple(cause.vehicle for cause in told.causes)
+    trace = decision_of(ridden, found, asked.now)
     return msgspec.structs.replace(
         case,
         named=named,
-        unsure=any(map(_unsure, found.causes)),
+        unsure=any(map(_unsure, told.causes)),
         seen=world.planted in trace.scene,
-        nearest=_nearest(trace),
+        nearest=nearest(trace),
         removals=tuple(
             Removal(
                 vehicle,
@@ -273,13 +281,6 @@ def _needed(cases: Sequence[Case], named: bool, what: str) -> Share:
     tried = [getattr(one, what) for case in cases for one in case.removals if one.named == named]
     known = [value for value in tried if value is not None]
     return Share(f"{'named' if named else 'not named'}: the {what}", sum(known), len(known))
-
-
-def _nearest(trace: PlanTrace) -> int | None:
-    """The vehicle nearest to the ego in a decision."""
-    here = trace.scene[EGO].position
-    others = [vehicle for vehicle in trace.scene if vehicle != EGO]
-    return min(others, key=lambda v: math.dist(trace.scene[v].position, here), default=None)
 
 
 def _unsure(cause: Cause) -> bool:

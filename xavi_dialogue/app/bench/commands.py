@@ -1,11 +1,12 @@
 """The commands of `xavi bench`; what they measure is imported when they run."""
 
-import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
+
+from xavi_dialogue.app.bench.chosen import ours, processes, there
 
 if TYPE_CHECKING:
     from xavi_dialogue.app.bench.figures import Report
@@ -21,6 +22,11 @@ Jobs = Annotated[int | None, typer.Option(min=1, help="Processes; default: one p
 Rides = Annotated[
     Path, typer.Option(exists=True, file_okay=False, help="Folder of recorded rides.")
 ]
+OneRide = Annotated[
+    Path, typer.Option("--ride", exists=True, dir_okay=False, help="A recorded ride.")
+]
+RIDE = Path("transcripts/rides/s1-0.ride.jsonl.gz")
+QUESTIONS = Path("tests/nlu/questions")
 Questions = Annotated[Path, typer.Option(help="Folder of the folders learn and blind.")]
 Page = Annotated[
     Path | None,
@@ -132,21 +138,33 @@ def _of_parsing(group: typer.Typer, show: Show) -> None:
 
     @group.command("parse")
     def _parse(
-        questions: Questions = Path("tests/language/questions"), as_json: AsJson = False
+        questions: Questions = QUESTIONS, ride: OneRide = RIDE, as_json: AsJson = False
     ) -> None:
         """How often questions are understood, and how long that takes, hostile texts included."""
-        show(lambda note: parse(questions, note), as_json)
+        show(lambda note: parse(questions, ride, note), as_json)
+
+    @group.command("unknown")
+    def _unknown(
+        number: Annotated[int, typer.Option("--number", min=1, help="How many.")] = 200,
+        seed: Annotated[int, typer.Option(min=0, help="Of questions and words.")] = 0,
+        questions: Questions = QUESTIONS,
+        ride: OneRide = RIDE,
+        as_json: AsJson = False,
+    ) -> None:
+        """Whether a word that nobody knows goes unheard in a question."""
+        show(lambda note: unknown(questions, ride, number, seed, note), as_json)
 
     @group.command("fuzz")
     def _fuzz(
         runs: Annotated[int, typer.Option(min=1, help="Texts that are tried.")] = 200_000,
         seed: Annotated[int, typer.Option(min=0, help="Of the texts.")] = 0,
         jobs: Jobs = None,
-        questions: Questions = Path("tests/language/questions"),
+        questions: Questions = QUESTIONS,
+        ride: OneRide = RIDE,
         as_json: AsJson = False,
     ) -> None:
-        """Whether any text makes the parser fail or take long."""
-        show(lambda note: fuzz(questions, runs, seed, jobs, note), as_json)
+        """Whether any text makes reading or grounding fail, or takes long."""
+        show(lambda note: fuzz(questions, ride, runs, seed, jobs, note), as_json)
 
 
 def plan(hours: float, plot: Path | None) -> "Report":
@@ -167,8 +185,8 @@ def drive(
 
     from xavi_dialogue.app.bench.drive import measure
 
-    chosen, left_out = (_there(scenarios), ()) if scenarios else _all(note)
-    found = measure(chosen, runs, _processes(jobs), note)
+    chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
+    found = measure(chosen, runs, processes(jobs), note)
     return replace(found, left_out=left_out)
 
 
@@ -178,7 +196,7 @@ def recognise(
     """Measure recognition in scenarios, or in those where others have a choice."""
     from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
 
-    return measure(_there(scenarios or list(SCENARIOS)), seeds, _processes(jobs), note)
+    return measure(there(scenarios or list(SCENARIOS)), seeds, processes(jobs), note)
 
 
 def causes(
@@ -187,7 +205,7 @@ def causes(
     """Measure causes in worlds where one was planted."""
     from xavi_dialogue.app.bench.causes import measure
 
-    return measure(worlds, seed, _processes(jobs), keep, note)
+    return measure(worlds, seed, processes(jobs), keep, note)
 
 
 def fidelity(
@@ -202,8 +220,8 @@ def fidelity(
 
     from xavi_dialogue.app.bench.fidelity import measure
 
-    chosen, left_out = (_there(scenarios), ()) if scenarios else _all(note)
-    return replace(measure(chosen, seeds, every, _processes(jobs), note), left_out=left_out)
+    chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
+    return replace(measure(chosen, seeds, every, processes(jobs), note), left_out=left_out)
 
 
 def explain(rides: Path, write: Path | None, note: Callable[[str], None]) -> "Report":
@@ -231,50 +249,31 @@ def dashboard(seconds: float, minutes: float, note: Callable[[str], None]) -> "R
     return measure(seconds, minutes, note)
 
 
-def parse(questions: Path, note: Callable[[str], None]) -> "Report":
-    """Measure parsing."""
+def parse(questions: Path, ride: Path, note: Callable[[str], None]) -> "Report":
+    """Measure understanding."""
     from xavi_dialogue.app.bench.parse import measure
 
-    return measure(questions, note)
+    return measure(questions, ride, note)
+
+
+def unknown(
+    questions: Path, ride: Path, number: int, seed: int, note: Callable[[str], None]
+) -> "Report":
+    """Ask questions with words that nobody knows."""
+    from xavi_dialogue.app.bench.unknown import measure
+
+    return measure(questions, ride, number, seed, note)
 
 
 def fuzz(
-    questions: Path, runs: int, seed: int, jobs: int | None, note: Callable[[str], None]
+    questions: Path,
+    ride: Path,
+    runs: int,
+    seed: int,
+    jobs: int | None,
+    note: Callable[[str], None],
 ) -> "Report":
     """Try texts made at random."""
     from xavi_dialogue.app.bench.fuzz import measure
 
-    return measure(questions, runs, seed, _processes(jobs), note)
-
-
-def _there(names: list[str]) -> list[str]:
-    """The scenarios, each of which can be loaded.
-
-    Raises:
-        ScenarioError: one cannot.
-    """
-    from sim.scenario import load
-
-    for name in names:
-        load(name)
-    return names
-
-
-def _all(note: Callable[[str], None]) -> tuple[list[str], tuple[str, ...]]:
-    """Our scenarios, and those among them that cannot be driven for want of netconvert."""
-    from sim.scenario import NeedsMaps, available, load
-
-    there, left_out = [], []
-    for name in available():
-        try:
-            load(name)
-        except NeedsMaps as error:
-            note(f"leaving out {name}: {error}")
-            left_out.append(name)
-        else:
-            there.append(name)
-    return there, tuple(left_out)
-
-
-def _processes(asked: int | None) -> int:
-    return asked or os.cpu_count() or 1
+    return measure(questions, ride, runs, seed, processes(jobs), note)

@@ -4,9 +4,12 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from statistics import quantiles
-from typing import Protocol
+from typing import Literal, Protocol, TypeVar
 
 import msgspec
+from msgspec.structs import replace
+
+T = TypeVar("T", bound="Aimed")
 
 
 class Report(Protocol):
@@ -14,6 +17,24 @@ class Report(Protocol):
 
     def table(self) -> str:
         """The report for people."""
+
+
+class Target(msgspec.Struct, frozen=True):
+    """A figure to be reached."""
+
+    name: str
+    unit: str
+    value: float | None  # None: nothing was measured, which reaches nothing
+    bound: float
+    sense: Literal["at most", "at least"]
+    met: bool
+
+
+class Aimed(msgspec.Struct, frozen=True, kw_only=True):
+    """What a report of a benchmark with targets has beside its figures."""
+
+    targets: tuple[Target, ...] = ()
+    met: bool = True  # whether all of them are reached
 
 
 class Figure(msgspec.Struct, frozen=True):
@@ -57,6 +78,37 @@ class Watch:
             figure(name, "ms", [1000.0 * one for one in taken])
             for name, taken in self.taken.items()
         )
+
+
+def at_most(name: str, unit: str, value: float | None, bound: float) -> Target:
+    """Make the target that a figure is no more than a bound."""
+    return Target(name, unit, value, bound, "at most", value is not None and value <= bound)
+
+
+def at_least(name: str, unit: str, value: float | None, bound: float) -> Target:
+    """Make the target that a figure is no less than a bound."""
+    return Target(name, unit, value, bound, "at least", value is not None and value >= bound)
+
+
+def aimed(report: T, *targets: Target) -> T:
+    """Return a report with its targets."""
+    return replace(report, targets=targets, met=all(target.met for target in targets))
+
+
+def targets_table(targets: Sequence[Target]) -> str:
+    """Targets for people."""
+    rows = [("targets", "unit", "found", "bound", "")]
+    rows += [
+        (
+            one.name,
+            one.unit,
+            "-" if one.value is None else f"{one.value:.2f}",
+            f"{one.sense} {one.bound:g}",
+            "met" if one.met else "missed",
+        )
+        for one in targets
+    ]
+    return in_columns(rows)
 
 
 def figures_table(figures: Sequence[Figure]) -> str:

@@ -6,11 +6,12 @@ from planner.trace import Action, Outcome, PlanTrace, WhatIf
 from planner.whatif import replan
 from sim.network import Network
 from xavi_dialogue.causal.effects import effects
-from xavi_dialogue.explain.actions import same
-from xavi_dialogue.explain.contrast import factual
-from xavi_dialogue.explain.explanation import NeedRollout, Reason
-from xavi_dialogue.explain.record import Record
-from xavi_dialogue.explain.ride import Ride, Unanswered
+from xavi_dialogue.dialogue.standing import reason_of
+from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.explain.causes.actions import same
+from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 
 class Foreseen(msgspec.Struct, frozen=True):
@@ -51,7 +52,7 @@ def _foreseen(
         if isinstance(need, NeedRollout):
             again = replan(trace, network, WhatIf(actions=need.actions, rollouts=need.rollouts))
             return _foreseen(trace, network, foil, (*extra, again))
-        return Foreseen({}, declined=need.reason)
+        return Foreseen({}, declined=reason_of(need))
     later = next((e for e in effects(there, here) if e.component == "time"), None)
     if later is None:
         return Foreseen(there.outcomes)

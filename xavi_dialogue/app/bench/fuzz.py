@@ -1,11 +1,12 @@
-"""`xavi bench fuzz`: texts made at random, none of which may make the parser fail or take long.
+"""`xavi bench fuzz`: texts made at random, none of which may fail to be read and grounded.
 
-A third each is drawn from the grammar, from annotated questions changed at random, and from
-anything. Text k of a seed is always the same.
+A third each is drawn from forms of questions filled with the predicates of the lexicon, from
+annotated questions changed at random, and from anything; each is grounded in a recorded ride,
+behind earlier turns or none. Text k of a seed is always the same.
 
 Errors::
 
-    FaultFound   a text makes the parser fail; holds the text, and what went wrong
+    FaultFound   a text cannot be read or grounded; holds the text, and what went wrong
 """
 
 import math
@@ -19,24 +20,24 @@ from random import Random
 
 import msgspec
 
-from xavi_dialogue.app.bench.latency import parse_time
+from xavi_dialogue.app.bench.errors import FaultFound
+from xavi_dialogue.app.bench.figures import Aimed, aimed, at_most, targets_table
+from xavi_dialogue.app.bench.latency import hearing_time, record_of, understood
 from xavi_dialogue.app.bench.mutations import anything, mutated
 from xavi_dialogue.app.bench.questions import LEARN, read_folder
 from xavi_dialogue.app.bench.runs import in_processes
 from xavi_dialogue.app.bench.sentences import sentence
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.language.parse import NotUnderstood, Parser, explained
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.meaning import Beyond
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.nlu.grounding.result import Grounding
+from xavi_dialogue.nlu.grounding.salience import after
 
 LIMIT = 50.0  # [ms] of processor time: no text may take longer twice in a row
 BATCH = 1000  # texts that a process does at once
-SOURCES = ("grammar", "mutations", "anything")
+SOURCES = ("forms", "mutations", "anything")
 _FOLLOWS = 0.3  # share of texts with turns before them
 _MOST_TURNS = 4
-_NOT_UNDERSTOOD = frozenset({"ambiguous", "out_of_scope"})
-
-
-class FaultFound(ValueError):
-    """A text makes the parser fail."""
 
 
 class Fault(msgspec.Struct, frozen=True):
@@ -51,13 +52,13 @@ class Tried(msgspec.Struct, frozen=True):
     """What came of a batch of texts."""
 
     runs: dict[str, int]  # by source
-    understood: dict[str, int]  # those with a query that is neither declined nor asked back
+    understood: dict[str, int]  # those with an act that the car can speak of
     slowest: float  # [ms] the faster of two times
     worst: str  # the text that took so long, as a Python literal
     faults: tuple[Fault, ...] = ()
 
 
-class FuzzReport(msgspec.Struct, frozen=True):
+class FuzzReport(Aimed, frozen=True):
     """What came of all texts."""
 
     bench: str
@@ -65,7 +66,7 @@ class FuzzReport(msgspec.Struct, frozen=True):
     tried: Tried
 
     def table(self) -> str:
-        """The report for people, on one line."""
+        """The report for people."""
         runs, understood = self.tried.runs, self.tried.understood
         shares = ", ".join(
             f"{source} {100 * understood.get(source, 0) / runs[source]:.1f} %"
@@ -74,7 +75,8 @@ class FuzzReport(msgspec.Struct, frozen=True):
         )
         return (
             f"{sum(runs.values())} texts of seed {self.seed}, none fails; understood: {shares};"
-            f" slowest {self.tried.slowest:.1f} ms: {self.tried.worst}"
+            f" slowest {self.tried.slowest:.1f} ms: {self.tried.worst}\n\n"
+            f"{targets_table(self.targets)}"
         )
 
 
@@ -92,6 +94,7 @@ class Batch:
     """Texts `begin` to `end` of a seed."""
 
     questions: Path
+    ride: Path
     seed: int
     begin: int
     end: int
@@ -99,25 +102,27 @@ class Batch:
 
 
 def measure(
-    questions: Path, runs: int, seed: int, jobs: int, note: Callable[[str], None]
+    questions: Path, ride: Path, runs: int, seed: int, jobs: int, note: Callable[[str], None]
 ) -> FuzzReport:
     """Try so many texts.
 
     Args:
         questions: where the folder `learn` of annotated questions is.
+        ride: a recorded ride that the texts are about.
         runs: how many texts.
         seed: of the texts.
         jobs: how many processes work side by side.
         note: is told how far it is.
 
     Raises:
-        FaultFound: a text makes the parser fail.
+        FaultFound: a text cannot be read or grounded, or takes too long.
         QuestionFileError: the questions cannot be read.
+        RideFileError: the ride is none.
     """
     asked(questions)
-    batches = [
-        Batch(questions, seed, begin, min(begin + BATCH, runs)) for begin in range(0, runs, BATCH)
-    ]
+    record_of(ride)
+    begins = range(0, runs, BATCH)
+    batches = [Batch(questions, ride, seed, k, min(k + BATCH, runs)) for k in begins]
     found: list[Tried] = []
     for k, tried in enumerate(in_processes(attempt, batches, jobs, _died)):
         if tried.faults:
@@ -125,13 +130,18 @@ def measure(
         found.append(tried)
         if (k + 1) % max(1, len(batches) // 10) == 0:
             note(f"{batches[k].end} texts")
-    return FuzzReport("fuzz", seed, together(found))
+    tried = together(found)
+    return aimed(
+        FuzzReport("fuzz", seed, tried),
+        at_most("faults", "texts", len(tried.faults), 0),
+        at_most("slowest text", "ms", tried.slowest, LIMIT),
+    )
 
 
 def told(fault: Fault) -> str:
     """A fault on one line."""
-    after = "" if fault.context == "()" else f" after {fault.context}"
-    return f"parsing {fault.text}{after}: {fault.what}"
+    behind = "" if fault.context == "()" else f" after {fault.context}"
+    return f"understanding {fault.text}{behind}: {fault.what}"
 
 
 def together(found: Sequence[Tried]) -> Tried:
@@ -148,47 +158,48 @@ def together(found: Sequence[Tried]) -> Tried:
 
 def attempt(batch: Batch) -> Tried:
     """Try a batch of texts; stops at the first fault."""
-    known = asked(batch.questions)
+    known, record = asked(batch.questions), _record(batch.ride)
     runs: Counter[str] = Counter()
-    understood: Counter[str] = Counter()
+    spoken: Counter[str] = Counter()
     slowest, worst = 0.0, ""
     for number in range(batch.begin, batch.end):
         one = case(batch.seed, number, known)
         runs[one.source] += 1
         try:
-            query, taken = parsed(one, slowest)
+            found, taken = heard(one, record, slowest)
         except Exception:
-            return Tried(dict(runs), dict(understood), slowest, worst, (_failing(one),))
-        understood[one.source] += query is not None and query.type not in _NOT_UNDERSTOOD
+            return Tried(dict(runs), dict(spoken), slowest, worst, (_failing(one, record),))
+        spoken[one.source] += any(not isinstance(act.act, Beyond) for act in found.acts)
         if taken > slowest:
             slowest, worst = taken, ascii(one.text)
         if batch.limit is not None and taken > batch.limit:
             fault = _fault(one, f"takes {taken:.0f} ms, and no more than {batch.limit:.0f} is fine")
-            return Tried(dict(runs), dict(understood), slowest, worst, (fault,))
-    return Tried(dict(runs), dict(understood), slowest, worst)
+            return Tried(dict(runs), dict(spoken), slowest, worst, (fault,))
+    return Tried(dict(runs), dict(spoken), slowest, worst)
 
 
-def parsed(one: Case, slowest: float) -> tuple[Query | None, float]:
+def heard(one: Case, record: Record, slowest: float) -> tuple[Grounding, float]:
     """What a text means, and the processor time [ms] that it takes.
 
     A text that seems the slowest is timed once more, and the faster time counts.
 
     Raises:
-        FaultFound: the result is neither a valid query nor that nothing was understood.
+        FaultFound: the result is not a valid one.
     """
-    previous = _parser().question_before(one.context)
+    discourse = Discourse()
+    for turn in one.context:
+        for act in understood(turn, record, discourse).acts:
+            discourse = after(discourse, act)
     began = time.process_time()
-    result = explained(one.text, previous).result
+    found = understood(one.text, record, discourse)
     taken = 1000.0 * (time.process_time() - began)
     if taken > slowest:
-        taken = min(taken, parse_time(one.text, previous))
-    if isinstance(result, NotUnderstood):
-        return None, taken
-    if not isinstance(result, Query):
-        raise FaultFound(f"its meaning is {result!r}")
-    if msgspec.json.decode(msgspec.json.encode(result), type=Query) != result:
-        raise FaultFound(f"{result!r} does not come back from JSON as it was")
-    return result, taken
+        taken = min(taken, hearing_time(one.text, record, discourse))
+    if not isinstance(found, Grounding):
+        raise FaultFound(f"its meaning is {found!r}")
+    if msgspec.json.decode(msgspec.json.encode(found), type=Grounding) != found:
+        raise FaultFound(f"{found!r} does not come back from JSON as it was")
+    return found, taken
 
 
 def case(seed: int, number: int, questions: Sequence[str]) -> Case:
@@ -201,13 +212,13 @@ def case(seed: int, number: int, questions: Sequence[str]) -> Case:
 
 
 def _text(rng: Random, source: str, questions: Sequence[str]) -> str:
-    make = {"grammar": sentence, "anything": anything}
+    make = {"forms": sentence, "anything": anything}
     return make.get(source, partial(mutated, questions=questions))(rng)
 
 
 @cache
 def asked(folder: Path) -> tuple[str, ...]:
-    """The texts of the annotated questions that are learnt from.
+    """The texts of annotated questions.
 
     Raises:
         QuestionFileError: they cannot be read.
@@ -216,8 +227,8 @@ def asked(folder: Path) -> tuple[str, ...]:
 
 
 @cache
-def _parser() -> Parser:
-    return Parser()
+def _record(ride: Path) -> Record:
+    return record_of(ride)
 
 
 def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
@@ -233,15 +244,15 @@ def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
     return one
 
 
-def _failing(one: Case) -> Fault:
+def _failing(one: Case, record: Record) -> Fault:
     """The fault of a text that fails, told of as short a text as possible."""
-    least = shorter(one, lambda case: _error(case) is not None)
-    return _fault(least, _error(least) or "it failed once, and no longer does")
+    least = shorter(one, lambda case: _error(case, record) is not None)
+    return _fault(least, _error(least, record) or "it failed once, and no longer does")
 
 
-def _error(one: Case) -> str | None:
+def _error(one: Case, record: Record) -> str | None:
     try:
-        parsed(one, math.inf)
+        heard(one, record, math.inf)
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     return None

@@ -5,9 +5,8 @@ from functools import cache
 from itertools import accumulate, combinations_with_replacement, takewhile
 from random import Random
 
-from xavi_dialogue.language.lattice import build
-from xavi_dialogue.language.normalise import MAX_CHARACTERS, MAX_WORDS
-from xavi_dialogue.language.wordlists import vocabulary
+from xavi_dialogue.nlu.grammar.lexicon import lexicon
+from xavi_dialogue.nlu.text.tokens import MAX_CHARACTERS, MAX_TOKENS
 
 #: Repeated on purpose: words of questions, of conditions, of negation, and what joins actions.
 FRAMES = (
@@ -20,6 +19,9 @@ _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 _SCRIPTS = (0x0370, 0x0400, 0x05D0, 0x0620, 0x0905, 0x3042, 0x4E00, 0xAC00, 0x1D400, 0x1F600)
 _SCRIPT_WIDTH = 40  # characters taken of each
 _MARKS = ",.;:!?-()"
+CLASSES = 3  # word classes of a word from which it counts as ambiguous
+PAIRS = 200  # of ambiguous words, drawn
+WORDS = 300  # that are repeated, drawn
 
 Family = Callable[[Random], list[str]]  # texts drawn by a generator
 
@@ -28,10 +30,10 @@ def families() -> dict[str, Family]:
     """The families by name; their texts are within the caps, and mostly at them."""
     return {
         "frames repeated": lambda _: [repeated(frame) for frame in FRAMES],
-        "each word repeated": lambda _: [repeated(word) for word in sorted(vocabulary().words)],
-        "ambiguous pairs": _pairs,
+        "each word repeated": lambda rng: [repeated(word) for word in rng.sample(known(), WORDS)],
+        "ambiguous pairs": lambda rng: rng.sample(_pairs(), PAIRS),
         "coordination": _coordination,
-        "random words": lambda rng: _drawn(rng, sorted(vocabulary().words), 600),
+        "random words": lambda rng: _drawn(rng, known(), 200),
         "ambiguous words": lambda rng: _drawn(rng, ambiguous(), 150),
         "joined words": _joined,
         "unknown words": _unknown,
@@ -43,20 +45,28 @@ def families() -> dict[str, Family]:
 
 
 @cache
+def known() -> tuple[str, ...]:
+    """Return the words that have a sense."""
+    words = lexicon().vocabulary.words
+    return tuple(sorted(word for word, rank in words.items() if rank == 0))
+
+
+@cache
 def ambiguous() -> tuple[str, ...]:
-    """Words that stand for several terminals."""
-    words = sorted(vocabulary().words)
-    return tuple(w for w in words if len(build((w,)).edges[0][0].token.senses) > 1)
+    """Return words that stand for phrases of several word classes."""
+    following = lexicon().trie.following
+    found = ((w, {e.category for e in following[w].entries}) for w in known() if w in following)
+    return tuple(word for word, classes in found if len(classes) >= CLASSES)
 
 
 def repeated(phrase: str) -> str:
     """A phrase over and over, up to the caps."""
-    return capped(phrase.split() * MAX_WORDS)
+    return capped(phrase.split() * MAX_TOKENS)
 
 
 def capped(words: Sequence[str]) -> str:
     """As many of the words as are read."""
-    lengths = accumulate(len(word) + 1 for word in words[:MAX_WORDS])
+    lengths = accumulate(len(word) + 1 for word in words[:MAX_TOKENS])
     return " ".join(words[: sum(1 for _ in takewhile(lambda n: n <= MAX_CHARACTERS + 1, lengths))])
 
 
@@ -66,13 +76,14 @@ def half(text: str) -> str:
     return " ".join(words[: len(words) // 2]) if len(words) > 1 else text[: len(text) // 2]
 
 
-def _pairs(_: Random) -> list[str]:
+@cache
+def _pairs() -> tuple[str, ...]:
     pairs = combinations_with_replacement(ambiguous(), 2)
-    return [repeated(f"{one} {other}") for one, other in pairs]
+    return tuple(repeated(f"{one} {other}") for one, other in pairs)
 
 
 def _drawn(rng: Random, among: Sequence[str], texts: int) -> list[str]:
-    return [capped([rng.choice(among) for _ in range(MAX_WORDS)]) for _ in range(texts)]
+    return [capped([rng.choice(among) for _ in range(MAX_TOKENS)]) for _ in range(texts)]
 
 
 def _coordination(rng: Random) -> list[str]:
@@ -80,18 +91,18 @@ def _coordination(rng: Random) -> list[str]:
     for _ in range(150):
         lead = rng.choice(("why did you", "what if you", "you should", "if you", ""))
         joint = rng.choice((" and ", " or ", ", ", " and not ", " instead of ", " then "))
-        said = joint.join(rng.choice(_DEEDS) for _ in range(MAX_WORDS))
+        said = joint.join(rng.choice(_DEEDS) for _ in range(MAX_TOKENS))
         found.append(capped(f"{lead} {said}".split()))
     return found
 
 
 def _joined(rng: Random) -> list[str]:
-    known = sorted(word for word in vocabulary().words if len(word) > 1)
+    words = [word for word in known() if len(word) > 1]
 
     def joined() -> str:
-        return "".join(rng.choice(known) for _ in range(rng.randint(2, 4)))
+        return "".join(rng.choice(words) for _ in range(rng.randint(2, 4)))
 
-    return [capped([joined() for _ in range(MAX_WORDS)]) for _ in range(150)]
+    return [capped([joined() for _ in range(MAX_TOKENS)]) for _ in range(150)]
 
 
 def _letters(rng: Random, length: int) -> str:
@@ -102,7 +113,7 @@ def _unknown(rng: Random) -> list[str]:
     """Words of random letters; short ones may be corrected to many that are known."""
     lengths = [rng.randint(3, 9) for _ in range(150)]  # at most, in a text
     return [
-        capped([_letters(rng, rng.randint(1, most)) for _ in range(MAX_WORDS)]) for most in lengths
+        capped([_letters(rng, rng.randint(1, most)) for _ in range(MAX_TOKENS)]) for most in lengths
     ]
 
 
@@ -117,4 +128,4 @@ def _scripts(rng: Random) -> list[str]:
         first = rng.choice(_SCRIPTS)
         return "".join(chr(first + rng.randrange(_SCRIPT_WIDTH)) for _ in range(rng.randint(1, 6)))
 
-    return [capped([word() for _ in range(MAX_WORDS)]) for _ in range(100)]
+    return [capped([word() for _ in range(MAX_TOKENS)]) for _ in range(100)]

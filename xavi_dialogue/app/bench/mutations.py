@@ -2,9 +2,10 @@
 
 import unicodedata
 from collections.abc import Callable, Sequence
+from functools import cache
 from random import Random
 
-from xavi_dialogue.language.wordlists import vocabulary
+from xavi_dialogue.nlu.grammar.lexicon import lexicon
 
 MOST_CHANGES = 4  # to one text
 _LIKE = dict(
@@ -47,8 +48,9 @@ def _word(rng: Random) -> str:
     return rng.choice(_known())
 
 
+@cache
 def _known() -> tuple[str, ...]:
-    return tuple(vocabulary().words)
+    return tuple(sorted(lexicon().vocabulary.words))
 
 
 def _odd(rng: Random) -> str:

@@ -11,8 +11,8 @@ from sim.network import Network
 from sim.scene import EGO
 from xavi_dialogue.app.bench.asking import Ridden
 from xavi_dialogue.causal.model import CausalModel
-from xavi_dialogue.explain.contrast import factual
-from xavi_dialogue.explain.ride import Unanswered
+from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.history.ride import Unanswered
 
 PLAN_LATER = 0.5  # [s] of expected time by which a plan differs
 RIDE_LATER = 1.0  # [s] of arrival by which a ride differs

@@ -1,4 +1,4 @@
-"""`xavi bench parse`: how often questions are understood, and how long parsing takes."""
+"""`xavi bench parse`: how often questions are understood, and how long that takes."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -7,19 +7,36 @@ from random import Random
 import msgspec
 from msgspec.structs import replace
 
-from xavi_dialogue.app.bench.figures import Figure, figure, figures_table, in_columns, quantile
+from xavi_dialogue.app.bench.figures import (
+    Aimed,
+    Figure,
+    aimed,
+    at_least,
+    at_most,
+    figure,
+    figures_table,
+    in_columns,
+    quantile,
+    targets_table,
+)
 from xavi_dialogue.app.bench.hostile import Family, families, half
-from xavi_dialogue.app.bench.latency import parse_time
+from xavi_dialogue.app.bench.latency import hearing_time, record_of
 from xavi_dialogue.app.bench.questions import BLIND, LEARN, read_folder
 from xavi_dialogue.app.bench.scoring import Agreement, Question, Verdict, agreement, verdict
-from xavi_dialogue.language.parse import Parser, as_query
+from xavi_dialogue.app.parsing import query_of
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.nlu.parse import Parser
 
-AGAIN = 20  # slowest texts of a family that are timed anew
-TIMES = 5  # how often, then; the fastest counts
+AGAIN = 10  # slowest texts of a family that are timed anew
+TIMES = 3  # how often, then; the fastest counts
 SEED = 0
 SHOWN = 60  # characters of the worst text
-RATIOS = 200  # texts of a family of which growth is taken, at most
+RATIOS = 40  # texts of a family of which growth is taken, at most
 SHORTEST = 0.2  # [ms] texts that take less say nothing of growth
+
+EXACT = 95.0  # [%] of blind questions, at least
+CONFIDENT = 1.0  # [%] of them that are confidently wrong, at most
+MEDIAN, TAIL, WORST = 3.0, 15.0, 50.0  # [ms] to read and ground: p50, p99, of hostile texts
 
 Grouping = Callable[[Question], str]
 
@@ -46,13 +63,13 @@ class Hardest(msgspec.Struct, frozen=True):
     worst: str  # the text that took longest
 
 
-class ParseReport(msgspec.Struct, frozen=True):
-    """What a benchmark of parsing found."""
+class ParseReport(Aimed, frozen=True):
+    """What a benchmark of understanding found."""
 
     bench: str
-    figures: tuple[Figure, ...]  # of latency
+    figures: tuple[Figure, ...]  # of latency, reading and grounding together
     sets: tuple[Set, ...]
-    unseen: Agreement | None  # of blind questions whose text is not learnt from too; None: no such
+    unseen: Agreement | None  # of blind questions that stand in no other set; None: no such
     hostile: tuple[Hardest, ...]
 
     def table(self) -> str:
@@ -66,11 +83,13 @@ class ParseReport(msgspec.Struct, frozen=True):
                 for by, groups in (("type", one.types), ("style", one.styles), ("", one.turns))
             ]
         parts += [figures_table(self.figures), _hostile(self.hostile)]
+        parts.append(targets_table(self.targets))
         return "\n\n".join(parts)
 
 
 def measure(
     questions: Path,
+    ride: Path,
     note: Callable[[str], None],
     attacks: dict[str, Family] | None = None,
 ) -> ParseReport:
@@ -78,13 +97,15 @@ def measure(
 
     Args:
         questions: where the folders `learn` and `blind` are; there may be no blind ones.
+        ride: a recorded ride in which texts are grounded when they are timed.
         note: is told how far it is.
         attacks: families of hostile texts; default: all of them.
 
     Raises:
-        QuestionFileError: none are learnt from, or a line is broken.
+        QuestionFileError: the folder `learn` has no questions, or a line is broken.
+        RideFileError: the ride is none.
     """
-    parser = Parser()
+    parser, record = Parser(), record_of(ride)
     asked = {LEARN: read_folder(questions / LEARN)}
     if any((questions / BLIND).glob("*.jsonl")):
         asked[BLIND] = read_folder(questions / BLIND)
@@ -92,14 +113,28 @@ def measure(
         note(f"{questions / BLIND} holds no .jsonl files: no figures of blind questions")
     sets = tuple(scored(parser, name, found) for name, found in asked.items())
     figures = tuple(
-        figure(f"{name} questions", "ms", [_time(parser, question) for question in found])
+        figure(f"{name} questions", "ms", [hearing_time(q.text, record) for q in found])
         for name, found in asked.items()
     )
     hostile = []
     for name, family in (families() if attacks is None else attacks).items():
         note(f"hostile texts: {name}")
-        hostile.append(hardest(name, family))
-    return ParseReport("parse", figures, sets, _unseen(parser, asked), tuple(hostile))
+        hostile.append(hardest(name, family, record))
+    return _aimed(ParseReport("parse", figures, sets, _unseen(parser, asked), tuple(hostile)))
+
+
+def _aimed(report: ParseReport) -> ParseReport:
+    """The report, held against its targets."""
+    last, timed = report.sets[-1].all, report.figures[-1]
+    worst = max((one.most for one in report.hostile), default=None)
+    return aimed(
+        report,
+        at_least(f"{report.sets[-1].name}, exact", "%", last.exact, EXACT),
+        at_most(f"{report.sets[-1].name}, confidently wrong", "%", last.false_confident, CONFIDENT),
+        at_most(f"{timed.name}, p50", "ms", timed.p50, MEDIAN),
+        at_most(f"{timed.name}, p99", "ms", timed.p99, TAIL),
+        at_most("hostile texts, worst", "ms", worst, WORST),
+    )
 
 
 def scored(parser: Parser, name: str, questions: Sequence[Question]) -> Set:
@@ -115,11 +150,11 @@ def scored(parser: Parser, name: str, questions: Sequence[Question]) -> Set:
 
 
 def _verdict(parser: Parser, question: Question) -> Verdict:
-    return verdict(question, as_query(parser.parse(question.text, context=question.context)))
+    return verdict(question, query_of(parser, question.text, question.context))
 
 
 def _unseen(parser: Parser, asked: dict[str, tuple[Question, ...]]) -> Agreement | None:
-    """How it fares on blind questions that nobody whose questions are learnt from has asked."""
+    """How it fares on blind questions that do not stand among the others too."""
     learnt = {question.text.casefold() for question in asked[LEARN]}
     rest = [question for question in asked.get(BLIND, ()) if question.text.casefold() not in learnt]
     verdicts = [_verdict(parser, question) for question in rest]
@@ -137,22 +172,18 @@ def _grouped(
     return tuple(agreement(name, found) for name, found in ordered)
 
 
-def _time(parser: Parser, question: Question) -> float:
-    return parse_time(question.text, parser.question_before(question.context))
-
-
-def hardest(name: str, family: Family) -> Hardest:
+def hardest(name: str, family: Family, record: Record) -> Hardest:
     """The times of a family's texts, and how they grow from half of each.
 
     All are timed once; the slowest again, to tell texts that are slow from moments that were.
     """
     texts = family(Random(SEED))
-    once = [parse_time(text) for text in texts]
+    once = [hearing_time(text, record) for text in texts]
     order = sorted(range(len(texts)), key=lambda k: (-once[k], k))[:AGAIN]
-    anew = {k: parse_time(texts[k], times=TIMES) for k in order}
+    anew = {k: hearing_time(texts[k], record, times=TIMES) for k in order}
     times = [min(taken, anew.get(k, taken)) for k, taken in enumerate(once)]
     worst = max(order, key=lambda k: anew[k])
-    ratios = _growth(texts)
+    ratios = _growth(texts, record)
     return Hardest(
         name,
         len(texts),
@@ -164,10 +195,13 @@ def hardest(name: str, family: Family) -> Hardest:
     )
 
 
-def _growth(texts: Sequence[str]) -> list[float]:
+def _growth(texts: Sequence[str], record: Record) -> list[float]:
     """Time of texts over that of their first halves; of as many as tell."""
     chosen = texts[:: -(-len(texts) // RATIOS)]
-    times = [(parse_time(t, times=TIMES), parse_time(half(t), times=TIMES)) for t in chosen]
+    times = [
+        (hearing_time(t, record, times=TIMES), hearing_time(half(t), record, times=TIMES))
+        for t in chosen
+    ]
     return [long / short for long, short in times if short >= SHORTEST]
 
 

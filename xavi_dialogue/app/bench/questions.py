@@ -9,16 +9,13 @@ from pathlib import Path
 
 import msgspec
 
+from xavi_dialogue.app.bench.errors import QuestionFileError
 from xavi_dialogue.app.bench.scoring import Question
 
-FOLDER = Path("tests/language/questions")
-LEARN = "learn"  # folder of the questions that the judge is learnt from
-BLIND = "blind"  # folder of those that it is never learnt from
+FOLDER = Path("tests/nlu/questions")
+LEARN = "learn"  # folder of the questions that rules and words may be written for
+BLIND = "blind"  # folder of those that they may not
 SHAPE = '{"id": .., "text": .., "style": .., "query": {"type": .., "actor": .., ..}}'
-
-
-class QuestionFileError(ValueError):
-    """A folder or file of annotated questions cannot be used."""
 
 
 def read_folder(folder: Path) -> tuple[Question, ...]:

@@ -1,7 +1,8 @@
-"""Scoring: how well a predicted query agrees with an annotated question.
+"""Scoring: how well the fields of what was read agree with an annotated question.
 
-A question has one annotated query and may have alternatives that are as good. Time phrases,
-reasons and the like are not compared: what counts is that the car answers the right question.
+The fields are a projection of the typed meaning, for scoring text alone. A question has one
+annotated query and may have alternatives that are as good. Time phrases, reasons and the like are
+not compared: what counts is that the car answers the right question.
 """
 
 from collections.abc import Sequence
@@ -9,10 +10,7 @@ from dataclasses import dataclass
 
 import msgspec
 
-from xavi_dialogue.explain.query import Query, QueryAction
-
-#: Types without an answer about the drive: small talk, help, declining and asking back.
-TALK = frozenset({"smalltalk", "help", "out_of_scope", "ambiguous"})
+from xavi_dialogue.nlu.projection.fields import TALK, FieldActions, QueryFields
 
 
 class Question(msgspec.Struct, frozen=True):
@@ -20,14 +18,14 @@ class Question(msgspec.Struct, frozen=True):
 
     id: str
     text: str
-    query: Query
+    query: QueryFields
     style: str
-    alternatives: tuple[Query, ...] = ()
+    alternatives: tuple[QueryFields, ...] = ()
     context: tuple[str, ...] = ()  # the passenger's earlier turns, oldest first
     underspecified: str | None = None  # "direction": left or right may be taken for the other
 
     @property
-    def accepted(self) -> tuple[Query, ...]:
+    def accepted(self) -> tuple[QueryFields, ...]:
         """The annotated query, then its alternatives."""
         return (self.query, *self.alternatives)
 
@@ -53,7 +51,7 @@ class Agreement(msgspec.Struct, frozen=True):
     false_confident: float
 
 
-def verdict(question: Question, predicted: Query) -> Verdict:
+def verdict(question: Question, predicted: QueryFields) -> Verdict:
     """Score a prediction.
 
     It is falsely confident where it is answerable, not exact, and each accepted query either has
@@ -90,7 +88,7 @@ def _percent(held: Sequence[bool]) -> float:
     return 100 * sum(held) / len(held)
 
 
-def _comparable(predicted: Query, accepted: Query) -> bool:
+def _comparable(predicted: QueryFields, accepted: QueryFields) -> bool:
     """Whether both are about the same vehicle's doing or not doing."""
     return (
         accepted.type not in TALK
@@ -99,7 +97,7 @@ def _comparable(predicted: Query, accepted: Query) -> bool:
     )
 
 
-def _essence(query: Query, blurred: bool) -> tuple[object, ...]:
+def _essence(query: QueryFields, blurred: bool) -> tuple[object, ...]:
     """What of a query is compared."""
     if query.type in TALK:
         return (query.type,)
@@ -114,6 +112,6 @@ def _essence(query: Query, blurred: bool) -> tuple[object, ...]:
     )
 
 
-def _actions(actions: tuple[QueryAction, ...] | None, blurred: bool) -> tuple[str, ...]:
+def _actions(actions: FieldActions | None, blurred: bool) -> tuple[str, ...]:
     """Actions as they are compared; blurred ones have one direction only."""
     return tuple(a.replace("-right", "-left") if blurred else a for a in actions or ())

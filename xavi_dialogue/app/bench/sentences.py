@@ -1,111 +1,120 @@
-"""Sentences drawn from the question grammar: its rules, and phrases of the word lists."""
+"""Sentences drawn at random: every form of question, filled with the predicates of the lexicon."""
 
+from collections.abc import Iterable, Mapping
 from functools import cache
 from random import Random
 
-from lark.grammar import Rule, Symbol
+from xavi_dialogue.nlu.grammar.inflect import verb_forms
+from xavi_dialogue.nlu.text.tables import load, phrases
 
-from xavi_dialogue.language.grammar import CLAUSES, STARTS, grammar
-from xavi_dialogue.language.wordlists import vocabulary
-
-DEEPEST = 12  # rules within rules; below, the shortest expansion is taken
-_BUILTIN: dict[str, tuple[str, ...]] = {
-    "BREAK": (",",),
-    "NUMBER": (*"01234579", "12", "42"),
-    "UNKNOWN": ("zorp",),
-}
-_GO_ON = 0.5  # probability of a longer phrase, where one ends already
+#: Forms of questions; what stands in braces is drawn.
+FORMS = (
+    *("why did {we} {base}", "why didn't {we} {base} {tail}", "why did {it} {base} {tail}"),
+    *("why are {we} {ing}", "why is {it} {ing} {tail}", "why not {base} {tail}"),
+    *("what if {we} had {part} {tail}", "what if {it} had not {part}"),
+    *("what if {it} were not there", "what would have happened if {we} had {part}"),
+    *("would {we} have {part} without {it}", "would you still have {part} if {it} had {part}"),
+    *("did {it} {base} {tail}", "is {it} {ing}", "when did {it} {base}"),
+    *("when will {we} {base} {tail}", "how often did {we} {base}", "how long did {it} {base}"),
+    *("how long have {we} been {ing}", "where did {we} {base}", "who {past} {tail}"),
+    *("which {kind} {past}", "which {kind} is {adjective}", "who is {it}"),
+    *("how {grade} is {it}", "how {grade} were {we} {time}", "what is {it} doing"),
+    *("what is {it}", "what {colour} is {it}", "where is {it}", "where is {it} going"),
+    *("how many {kind}s are there", "is {it} {bearing} us", "was {it} {adjective}"),
+    *("was it {adjective} to {base} {tail}", "did you see {it} {time}"),
+    *("how do you know that {it} will {base}", "how sure are you that {it} {past}"),
+    *("is {it} {compare} than {it}", "who was {compare}", "do {we} have to {base} {tail}"),
+    *("should {we} have {part} {tail}", "could {we} {base} {tail}", "{we} {past} {tail}, right"),
+    *("{it} {past} {tail}", "that is not true, {it} was {ing}", "please {base} {tail}"),
+    *("{base} {tail}", "and {it}", "what about {it}", "and if {it} had not {part}"),
+    *("I feel {feeling} because of {it}", "tell me what happened {time}"),
+    *("what did {we} do {time}", "whose fault was it that {we} {past}"),
+)  # fmt: skip
+TIMES = (
+    *("", "", "now", "just now", "at 0:04", "five seconds ago", "then", "before the junction"),
+    *("when we stopped", "after that", "at the beginning", "so far", "the first time"),
+)
+ACTORS = ("you", "we", "the car", "our car", "you and I")
+BEARINGS = ("behind", "ahead of", "next to", "in front of", "to the left of", "near", "faster than")
 
 
 def sentence(rng: Random) -> str:
-    """A sentence of one of the start rules, drawn at random."""
-    start = rng.choice((*STARTS, CLAUSES))
-    return " ".join(phrase(rng, terminal) for terminal in _terminals(rng, start, 0))
+    """Draw a sentence."""
+    form = rng.choice(FORMS)
+    while "{" in form:
+        before, _, rest = form.partition("{")
+        slot, _, behind = rest.partition("}")
+        form = f"{before}{_filled(slot, rng)}{behind}"
+    return " ".join(form.split())
 
 
-def phrase(rng: Random, terminal: str) -> str:
-    """A phrase that stands for a terminal, drawn from the word lists from its end on."""
-    if terminal in _BUILTIN:
-        return rng.choice(_BUILTIN[terminal])
-    phrases = vocabulary().phrases
-    position = rng.choice(_last()[terminal])
-    words: list[str] = []
-    while True:
-        words.append(rng.choice(_words()[position]))
-        before = _before()[position]
-        begins = position in _first()
-        if not before or (begins and rng.random() > _GO_ON) or len(words) > len(phrases.accepts):
-            return " ".join(reversed(words))
-        position = rng.choice(before)
+def _filled(slot: str, rng: Random) -> str:
+    """Draw what stands in a slot."""
+    match slot:
+        case "base" | "past" | "part" | "ing":
+            return _verb(slot, rng)
+        case "we":
+            return rng.choice(ACTORS)
+        case "it":
+            return _thing(rng)
+        case "tail":
+            place = rng.choice(_words("PLACEN"))
+            return rng.choice(("", "", _thing(rng), f"to the {place}", _time(rng)))
+        case "time":
+            return _time(rng)
+        case "bearing":
+            return rng.choice(BEARINGS)
+    return rng.choice(_words(CLASSES[slot]))
 
 
-def _terminals(rng: Random, name: str, depth: int) -> list[str]:
-    """The terminals of a random expansion of a rule."""
-    rules = _rules()[name]
-    if depth >= DEEPEST:
-        rules = rules[:1]
-    found: list[str] = []
-    for symbol in rng.choice(rules).expansion:
-        if symbol.is_term:
-            found.append(symbol.name)
-        else:
-            found += _terminals(rng, symbol.name, depth + 1)
-    return found
+#: Slots that are filled with any word of a class.
+CLASSES: Mapping[str, str] = {
+    "kind": "KIND",
+    "colour": "COLOUR",
+    "adjective": "ADJ",
+    "grade": "GRADE",
+    "compare": "COMPAR",
+    "feeling": "FEELADJ",
+}
 
 
-@cache
-def _rules() -> dict[str, list[Rule]]:
-    """The expansions of each rule, the one that ends soonest first."""
-    rules: dict[str, list[Rule]] = {}
-    for rule in grammar().rules:
-        rules.setdefault(rule.origin.name, []).append(rule)
-    height: dict[str, int] = {}  # rules within rules, at least
-
-    def height_of(rule: Rule) -> int | None:
-        below = [_height(symbol, height) for symbol in rule.expansion]
-        return None if None in below else 1 + max((h for h in below if h is not None), default=0)
-
-    while len(height) < len(rules):
-        for name, expansions in rules.items():
-            known = [h for h in map(height_of, expansions) if h is not None]
-            if name not in height and known:
-                height[name] = min(known)
-    for expansions in rules.values():
-        expansions.sort(key=lambda rule: height_of(rule) or 0)
-    return rules
+def _time(rng: Random) -> str:
+    return rng.choice(TIMES)
 
 
-def _height(symbol: Symbol, height: dict[str, int]) -> int | None:
-    return 0 if symbol.is_term else height.get(symbol.name)
+def _thing(rng: Random) -> str:
+    """Draw another road user, by number or as it is described."""
+    kind, colour = rng.choice(_words("KIND")), rng.choice(_words("COLOUR"))
+    bearing = rng.choice(_words("BEARADJ"))
+    return rng.choice(
+        (
+            *(f"vehicle {rng.randrange(6)}", "it", "he", "they", "somebody"),
+            *(f"the {kind}", f"that {colour} {kind}", f"the {kind} {bearing}"),
+            *(f"the other {kind}", f"a {colour} {kind}"),
+        )
+    )
 
 
-@cache
-def _last() -> dict[str, list[int]]:
-    """The positions at which phrases of a terminal end."""
-    ends: dict[str, list[int]] = {}
-    for position, (_, sense) in sorted(vocabulary().phrases.ends.items()):
-        ends.setdefault(sense.terminal, []).append(position)
-    return ends
+def _verb(form: str, rng: Random) -> str:
+    return rng.choice(_verbs()[form])
 
 
 @cache
-def _before() -> list[list[int]]:
-    """The positions that may stand before each."""
-    follow = vocabulary().phrases.follow
-    before: list[list[int]] = [[] for _ in follow]
-    for position, behind in enumerate(follow):
-        for one in sorted(behind):
-            before[one].append(position)
-    return before
+def _verbs() -> Mapping[str, tuple[str, ...]]:
+    """Return the forms of all verbs that have a sense."""
+    table = load("nlu_verbs.toml")
+    found: dict[str, list[str]] = {}
+    for lemma in table["senses"]:
+        verb, _, rest = lemma.partition(" ")
+        for form, word in verb_forms(verb, table["forms"].get(lemma)):
+            found.setdefault(form, []).append(f"{word} {rest}".strip())
+    return {form: tuple(words) for form, words in found.items()}
 
 
 @cache
-def _first() -> frozenset[int]:
-    """The positions at which phrases begin."""
-    return frozenset().union(*vocabulary().phrases.first.values())
-
-
-@cache
-def _words() -> list[list[str]]:
-    """The words of each position."""
-    return [sorted(words) for words in vocabulary().phrases.accepts]
+def _words(name: str) -> tuple[str, ...]:
+    """Return the phrases of a word class, without those that are unusual."""
+    listed: Iterable[str] = load("nlu_words.toml")[name].values()
+    return tuple(
+        " ".join(words) for row in listed for words in phrases(row) if not words[0].startswith("*")
+    )

@@ -219,7 +219,8 @@ class Board:
 
     def _suggestions(self, at: float) -> Suggestions:
         try:
-            found = suggestions(self.record.up_to(at), self.record.events, at)
+            said = self.conversation.suggestions
+            found = suggestions(self.record.up_to(at), self.record.events, at, said)
         except Exception:  # a fault of ours must not keep anybody from asking
             _LOG.exception("nothing could be suggested", extra={"vehicle": self.keys.vehicle})
             found = ()
@@ -245,6 +246,7 @@ class Board:
                 if news is None:
                     news = self.conversation.learn(await asking.history(MAX_TURNS), whole=True)
                 if news is not None and (news.turns or news.reset):
+                    self._stale = True
                     self.audience.tell(news)
 
     def _answered(self, viewer: Viewer, asked: Ask, came: Reply | ServiceLost) -> None:

@@ -58,6 +58,12 @@ class Conversation:
         told = tuple(shown(self.first + k, turn) for k, turn in enumerate(self.turns))
         return Turns(turns=told, reset=True)
 
+    @property
+    def suggestions(self) -> tuple[str, ...]:
+        """What the latest reply says could be asked; a refusal tells that itself."""
+        last = self.turns[-1].reply if self.turns else None
+        return last.suggestions if last is not None and last.kind == "answer" else ()
+
     def turn(self, n: int) -> PastTurn | None:
         """One of them."""
         k = n - self.first

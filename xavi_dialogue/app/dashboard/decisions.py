@@ -15,7 +15,7 @@ from xavi_dialogue.app.dashboard.words import (
 )
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
-from xavi_dialogue.explain.ride import enough
+from xavi_dialogue.explain.history.ride import enough
 from xavi_dialogue.transports.web.documents import (
     Alternative,
     DecisionShown,

@@ -9,9 +9,11 @@ from xavi_dialogue.app.dashboard.branches import rounded
 from xavi_dialogue.app.dashboard.decisions import chances, expected_arrival
 from xavi_dialogue.app.dashboard.lines import chance, likeliest
 from xavi_dialogue.app.dashboard.sides import Found, sides
+from xavi_dialogue.app.dashboard.told import Told, asked_about, title_of, told_of
 from xavi_dialogue.app.dashboard.words import (
     cause_words,
     checked_words,
+    component_words,
     dashboard_words,
     does,
     has_lane_change,
@@ -20,11 +22,9 @@ from xavi_dialogue.app.dashboard.words import (
     way_words,
 )
 from xavi_dialogue.causal.model import Actions, Result, plan_of
+from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.explain.explanation import Cause, Explanation
-from xavi_dialogue.explain.query import Query
-from xavi_dialogue.explain.vehicles import number_of
-from xavi_dialogue.language.wording import lexicon
+from xavi_dialogue.domain.answers import Cause
 from xavi_dialogue.transports.web.documents import CauseShown, EffectShown, EvidenceShown, Run, Side
 
 LINES = 5  # of a side, at most
@@ -37,25 +37,23 @@ _NAMED = re.compile(r"\bvehicle (\d{1,9})\b", re.IGNORECASE)
 def vehicles_of(reply: Reply) -> tuple[int, ...]:
     """The other vehicles that a reply speaks of, or that it was asked about; each once."""
     named = [int(number) for number in _NAMED.findall(reply.text)]
-    asked = None if reply.query is None else number_of(reply.query.actor)
-    if asked is not None:
-        named.append(asked)
+    named += asked_about(reply)
     return tuple(dict.fromkeys(vehicle for vehicle in named if vehicle != EGO))
 
 
 def has_evidence(reply: Reply) -> bool:
     """Whether there is more behind a reply than the decision that it is about."""
-    found = reply.explanation
-    if found is None or not traces_of(reply):
+    told = told_of(reply)
+    if told is None or not told.said.evidence.traces:
         return False
-    return bool(found.counterfactual or found.effects or found.causes or found.evidence.rollouts)
+    said = told.said
+    return bool(said.counterfactual or said.effects or said.causes or said.evidence.rollouts)
 
 
 def traces_of(reply: Reply) -> tuple[str, ...]:
     """The ids of the decisions, and of the plans made again, that a reply rests on."""
-    if reply.kind != "answer" or reply.explanation is None:
-        return ()
-    return tuple(dict.fromkeys(reply.explanation.evidence.traces))
+    told = told_of(reply)
+    return () if told is None else tuple(dict.fromkeys(told.said.evidence.traces))
 
 
 def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceShown | None:
@@ -67,30 +65,43 @@ def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceSh
         traces: by id, those of `traces_of` as far as they are at hand. There may be more: of a
             plan made again, the decision itself is found among them.
     """
-    explanation, names = reply.explanation, traces_of(reply)
-    if explanation is None or not names:
+    told, names = told_of(reply), traces_of(reply)
+    if told is None or not names:
         return None
     known = [traces[name] for name in names if name in traces]
-    here, there = sides(reply.query, explanation, known)
+    return _shown(n, reply, told, names, known, traces)
+
+
+def _shown(
+    n: int,
+    reply: Reply,
+    told: Told,
+    names: tuple[str, ...],
+    known: list[PlanTrace],
+    traces: Mapping[str, PlanTrace],
+) -> EvidenceShown:
+    said = told.said
+    here, there = sides(told, known)
     decision = _decision(known, traces)
     plans = [found.plan.plan for found in (here, there) if found is not None]
     in_lane = has_lane_change(action for plan in plans for action in plan[:1])
-    evidence = explanation.evidence
+    decided = reply.sim_time if told.decided is None else told.decided
+    brief = said.factual[:1] or (() if here is None else here.plan.plan[:1])
     return EvidenceShown(
         n=n,
         decision=names[0] if decision is None else decision.trace_id,
-        t=explanation.sim_time if decision is None else decision.sim_time,
-        method=dashboard_words("method", evidence.method),
-        rollouts=evidence.rollouts,
-        distinct=evidence.distinct_samples,
-        factual=None if here is None else _side(here, in_lane, "fact", explanation.factual[:1]),
+        t=decided if decision is None else decision.sim_time,
+        method=dashboard_words("method", said.evidence.method),
+        rollouts=said.evidence.rollouts,
+        distinct=said.evidence.distinct_samples,
+        factual=None if here is None else _side(here, in_lane, "fact", brief),
         counterfactual=None
         if there is None
-        else _side(there, in_lane, _asked(reply.query), explanation.counterfactual),
-        effects=_effects(explanation),
-        causes=_causes(explanation, known),
+        else _side(there, in_lane, title_of(told, reply), said.counterfactual),
+        effects=_effects(said),
+        causes=_causes(told, known),
         traces=names,
-        missing=_missing(explanation, names, known, there),
+        missing=_missing(said, names, known, there),
     )
 
 
@@ -105,22 +116,13 @@ def _decision(known: list[PlanTrace], traces: Mapping[str, PlanTrace]) -> PlanTr
 
 
 def _missing(
-    explanation: Explanation, names: tuple[str, ...], known: list[PlanTrace], there: Found | None
+    said: Contrastive, names: tuple[str, ...], known: list[PlanTrace], there: Found | None
 ) -> str | None:
     if not known:
         return dashboard_words("missing", "all")
-    if explanation.counterfactual and there is None:
+    if said.counterfactual and there is None:
         return dashboard_words("missing", "some" if len(known) < len(names) else "otherwise")
     return None
-
-
-def _asked(query: Query | None) -> str:
-    """As what the counterfactual came into it: asked about, or thought of beside what was asked."""
-    if query is None:
-        return "instead"
-    if query.intervention is not None or query.condition is not None:
-        return "then"
-    return "instead" if query.counterfactual is None else "asked"
 
 
 def _side(found: Found, in_lane: bool, title: str, brief: Actions) -> Side:
@@ -172,11 +174,10 @@ def _samples(trace: PlanTrace, rollout: Rollout) -> tuple[tuple[int, str, float]
     return tuple(found)
 
 
-def _effects(explanation: Explanation) -> tuple[EffectShown, ...]:
-    components = lexicon().components
+def _effects(said: Contrastive) -> tuple[EffectShown, ...]:
     return tuple(
         EffectShown(
-            words=components[effect.component],
+            words=component_words(effect.component),
             unit=effect.unit,
             delta=round(effect.delta, DIGITS),
             low=round(effect.low, DIGITS),
@@ -184,13 +185,12 @@ def _effects(explanation: Explanation) -> tuple[EffectShown, ...]:
             n=effect.n,
             n_distinct=effect.n_distinct,
         )
-        for effect in explanation.effects
+        for effect in said.effects
     )
 
 
-def _causes(explanation: Explanation, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
-    activity = explanation.activity
-    of_ours = activity is None or activity.vehicle == EGO
+def _causes(told: Told, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
+    of_ours = told.ours
     removed = {again.what_if.removed for again in known if again.what_if is not None}
     return tuple(
         CauseShown(
@@ -201,7 +201,7 @@ def _causes(explanation: Explanation, known: list[PlanTrace]) -> tuple[CauseShow
             influence=rounded(cause.influence),
             checked=checked_words(cause) if _was_tried(cause, removed) else None,
         )
-        for cause in explanation.causes
+        for cause in told.said.causes
     )
 
 

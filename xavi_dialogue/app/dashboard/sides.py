@@ -10,13 +10,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from planner.trace import PlanTrace
-from sim.scene import EGO
+from xavi_dialogue.app.dashboard.decisions import chosen_plan
+from xavi_dialogue.app.dashboard.told import Told
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
-from xavi_dialogue.explain.conditions import condition
-from xavi_dialogue.explain.explanation import Explanation
-from xavi_dialogue.explain.query import Query, QueryAction
-from xavi_dialogue.explain.vehicles import matching, number_of
+from xavi_dialogue.dialogue.explanation import Contrastive
+from xavi_dialogue.domain.answers import SupposedOfOther
+from xavi_dialogue.explain.causes.conduct import conduct_names, matching
 
 SAME = 1e-6  # difference of figures that were computed alike
 
@@ -29,35 +29,24 @@ class Found:
     plan: Intervention
 
 
-def sides(
-    query: Query | None, explanation: Explanation, traces: Sequence[PlanTrace]
-) -> tuple[Found | None, Found | None]:
-    """What was done or planned, and what that is set against.
+def sides(told: Told, traces: Sequence[PlanTrace]) -> tuple[Found | None, Found | None]:
+    """Find what was done or planned, and what that is set against.
 
     Args:
-        query: that is answered; None: not known.
-        explanation: of it.
+        told: what is explained.
         traces: those that it names, as far as they are at hand, in that order.
 
     Returns:
         Both, None where there is none or it cannot be found again.
     """
-    models = [CausalModel(trace) for trace in traces]
-    if not explanation.counterfactual:
-        if _about_another(explanation):
-            return None, None
-        return next(_alone(explanation, models), None), None
-    for here, there in _pairs(query, explanation, models):
-        if _agrees(explanation, here.plan, there.plan):
+    models, said = [CausalModel(trace) for trace in traces], told.said
+    if not said.counterfactual:
+        return (next(_alone(said, models), None) if told.ours else None), None
+    for here, there in _pairs(told, models):
+        if _agrees(said, here.plan, there.plan):
             return here, there
-    facts = (_found(model, explanation.factual) for model in models if _decided(model.trace))
+    facts = (_found(model, said.factual) for model in models if _decided(model.trace))
     return next((found for found in facts if found is not None), None), None
-
-
-def _about_another(explanation: Explanation) -> bool:
-    """Whether what is told was done, or is expected, by another vehicle than ours."""
-    parts = (explanation.activity, explanation.destination)
-    return any(part is not None and part.vehicle != EGO for part in parts)
 
 
 def _decided(trace: PlanTrace) -> bool:
@@ -66,33 +55,38 @@ def _decided(trace: PlanTrace) -> bool:
     return again is None or (again.removed is None and again.vehicle is None)
 
 
-def _alone(explanation: Explanation, models: Sequence[CausalModel]) -> Iterator[Found]:
-    """The plan, where there is nothing beside it; of its outcome as it was told."""
-    outcome = explanation.outcome
+def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Found]:
+    """Yield the plan, where there is nothing beside it; of its outcome as it was told."""
+    outcome = said.outcome
     for model in models:
-        found = _found(model, explanation.factual) if _decided(model.trace) else None
+        if not _decided(model.trace):
+            continue
+        plan = chosen_plan(model)
+        found = _found(model, said.factual)
+        if found is None and plan is not None:
+            found = Found(model.trace, plan)
         if found is None:
             continue
         if outcome is None or _same(outcome.probability, found.plan.outcomes[outcome.name]):
             yield found
 
 
-def _pairs(
-    query: Query | None, explanation: Explanation, models: Sequence[CausalModel]
-) -> Iterator[tuple[Found, Found]]:
-    """What may have been set against one another."""
-    fact, foil = explanation.factual, explanation.counterfactual
+def _pairs(told: Told, models: Sequence[CausalModel]) -> Iterator[tuple[Found, Found]]:
+    """Yield what may have been set against one another."""
+    fact, foil = told.said.factual, told.said.counterfactual
     for model in models:
         here = _found(model, fact) if _decided(model.trace) else None
         if here is None:
             continue
-        there = model.intervene(foil)
-        if there is not None:
-            yield here, Found(model.trace, there)
+        if not isinstance(told.answer, SupposedOfOther):
+            there = model.intervene(foil)
+            if there is not None:
+                yield here, Found(model.trace, there)
+            continue
         for other in models:
             if other is not model and (planned := _found(other, foil)) is not None:
                 yield here, planned
-        for vehicle, supposed in _supposed(query, model):
+        for vehicle, supposed in _supposed(told.answer, model):
             given = _under(CausalModel(model.trace, {vehicle: supposed}), foil)
             if given is not None:
                 yield here, Found(model.trace, given)
@@ -117,40 +111,32 @@ def _under(model: CausalModel, plan: Actions) -> Intervention | None:
     return None
 
 
-def _supposed(query: Query | None, model: CausalModel) -> Iterator[tuple[int, frozenset[Choice]]]:
-    """What a question supposes of another vehicle, as choices that a decision reckoned with."""
-    for vehicle, asked, negated in _conduct(query):
-        if vehicle in model.vehicles:
-            matched = matching(model, vehicle, asked)
-            chosen = frozenset(model.choices(vehicle)) - matched if negated else matched
-            if chosen:
-                yield vehicle, chosen
-
-
-def _conduct(query: Query | None) -> Iterator[tuple[int, tuple[QueryAction, ...], bool]]:
-    """Vehicle, what it is supposed to do, and whether rather not to do."""
-    if query is None:
+def _supposed(
+    answer: SupposedOfOther, model: CausalModel
+) -> Iterator[tuple[int, frozenset[Choice]]]:
+    """Yield what is supposed of another vehicle, as choices that a decision reckoned with."""
+    vehicle = answer.vehicle
+    if answer.supposed is None or vehicle not in model.vehicles:
         return
-    vehicle = number_of(query.actor)
-    if vehicle and query.counterfactual:
-        yield vehicle, query.counterfactual, query.negated
-    said = condition(query.condition) if query.condition else None
-    if said is not None and said.actions:
-        yield said.vehicle, said.actions, said.negated
+    every = frozenset(model.choices(vehicle))
+    matched = matching(model, vehicle, conduct_names(answer.supposed))
+    chosen = every - matched if answer.negated else matched
+    if chosen:
+        yield vehicle, chosen
 
 
-def _agrees(explanation: Explanation, here: Intervention, there: Intervention) -> bool:
-    """Whether two sides give the figures of an explanation."""
-    outcome = explanation.outcome
+def _agrees(said: Contrastive, here: Intervention, there: Intervention) -> bool:
+    """Whether two sides give the figures of an said."""
+    outcome = said.outcome
     if outcome is not None and not _same(outcome.probability, there.outcomes[outcome.name]):
         return False
     known = {effect.component: effect for effect in effects(there, here)}
-    return len(known) == len(explanation.effects) and all(
+    return len(known) == len(said.effects) and all(
         effect.component in known
         and _same(effect.delta, known[effect.component].delta)
         and _same(effect.low, known[effect.component].low)
         and _same(effect.high, known[effect.component].high)
-        for effect in explanation.effects
+        for effect in said.effects
     )
 
 

@@ -10,20 +10,21 @@ from itertools import groupby
 from planner.events import Event
 from planner.goals import PLACES
 from planner.trace import Action, GoalPrediction, HoldUp
-from sim.scene import EGO
 from xavi_dialogue.app.narration import narrate
-from xavi_dialogue.explain.explanation import Cause
-from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.contrast import cause_point
-from xavi_dialogue.language.doings import LANE_CHANGES, plain
-from xavi_dialogue.language.generator import Slot, Token, expand
-from xavi_dialogue.language.morphology import Doing, inflect, listed
-from xavi_dialogue.language.orthography import capitalise, join
-from xavi_dialogue.language.points import Budget
-from xavi_dialogue.language.rules import Word, load_grammar
+from xavi_dialogue.domain.answers import Cause, Mechanism
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.contrasts import SLOWING, STANDING
+from xavi_dialogue.nlg.content.manoeuvres import CHANGES, other_verbs, own_verbs, plain
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.chances import chance
+from xavi_dialogue.nlg.surface.generator import Slot, Token, fill
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.morphology import inflect
+from xavi_dialogue.nlg.surface.orthography import capitalise, join, sentence
+from xavi_dialogue.nlg.surface.realiser import grammar
+from xavi_dialogue.nlg.surface.values import Clause, Quantity, Range, Who
 
-_FULL = Budget(effects=0, causes=1)
-_OTHER = EGO + 1  # any vehicle but our own: all others do things in the same words
+POSSIBLE = 0.3  # what is expected with less is told as what might be
 
 
 @cache
@@ -35,12 +36,12 @@ def deed(action: str, form: str = "base", *, in_lane: bool = False) -> str:
         form: base, past, participle or gerund.
         in_lane: a change of lane is the other choice: who goes on stays in the lane.
     """
-    return _said((Slot(Doing(EGO, (action,), in_lane=in_lane), form),))
+    return _said((Slot(own_verbs((action,), CHANGES if in_lane else ()), form),))
 
 
 def has_lane_change(actions: Iterable[str]) -> bool:
     """Whether a change of lane is one of the choices."""
-    return any(action in LANE_CHANGES for action in actions)
+    return any(action in CHANGES for action in actions)
 
 
 def refusals(
@@ -69,8 +70,8 @@ def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
 @lru_cache(maxsize=1024)  # what others may do comes from elsewhere
 def does(actions: tuple[str, ...]) -> str:
     """What another vehicle does: "changes to the right lane and turns right"."""
-    said = [_third(_said((Slot(Doing(_OTHER, (action,)), "base"),))) for action in plain(actions)]
-    return listed([words for words, _ in groupby(said)])
+    verbs = tuple(replace(verb, tense="present") for verb in other_verbs(actions))
+    return _said((Slot(verbs, "predicate"),))
 
 
 def goal_words(goal: GoalPrediction) -> str:
@@ -86,38 +87,73 @@ def hold_up_words(how: HoldUp) -> str:
 
 
 def cause_words(cause: Cause, *, of_ours: bool = True) -> str:
-    """What a vehicle was expected to do: "will very likely slow down and turn right".
+    """What a vehicle was expected to do: "will very likely slow from 43 to 11 km/h".
 
     Args:
         cause: the vehicle.
         of_ours: it is in our way; else it is in another's, and so may we be.
     """
-    point, grammar = cause_point(cause, "future", _FULL), load_grammar("answer_passenger")
-    if not of_ours:
-        point = replace(point, how=None)
-    chance = expand(grammar, "LIKELY", min(cause.probability, 1.0))
-    if not of_ours and point.doing is None:
-        return _table()["held-up-another"]["any"]
-    return _said((Word("will"), *chance, *expand(grammar, "DEED", point)))
+    verbs = _expected(cause) if of_ours else other_verbs(cause.actions)
+    if not verbs:
+        return _table()["held-up-another" if not of_ours else "expected"]["any"]
+    likely = chance(min(max(cause.probability, POSSIBLE), 1.0), "modal")
+    return f"{likely} {_said((Slot(verbs, 'base'),))}"
+
+
+def _expected(cause: Cause) -> tuple[Clause, ...]:
+    """What a vehicle was expected to do, with how it slows."""
+    verbs, slowing = other_verbs(cause.actions), _slowing(cause.mechanism)
+    if slowing is None or not cause.actions:
+        return verbs
+    telling = [verb for verb in verbs[-1:] if set(cause.actions) - {"continue", "stop"}]
+    return (Clause("it", "slow from", (slowing,)), *telling)
+
+
+def _slowing(mechanism: Mechanism | None) -> Range | None:
+    """From which speed to which a vehicle slows; None where it hardly does."""
+    if mechanism is None or mechanism.how != "leader":
+        return None
+    if mechanism.speed_from is None or mechanism.speed_to is None:
+        return None
+    if mechanism.speed_from - mechanism.speed_to < SLOWING:
+        return None
+    return Range(Quantity(mechanism.speed_from, "m/s"), Quantity(mechanism.speed_to, "m/s"))
 
 
 def way_words(cause: Cause, *, of_ours: bool = True) -> str | None:
     """How a vehicle held us up, or another: "slowing ahead of me, from 42 to 13 km/h"."""
-    point = cause_point(cause, "past", _FULL)
-    if point.how is None:
+    mechanism = cause.mechanism
+    if mechanism is None:
         return None
     if not of_ours:
-        return _table()["held-up-another"][point.how]
-    if point.how in ("collision", "right-of-way"):
-        return _table()["held-up"][point.how]
-    return _said(expand(load_grammar("answer_passenger"), "HINDRANCE", point))
+        return _table()["held-up-another"][mechanism.how]
+    if mechanism.how != "leader":
+        return _table()["held-up"][mechanism.how]
+    slowing, lowest = _slowing(mechanism), mechanism.speed_to
+    if slowing is not None:
+        return _table()["leader"]["slows"].format(_said((Slot(slowing, "plain"),)))
+    if lowest is None:
+        return _table()["held-up"]["leader"]
+    if lowest < STANDING:
+        return _table()["leader"]["stands"]
+    return _table()["leader"]["drives"].format(_said((Slot(Quantity(lowest, "m/s"), "plain"),)))
 
 
 def checked_words(cause: Cause) -> str | None:
     """What planning again without a vehicle showed, as a sentence; None: it was not tried."""
-    point, grammar = cause_point(cause, "past", _FULL), load_grammar("answer_passenger")
-    said = _said((*expand(grammar, "NECESSARY", point), *expand(grammar, "DOUBT", point)))
-    return capitalise(said) or None
+    who = Who(Vehicle(cause.vehicle))
+    if cause.decision_changes is not None:
+        return _told(message("WITHOUT_CAUSE", who=who, changes=cause.decision_changes, past=True))
+    if cause.necessary is None:
+        return None
+    if cause.necessary:
+        return _told(message("WITHOUT_IT", who=who, past=True))
+    return _told(message("NO_DIFFERENCE", who=who, past=True, many=False))
+
+
+def component_words(component: str) -> str:
+    """A component of the reward: "time to the goal"."""
+    return _table()["component"][component]
 
 
 def event_words(event: Event) -> str:
@@ -138,15 +174,14 @@ def dashboard_words(kind: str, name: str) -> str:
     return _table()[kind][name]
 
 
+def _told(said: Message) -> str:
+    """A message as a sentence."""
+    return capitalise(sentence(_said(fill(grammar(), said))))
+
+
 def _said(tokens: tuple[Token, ...]) -> str:
     words, _ = inflect(tokens, SpeechContext())
     return join(words)
-
-
-def _third(phrase: str) -> str:
-    """A phrase that begins with a verb's base form, in the third person."""
-    verb, _, rest = phrase.partition(" ")
-    return f"{verb}{'es' if verb.endswith('o') else 's'} {rest}".strip()
 
 
 @cache

@@ -5,8 +5,8 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from planner.trace import Outcome
-from xavi_dialogue.explain.explanation import Explanation
-from xavi_dialogue.language.paper import PaperCause, PaperEffect, select_paper
+from xavi_dialogue.domain.answers import Cause, Contrast, Effect
+from xavi_dialogue.nlg.content.manoeuvres import plain
 
 Ending: TypeAlias = Literal["done", "collision", "not-reached"]
 Lean: TypeAlias = Literal["more", "less", "equal"]
@@ -38,21 +38,22 @@ class Claim(msgspec.Struct, frozen=True):
     causes: tuple[Doing, ...] = ()
 
 
-def claim_of(found: Explanation, effects: int, causes: int) -> Claim:
-    """What the sentence of an explanation claims.
+def claim_of(found: Contrast, effects: int, causes: int) -> Claim:
+    """What the sentence of a contrast claims: its largest effects, where the foil arrives.
 
     Args:
-        found: has a counterfactual and its outcome.
+        found: has a foil and its outcome.
         effects: how many it may name.
         causes: likewise.
     """
-    content = select_paper(found, effects, causes)
     assert found.outcome is not None
+    arrives = found.outcome.name == "done"
+    largest = sorted(found.effects, key=lambda effect: -abs(effect.delta))
     return Claim(
         outcome=ending(found.outcome.name),
         collided_with=found.outcome.collided_with,
-        effects=tuple(_change(effect) for effect in content.effects),
-        causes=tuple(_doing(cause) for cause in content.causes),
+        effects=tuple(_change(effect) for effect in (largest[:effects] if arrives else ())),
+        causes=tuple(_doing(cause) for cause in found.causes[:causes] if cause.actions),
     )
 
 
@@ -81,10 +82,10 @@ def _later(ours: tuple[Doing, ...], theirs: tuple[Doing, ...]) -> bool:
     )
 
 
-def _change(effect: PaperEffect) -> Change:
+def _change(effect: Effect) -> Change:
     lean: Lean = "equal" if effect.delta == 0.0 else "more" if effect.delta > 0.0 else "less"
-    return Change(effect.component.name, lean)
+    return Change(effect.component, lean)
 
 
-def _doing(cause: PaperCause) -> Doing:
-    return Doing(cause.vehicle.number, tuple(action.name for action in cause.actions))
+def _doing(cause: Cause) -> Doing:
+    return Doing(cause.vehicle, plain(cause.actions))

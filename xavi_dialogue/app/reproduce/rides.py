@@ -20,9 +20,10 @@ from xavi_dialogue.app.reproduce.weighing import Weighed, weigh
 from xavi_dialogue.app.ride import network_of, settings_of, start
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state import EPSILON
-from xavi_dialogue.explain.explanation import Explanation, Reason
-from xavi_dialogue.language.context import SpeechContext
-from xavi_dialogue.language.realise import realise
+from xavi_dialogue.domain.answers import Answer, Contrast, Reason, Refusal
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.paper import contrast_of
+from xavi_dialogue.nlg.say import say
 
 
 class Wording(msgspec.Struct, frozen=True):
@@ -76,8 +77,11 @@ def _tell(scenario: Scenario, seed: int, foils: tuple[Foil, ...]) -> tuple[Told,
 
 def _ask(conversation: Conversation, foil: Foil, seed: int, at: float, network: Network) -> Told:
     reply = conversation.ask(foil.question, at, "paper")
-    if reply.explanation is None:
-        return Told(foil, seed, reply.text, reply.reason)
+    answer = _contrastive(reply)
+    if answer is None:
+        return Told(foil, seed, reply.text, reply.reason or "no-influence")
+    contrast = contrast_of(answer)
+    assert contrast is not None
     dialogue = conversation.dialogue
     known = (*dialogue.traces, *dialogue.planned.values())
     trace = next(one for one in known if one.trace_id == reply.trace_id)
@@ -85,34 +89,38 @@ def _ask(conversation: Conversation, foil: Foil, seed: int, at: float, network: 
         foil,
         seed,
         reply.text,
-        decided=reply.explanation.sim_time,
-        wordings=_wordings(reply, foil),
-        weighed=_weighed(reply.explanation, trace, dialogue.traces, foil, network),
+        decided=contrast.decided,
+        wordings=_wordings(answer, contrast, foil),
+        weighed=_weighed(contrast, trace, dialogue.traces, foil, network),
     )
 
 
-def _wordings(reply: Reply, foil: Foil) -> tuple[Wording, ...]:
-    """The explanation put into words in each size that the rows of its foil have."""
-    assert reply.query is not None
-    assert reply.explanation is not None
+def _contrastive(reply: Reply) -> Answer | Refusal | None:
+    """The first answer of a reply that the paper has a sentence for; None: there is none."""
+    answers = msgspec.convert(reply.answers, tuple[Answer | Refusal, ...])
+    return next((one for one in answers if contrast_of(one) is not None), None)
+
+
+def _wordings(answer: Answer | Refusal, contrast: Contrast, foil: Foil) -> tuple[Wording, ...]:
+    """The answer put into words in each size that the rows of its foil have."""
     found = []
     for effects, causes in dict.fromkeys((row.effects, row.causes) for row in rows_of(foil)):
         context = SpeechContext(style="paper", max_effects=effects, max_causes=causes)
-        text = realise(reply.query, reply.explanation, context).text
-        claim = claim_of(reply.explanation, effects, causes)
+        text = say(answer, context).text
+        claim = claim_of(contrast, effects, causes)
         found.append(Wording(effects, causes, text, claim))
     return tuple(found)
 
 
 def _weighed(
-    found: Explanation,
+    found: Contrast,
     trace: PlanTrace,
     traces: Sequence[PlanTrace],
     foil: Foil,
     network: Network,
 ) -> Weighed | None:
     before = [one for one in traces if one.sim_time < trace.sim_time]
-    return weigh(trace, before, found.factual, foil.action, rows_of(foil), network)
+    return weigh(trace, before, found.fact, foil.action, rows_of(foil), network)
 
 
 def _drive(

@@ -1,0 +1,135 @@
+"""Why we drove as we did: the episode that is meant, what it really was, and because of whom."""
+
+from tests.explain.causes.rides import recorded, single, story, told
+from tests.stories import squeezed
+from xavi_dialogue.domain.answers import (
+    CannotSay,
+    ChoiceReason,
+    DidNotHappen,
+    MotionReason,
+    NoSuchVehicle,
+    NotApplicable,
+    OtherReason,
+)
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.meaning import Whether, Why
+from xavi_dialogue.domain.terms import Caused, Event, Happens, Is, Not, Vehicle
+
+
+def why(action: str, **more: object) -> Why:
+    return Why(Happens(Event(action, **more)))  # type: ignore[arg-type]
+
+
+def test_a_stop_that_was_only_slowing_down_is_told_as_that() -> None:
+    found = told(story("braking"), why("stop"), 8.0)
+    assert isinstance(found, MotionReason)
+    assert found.deed.action in ("slow-down", "brake")
+    assert (found.premise, found.asked) == (False, "stop")
+
+
+def test_slowing_down_keeps_its_premise() -> None:
+    found = told(story("braking"), why("brake"), 8.0)
+    assert isinstance(found, MotionReason)
+    assert found.premise
+    assert found.causes[0].vehicle == 1
+
+
+def test_slow_is_a_state_and_not_slowing_down() -> None:
+    ride = recorded("motorway-0")
+    for now in (6.0, 10.0):
+        found = told(ride, Why(Is("slow", tense="present")), now)
+        assert isinstance(found, MotionReason)
+        assert found.deed.action in ("move", "follow")
+        assert found.manner == "slowly"
+
+
+def test_standing_for_somebody_is_because_of_them() -> None:
+    found = told(story("waiting"), why("stand", tense="present"), 10.0)
+    assert isinstance(found, MotionReason)
+    assert found.causes[0].vehicle == 1
+    assert found.causes[0].kind == "right-of-way"
+
+
+def test_not_going_is_told_as_waiting() -> None:
+    found = told(story("waiting"), Why(Not(Happens(Event("go", tense="present")))), 10.0)
+    assert isinstance(found, MotionReason)
+    assert found.causes[0].vehicle == 1
+
+
+def test_a_suspect_is_confirmed_or_cleared() -> None:
+    claim = Whether(Caused(Vehicle(1), Happens(Event("stop"))))
+    found = told(story("waiting"), claim, 10.0)
+    assert isinstance(found, MotionReason)
+    assert (found.suspect, found.suspected) == (1, "main")
+
+
+def test_a_suspect_that_was_never_seen_is_refused() -> None:
+    question = Why(Happens(Event("brake")), suspect=Vehicle(77))
+    found = told(story("braking"), question, 8.0)
+    assert isinstance(found, NoSuchVehicle)
+
+
+def test_what_nobody_did_is_denied_with_what_was_done() -> None:
+    found = told(recorded("s1-0"), why("turn", side="left"), 8.0)
+    assert isinstance(found, DidNotHappen)
+    assert found.asked.action == "turn"
+
+
+def test_the_time_said_chooses_the_episode_or_denies_it() -> None:
+    ride = story("braking")
+    found = told(ride, why("brake"), 10.0, Span(0.5, 1.5, said=True))
+    assert isinstance(found, DidNotHappen)
+    assert found.elsewhen is not None
+
+
+def test_an_option_that_did_not_apply_has_its_reason() -> None:
+    question = Why(Not(Happens(Event("change-lane", side="right", tense="present"))))
+    found = told(single(squeezed(10.0)), question, 10.0)
+    assert isinstance(found, NotApplicable)
+    assert found.reason == "there is no lane to the right"
+
+
+def test_no_car_of_this_kind_honks() -> None:
+    assert isinstance(told(story("braking"), Why(Not(Happens(Event("honk")))), 8.0), CannotSay)
+
+
+def test_why_we_change_lanes_is_a_choice() -> None:
+    found = told(recorded("s1-0"), why("change-lane", side="left"), 8.0)
+    assert isinstance(found, ChoiceReason)
+    assert found.deed is not None
+    assert found.deed.action == "change-left"
+    assert found.contrast.foil == ("continue",)
+    assert not found.contrast.close
+
+
+def test_the_decision_is_the_one_of_the_episode_and_not_the_latest() -> None:
+    found = told(recorded("s1-0"), why("change-lane", side="left"), 15.0)
+    assert isinstance(found, ChoiceReason)
+    assert found.contrast.decided <= 4.0
+
+
+def test_another_stands_for_whom_it_waits() -> None:
+    found = told(recorded("s1-0"), why("wait", actor=Vehicle(2), tense="present"), 8.0)
+    assert isinstance(found, OtherReason | DidNotHappen)
+    if isinstance(found, OtherReason):
+        assert found.vehicle == 2
+        assert found.deed is not None
+
+
+def test_whoever_is_in_the_way_but_makes_no_difference_is_not_the_reason() -> None:
+    ride = story("lorry")
+    question = Why(Is("slow", tense="present"), suspect=Vehicle(1))
+    found = told(ride, question, 6.0)
+    assert isinstance(found, MotionReason)
+    assert found.causes == ()
+    assert found.cleared == (1,)
+    assert found.suspected == "none"
+
+
+def test_whoever_is_in_front_is_the_reason_for_driving_slowly() -> None:
+    question = Why(Is("slow", tense="present"), suspect=Vehicle(1))
+    found = told(story("lorry"), question, 9.0)
+    assert isinstance(found, MotionReason)
+    assert found.deed.action == "follow"
+    assert found.causes[0].kind == "leader"
+    assert found.suspected == "main"

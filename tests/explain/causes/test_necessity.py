@@ -1,0 +1,74 @@
+"""A cause is tried by planning again without the vehicle; what is refuted is no cause."""
+
+from collections.abc import Mapping
+
+from msgspec.structs import replace
+
+from planner.trace import Action, PlanTrace, WhatIf
+from tests.traces import Aim, World, s1_ride, s1_world, trace_of
+from xavi_dialogue.causal.model import Actions
+from xavi_dialogue.domain.answers import ChoiceReason, NeedRollout
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.domain.terms import Event, Happens, Vehicle
+from xavi_dialogue.explain.answers.engine import Result, explain
+from xavi_dialogue.explain.history.record import Record
+
+RIDE = s1_ride()
+DECISION = RIDE.traces[1]
+WHY = Why(Happens(Event("change-lane", side="left")))
+NEED = NeedRollout(trace_id=DECISION.trace_id, removed=1)
+
+
+def asked(question: Why, *extra: PlanTrace, refused: tuple[NeedRollout, ...] = ()) -> Result:
+    record = Record(RIDE.now, RIDE.traces, RIDE.events, extra=extra, refused=refused)
+    return explain(GroundedAct(Ask(question)), record)
+
+
+def without_vehicle_1(best: str, *, others_are_slow: bool) -> PlanTrace:
+    """The decision taken again; where the others are slow, the way ahead is as slow as with it."""
+    world = s1_world()
+    aims: Mapping[int, tuple[Aim, ...]] = {2: world.aims[2]}
+    plans: tuple[Actions, ...] = (("change-left", "continue"), ("continue",))
+    ahead: tuple[Action, int] = ("exit-right", 0) if others_are_slow else ("continue", 0)
+    alone = World(
+        aims,
+        plans if best == "change-left" else plans[::-1],
+        lambda plan, chosen: world.simulate(plan, {**chosen, 1: ahead}),
+    )
+    return replace(trace_of(alone, draws=24), what_if=WhatIf(removed=1))
+
+
+def test_the_planner_is_asked_first_and_only_for_the_vehicle_that_is_blamed() -> None:
+    assert asked(WHY) == NEED
+
+
+def test_what_makes_the_choice_is_necessary() -> None:
+    found = asked(WHY, without_vehicle_1("continue", others_are_slow=False))
+    assert isinstance(found, ChoiceReason)
+    (cause,) = found.contrast.causes
+    assert (cause.vehicle, cause.decision_changes, cause.necessary) == (1, True, True)
+
+
+def test_what_another_would_do_as_well_is_no_cause_and_is_cleared() -> None:
+    found = asked(WHY, without_vehicle_1("change-left", others_are_slow=True))
+    assert isinstance(found, ChoiceReason)
+    assert found.contrast.causes == ()
+    assert found.contrast.cleared == (1,)
+
+
+def test_a_suspect_that_is_cleared_is_no_part_of_it() -> None:
+    question = replace(WHY, suspect=Vehicle(1))
+    found = asked(question, without_vehicle_1("change-left", others_are_slow=True))
+    assert isinstance(found, ChoiceReason)
+    assert (found.suspect, found.suspected) == (1, "none")
+    found = asked(question, without_vehicle_1("continue", others_are_slow=False))
+    assert isinstance(found, ChoiceReason)
+    assert found.suspected == "main"
+
+
+def test_where_the_planner_cannot_be_asked_the_record_speaks() -> None:
+    found = asked(WHY, refused=(NEED,))
+    assert isinstance(found, ChoiceReason)
+    assert found.contrast.causes[0].vehicle == 1
+    assert found.contrast.causes[0].necessary is None

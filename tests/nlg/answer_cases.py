@@ -1,0 +1,202 @@
+"""Factual answers and talk; what is said stands in the same line of golden/answer.txt."""
+
+from tests.nlg.scenery import BLUE, GONE, LORRY, LORRY_THEN, NOW, OTHER_BLUE
+from xavi_dialogue.domain.answers import (
+    Acknowledged,
+    Activity,
+    Again,
+    Answer,
+    Beliefs,
+    Bound,
+    Closeness,
+    Comfort,
+    Comforting,
+    Compared,
+    Counted,
+    Declined,
+    Evidence,
+    Happenings,
+    Helpful,
+    Identified,
+    Located,
+    Measures,
+    MotionCause,
+    Options,
+    PlanAhead,
+    Priority,
+    Sociable,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure, OptionValue
+from xavi_dialogue.domain.meaning import Feel, Request
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Related,
+    Vehicle,
+    Wanted,
+)
+
+E, V, W = Ego(), Vehicle(1), Vehicle(2)
+TURN = Happens(Event("turn", V, side="right"))
+UNSURE = Belief(1, 4.0, (Expectation(("exit-right",), 0.45), Expectation(("continue",), 0.4)))
+EXPECTED = Belief(1, 8.0, (Expectation(("exit-right",), 0.78), Expectation(("continue",), 0.2)))
+RIDE = (
+    Episode(E, "change-left", 2.0, 4.0),
+    Episode(W, "cut-in", 9.0, 10.0, object=E),
+    Episode(E, "brake", 9.0, 11.0, speed_from=13.0, speed_to=8.0, object=W),
+    Episode(E, "stand", 14.0, 18.0),
+    Episode(E, "exit-right", 18.0),
+)
+OPTIONS = (
+    OptionValue("change-left", True, "done", 0.9, 12.0, 0.0, 1.0),
+    OptionValue("continue", False, "done", 0.9, 16.0, 4.0, 0.5),
+    OptionValue("stop", False, "termination", 0.9, None, None, -1.0),
+)
+
+CASES: tuple[Answer, ...] = (
+    Verdict(
+        Happens(Event("stop")),
+        True,
+        (Episode(E, "stop", 12.0, 13.0, speed_from=13.0, speed_to=0.0),),
+    ),
+    Verdict(
+        Happens(Event("stop")),
+        False,
+        (Episode(E, "slow-down", 12.0, 15.0, speed_from=13.0, speed_to=6.0),),
+    ),
+    Verdict(Related("behind", W), False, (BLUE,)),
+    Verdict(Related("ahead-of", V), True, (LORRY,)),
+    Verdict(Related("can-see", V, E), None, gap="others-thoughts"),
+    Verdict(Exists(Described("car", bearing="behind", definite=False)), True, (OTHER_BLUE,)),
+    Verdict(Exists(Described("car", bearing="behind", definite=False)), False),
+    Verdict(Has("indicator", "left", V), False, (Measure("indicator", V, NOW, lights=("right",)),)),
+    Verdict(Has("colour", "blue", V), False, (Measure("colour", V, NOW, word="red"),)),
+    Verdict(
+        Compares(Measured("speed"), "more", Measured("speed", V)),
+        True,
+        (Measure("speed", E, NOW, 13.0), Measure("speed", V, NOW, 10.0)),
+    ),
+    Verdict(
+        Compares(Measured("speed"), "more", Measured("limit")),
+        False,
+        (Measure("speed", E, NOW, 13.0, reference=13.9),),
+    ),
+    Verdict(Is("necessary", event=Event("brake"), tense="past"), True),
+    Verdict(Happens(Event("pull-out", V, E, tense="future")), None, probability=0.05),
+    Verdict(Happens(Event("turn", V, side="right", tense="future")), None, probability=0.5),
+    Verdict(Happens(Event("turn", V, side="right", tense="future")), None, probability=0.78),
+    Verdict(
+        TURN,
+        False,
+        (Episode(V, "continue", 10.0, 12.0),),
+        claim=True,
+        challenge=True,
+        believed=(EXPECTED,),
+        mistaken=True,
+    ),
+    Verdict(TURN, True, (Episode(V, "turn", 10.0, 12.0, side="right"),), claim=True),
+    Verdict(TURN, False, (Episode(V, "continue", 10.0, 12.0),), claim=True),
+    Verdict(TURN, None, gap="out-of-view", claim=True),
+    Identified((LORRY,)),
+    Identified((LORRY,), such=Happens(Event("wait", object=Wanted()))),
+    Identified((), such=Happens(Event("wait", object=Wanted())), none=True),
+    Identified((), such=Related("behind", Wanted()), none=True),
+    Identified((LORRY, BLUE)),
+    Identified((LORRY,), facts=(Episode(V, "wait", 18.0),)),
+    Counted(Event("give-way"), 3, since=0.0, until=NOW),
+    Counted(Event("stop"), 0, since=0.0, until=NOW),
+    Counted(Event("stop"), 1, (Episode(E, "stop", 12.0, 13.0),)),
+    Counted(Everyone("car"), 1),
+    Counted(Everyone(), 9),
+    Happenings("list", RIDE),
+    Happenings(
+        "summary",
+        RIDE,
+        measures=(
+            Measure("time", E, NOW, 20.0, until=NOW),
+            Measure("distance-driven", E, NOW, 210.0),
+        ),
+    ),
+    Happenings("when", RIDE[:1]),
+    Happenings("how-long", (Episode(E, "stand", 14.0, 18.0),)),
+    Happenings("how-long", (Episode(E, "wait", 14.0, object=W),)),
+    Happenings("when", (), asked=Event("stop"), since=0.0, until=NOW),
+    Happenings("first", RIDE),
+    Activity(E, NOW, (Episode(E, "exit-right", 18.0),), 7.0, "slowing"),
+    Activity(V, NOW, (), 0.0, "standing", cause=MotionCause("right-of-way", vehicle=2)),
+    Activity(
+        W,
+        NOW,
+        (),
+        13.0,
+        "steady",
+        belief=Belief(
+            2, NOW, (Expectation(("exit-right",), 0.5), Expectation(("continue",), 0.45))
+        ),
+    ),
+    PlanAhead((("continue", NOW), ("exit-left", 24.0))),
+    PlanAhead((("exit-left", 24.0),), (Measure("time-to-go", E, NOW, 14.0),)),
+    PlanAhead((), arrived=True),
+    Located(V, (LORRY,)),
+    Located(V, (LORRY_THEN,)),
+    Located(Vehicle(4), (GONE,)),
+    Located(W, (), gap="out-of-view"),
+    Bound(
+        E,
+        measures=(
+            Measure("distance-to-go", E, NOW, 230.0),
+            Measure("turn", E, NOW, 60.0, side="left"),
+        ),
+    ),
+    Bound(V, Belief(1, NOW, (Expectation(("exit-right",), 0.92),))),
+    Bound(V, went=Episode(V, "exit-right", 12.0, 14.0)),
+    Beliefs(
+        1,
+        None,
+        (UNSURE, EXPECTED),
+        why=Episode(V, "slow-down", 4.0, 6.0, speed_from=11.0, speed_to=7.0),
+        turning=(4.0, 8.0),
+        came=Episode(V, "exit-right", 8.0, 10.0),
+    ),
+    Beliefs(1, Event("turn", V, side="right"), (UNSURE, EXPECTED), probability=0.78, time=8.0),
+    Options(OPTIONS, 2.0, Evidence()),
+    Options(OPTIONS[:1], 2.0, Evidence()),
+    Compared(
+        "speed", E, V, "first", (Measure("speed", E, NOW, 13.0), Measure("speed", V, NOW, 10.0))
+    ),
+    Compared("time", Happens(Event("change-left")), Happens(Event("continue")), "first"),
+    Compared("safety", E, V, "unknown"),
+    Priority(NOW, "give-way", 1),
+    Priority(12.0, "equal", 2, first=W, blame=True, conflict=False),
+    Comfort(Measure("deceleration", E, 9.0, 2.2, extreme="highest")),
+    Comfort(Measure("deceleration", E, 9.0, 5.2, extreme="highest"), episode=RIDE[2], hard=True),
+    Closeness(1, Measure("distance", V, 5.0, 4.2, to=E, extreme="lowest"), risk=0.001),
+    Closeness(1, Measure("distance", V, NOW, 14.0, to=E), asked="close", past=False),
+    Closeness(
+        1,
+        Measure("distance", V, 5.0, 0.6, to=E),
+        Measure("time-to-collision", V, 5.0, 1.2),
+        asked="dangerous",
+    ),
+    Comforting(
+        Feel("startled"), Closeness(1, Measure("distance", V, 5.0, 4.2, to=E, extreme="lowest"))
+    ),
+    Comforting(Feel("nervous")),
+    Declined(Request(Event("slow-down", tense="present")), ahead=PlanAhead((("exit-left", 24.0),))),
+    Declined(Request(Event("honk", object=V)), able=False),
+    Declined(Request(Event("slow-down")), already=True, doing=Activity(E, NOW, (), 8.0, "slowing")),
+    Sociable("thanks"),
+    Helpful(),
+    Acknowledged("cancelled"),
+    Again("shorter", Measures((Measure("speed", E, NOW, 13.0, reference=13.9),))),
+    Again("repeat", None),
+)

@@ -1,0 +1,340 @@
+"""Causal answers and refusals; what is said stands in the same line of golden/causal_*.txt."""
+
+from msgspec.structs import replace
+
+from tests.nlg.scenery import BLUE, GONE, LORRY, LORRY_THEN, OTHER_BLUE
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Avoidance,
+    CannotSay,
+    Cause,
+    Certainty,
+    ChoiceReason,
+    Contrast,
+    DidNotHappen,
+    Effect,
+    Evidence,
+    Grounds,
+    Mechanism,
+    Method,
+    MotionCause,
+    MotionReason,
+    NoSuchVehicle,
+    NotApplicable,
+    NotRecorded,
+    NotUnderstood,
+    OtherReason,
+    OutcomeEstimate,
+    Pivot,
+    Refusal,
+    SupposedOfOther,
+    SupposedOfUs,
+    TooLittle,
+    Unavailable,
+    WhichOne,
+)
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, OptionValue
+from xavi_dialogue.domain.terms import (
+    At,
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Pronoun,
+    Vehicle,
+    Wanted,
+)
+
+E, BUS, CAR = Ego(), Vehicle(1), Vehicle(2)
+THEN = 5.0
+
+
+def effect(component, delta, low=None, high=None):
+    ends = (delta - 0.4 if low is None else low, delta + 0.4 if high is None else high)
+    return Effect(component, "s", delta, *ends, 60, 20)
+
+
+TURNS_OFF = Cause(
+    1,
+    ("change-right", "exit-right"),
+    0.78,
+    Mechanism("leader", 9.0, 3.6, 4.0, 0.9),
+    0.3,
+    decision_changes=True,
+    necessary=True,
+)
+DRIVES_AHEAD = Cause(2, ("continue",), 0.999, Mechanism("leader", 16.7, 16.7, 4.0, 0.9, True))
+MIGHT_TURN = Cause(2, ("exit-left",), 0.5, Mechanism("collision", None, None, None, 0.46))
+GOES_FIRST = Cause(2, ("exit-right",), 0.3, Mechanism("right-of-way", 8.0, 8.0, 3.0, 0.9))
+LATER = Contrast(
+    fact=("change-left", "continue"),
+    foil=("continue",),
+    outcome=OutcomeEstimate("done", 1.0),
+    effects=(effect("time", 4.0, 1.0, 6.0), effect("jerk", 0.4)),
+    causes=(TURNS_OFF,),
+    evidence=Evidence("tree", 120, 32, ("a",)),
+    decided=THEN,
+    value=4.0,
+    decisive="time",
+)
+CHANGED = Episode(E, "change-left", THEN, 9.0)
+TURNED = Episode(E, "exit-right", 12.0, 15.0)
+
+
+def ends(name, probability=1.0, struck=None, **more):
+    return replace(LATER, outcome=OutcomeEstimate(name, probability, struck), **more)
+
+
+EFFORT = replace(
+    LATER,
+    fact=("continue",),
+    foil=("change-left",),
+    effects=(effect("time", -1.0),),
+    decisive="effort",
+)
+CLOSE = replace(LATER, close=True, value=-1.5, effects=(effect("time", -1.5),), decisive=None)
+RISKY = replace(
+    LATER,
+    fact=("exit-right",),
+    foil=("exit-straight",),
+    effects=(effect("time", -2.5),),
+    decisive="collision",
+    collision=0.46,
+    fact_collision=0.02,
+    collided_with=2,
+    causes=(MIGHT_TURN,),
+)
+ALONE = replace(LATER, foil=(), outcome=None, effects=())
+STEERING = replace(
+    LATER,
+    effects=(effect("angular-acceleration", 0.1), effect("time", -2.0)),
+    decisive="angular-acceleration",
+    causes=(),
+)
+
+CHOICES: tuple[Answer, ...] = (
+    ChoiceReason("why", CHANGED, LATER),
+    ChoiceReason("why", CHANGED, replace(LATER, causes=(DRIVES_AHEAD,)), 2, "main"),
+    ChoiceReason("why", CHANGED, replace(LATER, causes=(TURNS_OFF, DRIVES_AHEAD)), 2, "part"),
+    ChoiceReason("why", CHANGED, replace(LATER, cleared=(3,)), 3, "none"),
+    ChoiceReason("why", CHANGED, LATER, 3, "none"),
+    ChoiceReason("why", CHANGED, replace(LATER, causes=(GOES_FIRST,))),
+    ChoiceReason("why", CHANGED, replace(LATER, waypoint=True)),
+    ChoiceReason("why", CHANGED, STEERING),
+    ChoiceReason("why", None, CLOSE, past=False),
+    ChoiceReason("why", TURNED, RISKY),
+    ChoiceReason("why", CHANGED, replace(LATER, collision=0.03, collided_with=2)),
+    ChoiceReason("why", CHANGED, replace(LATER, fact_collision=0.03)),
+    ChoiceReason("why", CHANGED, ALONE),
+    ChoiceReason("why", CHANGED, replace(ALONE, causes=())),
+    ChoiceReason("why", CHANGED, ends("collision", 0.8, 2, foil=("stop", "exit-right"))),
+    ChoiceReason("why", CHANGED, ends("dead", 0.97, foil=("exit-left",))),
+    ChoiceReason("why", CHANGED, ends("dead", foil=("exit-left",), waypoint=True)),
+    ChoiceReason("why", CHANGED, ends("termination", 0.7, foil=("stop",))),
+    ChoiceReason("why", Episode(E, "continue", 18.0), EFFORT, past=False),
+    ChoiceReason("why-not", None, EFFORT),
+    ChoiceReason("why-not", None, replace(EFFORT, effects=(), foil=("stop",)), past=False),
+    ChoiceReason("why-not", None, replace(CLOSE, effects=())),
+    ChoiceReason("necessary", CHANGED, LATER),
+    ChoiceReason("necessary", CHANGED, ends("collision", 0.8, 2)),
+    ChoiceReason("necessary", CHANGED, ALONE),
+    ChoiceReason("necessary", CHANGED, CLOSE),
+    ChoiceReason("worth-it", CHANGED, LATER),
+    ChoiceReason("worth-it", CHANGED, CLOSE),
+    ChoiceReason("worth-it", CHANGED, replace(CLOSE, value=0.2)),
+    SupposedOfUs(replace(LATER, foil=("stop",), continued=("exit-right",))),
+    SupposedOfUs(LATER, past=False),
+    SupposedOfUs(LATER, done=True),
+    SupposedOfUs(ends("collision", 0.8, 2), past=False),
+    SupposedOfUs(replace(LATER, collision=0.1, collided_with=2)),
+    SupposedOfUs(RISKY),
+    SupposedOfUs(ends("dead", fact=("continue-next-exit", "exit-right"), foil=("exit-right",))),
+    SupposedOfUs(STEERING),
+)
+
+SLOWED = Episode(E, "slow-down", 12.0, 15.0, speed_from=14.0, speed_to=8.0)
+SLOWING = Episode(E, "slow-down", 18.0, None, speed_from=14.0, speed_to=8.0)
+LEADER = MotionCause("leader", 2, ("continue",), 0.9, 16.7, necessary=True)
+WENT_ON = Episode(CAR, "exit-straight", 16.0, 18.0)
+PRIORITY = MotionCause("right-of-way", 2, ("exit-right",), 0.78, 8.0, WENT_ON, necessary=True)
+FOLLOWING = Episode(E, "follow", 20.0, None, BUS, speed_to=8.0, speed_from=8.0)
+MOVING = Episode(E, "move", 20.0, None, speed_to=13.5, speed_from=13.5)
+LIMIT = MotionCause("limit", value=13.9)
+SLOW_BUS = MotionCause("leader", 1, ("continue",), 0.9, 8.0)
+HEADING = Belief(2, 10.0, (Expectation(("exit-right",), 0.78),))
+KINDS = ("cut-in", "blocked", "turn", "limit", "give-way-line", "hidden", "destination",
+         "lane-end", "plan", "starting", "light")  # fmt: skip
+BY_KIND = tuple(
+    MotionReason(deed, (MotionCause(kind, 1 if kind in ("cut-in", "blocked") else None),))  # type: ignore[arg-type]
+    for kind in KINDS
+    for deed in (SLOWED, SLOWING)
+)
+
+MOTIONS: tuple[Answer, ...] = (
+    MotionReason(SLOWED, (LEADER,)),
+    MotionReason(SLOWED, (PRIORITY,), premise=False, asked="stop", evidence=LATER.evidence),
+    MotionReason(SLOWING, (PRIORITY, LEADER), False, "stop", 2, "main"),
+    MotionReason(SLOWED, ()),
+    MotionReason(SLOWED, (replace(LIMIT, value=8.3),)),
+    MotionReason(FOLLOWING, (SLOW_BUS,), asked="move", manner="slowly", limit=13.9),
+    MotionReason(MOVING, (LIMIT,), premise=False, asked="move", manner="slowly", limit=13.9),
+    MotionReason(MOVING, (LIMIT,), premise=False, asked="move", manner="fast", limit=13.9),
+    MotionReason(MOVING, (LIMIT,), asked="move", manner="fast", limit=11.1),
+    MotionReason(FOLLOWING, (SLOW_BUS,), asked="move", manner="close", limit=13.9),
+    MotionReason(MOVING, (SLOW_BUS,), premise=False, asked="slow-down", manner="slowly"),
+    MotionReason(Episode(E, "stand", 16.0), (MotionCause("leader", 2, ("stop",), 0.9, 0.0),)),
+    MotionReason(Episode(E, "wait", 8.0, 14.0, CAR), (PRIORITY,), form="necessary"),
+    MotionReason(SLOWED, (MotionCause("plan"),), form="necessary", cleared=(3,)),
+    *BY_KIND,
+    OtherReason(
+        2,
+        Episode(CAR, "stop", 10.0, 14.0),
+        None,
+        (MotionCause("leader", 3, ("stop",), 0.8, 0.0),),
+        HEADING,
+    ),
+    OtherReason(
+        2,
+        Episode(CAR, "stand", 18.0),
+        Event("go", CAR, tense="present"),
+        (MotionCause("right-of-way", 0, ("continue",), 0.97, 8.0),),
+    ),
+    OtherReason(2, Episode(CAR, "exit-right", 10.0, 14.0), None, (), HEADING),
+    OtherReason(2, Episode(CAR, "signal", 18.0, side="right"), None, (), HEADING),
+    OtherReason(2, Episode(CAR, "slow-down", 10.0, 14.0)),
+    OtherReason(2, None, None, (), HEADING),
+    OtherReason(2, None),
+)
+
+SOONER = replace(LATER, foil=("continue",), effects=(effect("time", -2.0),))
+LEFT = Event("turn", CAR, side="left")
+SUPPOSITIONS: tuple[Answer, ...] = tuple(
+    case
+    for past in (True, False)
+    for case in (
+        SupposedOfOther(2, None, None, LATER.fact, ("continue",), False, SOONER, past),
+        SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, None, past),
+        SupposedOfOther(
+            2,
+            LEFT,
+            0.12,
+            LATER.fact,
+            ("continue",),
+            False,
+            replace(SOONER, collision=0.05, collided_with=3),
+            past,
+        ),
+        SupposedOfOther(2, LEFT, 0.0, LATER.fact, LATER.fact, True, None, past, negated=True),
+        SupposedOfOther(2, LEFT, None, (), (), False, None, past, Event("stop"), False),
+        SupposedOfOther(2, None, None, (), (), True, None, past, Event("slow-down"), True),
+        SupposedOfOther(2, None, None, (), (), True, None, past, Event("slow-down")),
+    )
+)
+
+OPTIONS = (
+    OptionValue("exit-right", True, "done", 0.9, 20.0, None, 1.0),
+    OptionValue("exit-left", False, "dead", 1.0, None, None, -5.0),
+)
+GREW = Grounds(
+    2,
+    ("exit-right",),
+    False,
+    ((7.0, 0.4), (9.0, 0.92)),
+    8.0,
+    7.0,
+    9.0,
+    0.4,
+    0.92,
+    Episode(CAR, "slow-down", 7.0, 9.0),
+    ("exit-straight",),
+    3.02,
+)
+INSIGHTS: tuple[Answer, ...] = (
+    GREW,
+    replace(GREW, deed=None, fit=None),
+    Grounds(2, ("exit-right",), True, ()),
+    Grounds(2, ("exit-right",), False, ((7.0, 0.4),)),
+    Grounds(2, ("exit-right",), False, ((7.0, 0.01),)),
+    Certainty("plan", 0.97, 0.91, 32, 32, 19.5, Evidence(), ALONE),
+    Certainty("plan", 0.3, 0.2, 9, 32, 19.5, Evidence(), ALONE),
+    Certainty("choice", 0.81, 0.65, 26, 32, 10.0, Evidence(), LATER),
+    Certainty("choice", 0.3, 0.2, 10, 32, 10.0, Evidence(), LATER),
+    Certainty("choice", 1.0, 0.6, 1, 1, 10.0, Evidence(), LATER),
+    Method(10.0, OPTIONS, LATER.evidence, 4),
+    Method(None),
+    Pivot("conduct", LATER, 2, ("exit-right",), 0.12),
+    Pivot("removal", LATER, 2),
+    Pivot("none", LATER),
+    Pivot("factor", LATER, 2, ("exit-right",), most=True),
+    Pivot("factor", STEERING, most=True),
+    Avoidance("brake", True, True, 0.8, 0.05, 3, 4, LATER),
+    Avoidance("collide", False, True, 0.8, 0.4, 3, 4, LATER),
+    Avoidance("stop", False, True, 0.02, 0.01, 3, 4, LATER),
+    Avoidance("stop", False, True, 0.8, 0.8, 3, 0, ALONE),
+    Avoidance("collide", False, False, 0.0, 0.0, 0, 0),
+)
+
+BRAKED = MotionReason(SLOWED, (MotionCause("leader", 2, speed=8.0),))
+REFUSALS: tuple[Refusal, ...] = (
+    NotUnderstood(),
+    NotUnderstood(("blorb",)),
+    NotUnderstood(("blorb", "flim")),
+    WhichOne((CAR, Vehicle(3)), (BLUE, OTHER_BLUE)),
+    WhichOne((Happens(Event("stop")), Happens(Event("stop", CAR))), between="meanings"),
+    WhichOne(
+        (Happens(Event("exit-left", time=At(5.0))), Happens(Event("exit-left", time=At(12.0)))),
+        between="times",
+    ),
+    NoSuchVehicle(Vehicle(9), 20.0, (LORRY, BLUE)),
+    NoSuchVehicle(Described("car", "red"), 20.0, (), BLUE),
+    NoSuchVehicle(Described("bus", bearing="behind"), 5.0, (LORRY_THEN,)),
+    NoSuchVehicle(Described("car", doing=Event("cut-in", Wanted())), 20.0, (LORRY, BLUE, GONE)),
+    NoSuchVehicle(Pronoun("it"), 20.0),
+    DidNotHappen(Event("turn", side="left"), (TURNED,)),
+    DidNotHappen(Event("turn", side="left"), planned=20.0),
+    DidNotHappen(Event("turn", side="right"), (TURNED,), elsewhen=12.0),
+    DidNotHappen(Event("turn", side="right"), (TURNED,)),
+    DidNotHappen(Event("stop"), (SLOWED,), answer=BRAKED),
+    DidNotHappen(Event("slow-down"), (SLOWED,), answer=BRAKED),
+    DidNotHappen(Event("stop", tense="present"), (SLOWING,)),
+    DidNotHappen(Event("brake", CAR), (Episode(CAR, "speed-up", 12.0, 13.0),)),
+    DidNotHappen(Event("turn", CAR, side="left", tense="future")),
+    DidNotHappen(Event("stop", tense="future")),
+    DidNotHappen(Event("happen")),
+    NotApplicable(("change-left",), "there is no lane to the left", 20.0),
+    NotApplicable(("change-left",), "there is no lane to the left", 5.0),
+    NotApplicable(("exit-left",), "its lane does not lead to the left", 5.0),
+    NotApplicable(("continue",), "another manoeuvre is under way"),
+    NotApplicable((), "speed is no choice of its own: it follows from the road", 5.0),
+    NotApplicable((), "its goal is too far", 5.0),
+    TooLittle("too-little-evidence", ("exit-left",), (), 3, 8),
+    TooLittle("too-little-evidence", ("exit-left",)),
+    TooLittle("effect-too-small", ("stop",)),
+    TooLittle("no-influence", ("stop",), ("stop", "exit-left")),
+    TooLittle("no-influence"),
+    NotRecorded("before-record"),
+    NotRecorded("in-future"),
+    NotRecorded("gap-in-record", since=5.0, until=8.0),
+    NotRecorded("gap-in-record"),
+    NotRecorded("out-of-view", CAR, 5.0),
+    NotRecorded("hidden", CAR, 5.0),
+    NotRecorded("not-sensed", about="weather"),
+    NotRecorded("not-recorded", CAR, about="lane"),
+    NotRecorded("not-recorded"),
+    NotRecorded("not-applicable", CAR, about="time-to-collision"),
+    NotRecorded("others-thoughts"),
+    *(
+        CannotSay(topic)
+        for topic in ("off-topic", "injection", "non-english", "capability", "perception", "advice",
+                      "opinion", "unsupported-condition", "abuse", "deeper", "else")
+    ),
+    CannotSay("capability", "honk", "not-an-action"),
+    Unavailable("planner-unavailable"),
+    Unavailable("timed-out"),
+    Unavailable("busy"),
+    Unavailable("planner-failed"),
+)  # fmt: skip
+
+CASES: tuple[Answer | Refusal, ...] = (
+    *CHOICES, *MOTIONS, *SUPPOSITIONS, *INSIGHTS, *REFUSALS
+)  # fmt: skip

@@ -1,0 +1,161 @@
+"""Answers that come up seldom, one for each rule that no other case needs; see golden/rare.txt."""
+
+from msgspec.structs import replace
+
+from tests.nlg.answer_cases import RIDE, E, V
+from tests.nlg.causal_cases import (
+    ALONE,
+    CHANGED,
+    EFFORT,
+    LATER,
+    LEADER,
+    PRIORITY,
+    RISKY,
+    SLOW_BUS,
+    SLOWED,
+    ends,
+)
+from tests.nlg.scenery import BLUE, LORRY, NOW, OTHER_BLUE, look
+from xavi_dialogue.domain.answers import (
+    Activity,
+    Answer,
+    Beliefs,
+    Bound,
+    Bystander,
+    ChoiceReason,
+    Comfort,
+    Comforting,
+    Declined,
+    Evidence,
+    GoReason,
+    Happenings,
+    Identified,
+    Located,
+    Measures,
+    Options,
+    OtherReason,
+    PlaceReason,
+    Priority,
+    SignalReason,
+    SupposedOfOther,
+    SupposedOfUs,
+    Unslowed,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.meaning import Feel, Request
+from xavi_dialogue.domain.terms import Event, Exit, Happens, Is, Junction
+
+STOOD = (Episode(E, "stand", 4.0, 6.0), Episode(E, "stand", 14.0, 18.0))
+MANY = tuple(
+    look(number, NOW, "car", "grey", "behind", 20.0 + number, alone=False)
+    for number in range(10, 20)
+)
+BLINKED = Episode(V, "signal", 8.0, 10.0, side="right")
+TURNED_OFF = Episode(V, "exit-right", 10.0, 12.0)
+HOPELESS = replace(RISKY, collision=0.9)
+WAY = replace(LATER, foil=("exit-left",), way=True)
+
+CASES: tuple[Answer, ...] = (
+    Happenings("list", RIDE * 6),
+    Happenings("summary", (RIDE[0], Episode(V, "brake", 2.1, 4.0), *RIDE[1:])),
+    Happenings("summary", (RIDE[-1], Episode(V, "stand", 18.1))),
+    Happenings("how-long", STOOD),
+    Happenings("how-long", (RIDE[0], STOOD[1])),
+    Happenings("when", STOOD),
+    Happenings("when", (Episode(E, "exit-left", 26.0, 28.0),)),
+    Identified((LORRY, BLUE, OTHER_BLUE, *MANY)),
+    Measures((Measure("weather", E, NOW, 1.0),)),
+    Beliefs(1, None, ()),
+    Bound(V),
+    Options((), 2.0, Evidence()),
+    Verdict(Is("safe"), None),
+    Priority(NOW, "none", limit=Measure("speed", E, NOW, 13.0, reference=13.9)),
+    Declined(Request(Event("do", tense="present"))),
+    Declined(Request(Event("overtake", object=V)), cannot="there is no lane to the left"),
+    OtherReason(1, Episode(V, "brake", 15.0, 17.0), causes=(replace(SLOW_BUS, vehicle=2), LEADER)),
+    ChoiceReason("why", CHANGED, WAY),
+    ChoiceReason("why-not", None, WAY),
+    ChoiceReason("why-not", None, replace(EFFORT, effects=LATER.effects)),
+    ChoiceReason("why", CHANGED, replace(ALONE, fact_collision=0.1)),
+    ChoiceReason("why", CHANGED, replace(ends("done", 0.5), decisive="late")),
+    SupposedOfUs(replace(ends("done", 0.5), decisive="late")),
+    Happenings("summary", (RIDE[0], RIDE[2])),
+    Happenings("summary", (RIDE[-1], Episode(E, "slow-down", 18.5))),
+    GoReason(CHANGED, ()),
+    GoReason(
+        CHANGED,
+        (
+            Bystander(1, "vehicle", "slowing", 30.0, gone=True),
+            Bystander(2, "vehicle", "standing", 20.0),
+            Bystander(3, "ego", "slowing", 20.0),
+        ),
+        LATER,
+    ),
+    GoReason(None, (Bystander(2, "vehicle", "slowing", 20.0),), past=False),
+    GoReason(None, (Bystander(2, "vehicle", "steady", 20.0),), past=False),
+    GoReason(None, (Bystander(2, "depends", None, 90.0),), past=False),
+    Unslowed(SLOWED, PRIORITY, 14.0, 14.5),
+    Unslowed(SLOWED, PRIORITY, 14.0, 18.0),
+    Unslowed(SLOWED, PRIORITY, 18.0, 14.0),
+    Unslowed(SLOWED, LEADER, going=False),
+    Unslowed(SLOWED, None),
+    Identified((LORRY,), Is("stuck", V), (Measure("speed", V, NOW, 8.0),)),
+    Located(E, (), (Measure("distance", E, NOW, 40.0, to=Junction(rank=1)),)),
+    Located(E, (), (Measure("distance", E, NOW, 20.0, to=Exit(2)),)),
+    Located(
+        E,
+        (),
+        (
+            Measure("distance", E, NOW, 2.0, to=Junction(rank=1)),
+            Measure("lane", E, NOW, 1.0, side="left", count=2),
+        ),
+    ),
+    Bound(
+        E,
+        measures=(
+            Measure("turn", E, NOW, 60.0, side="right"),
+            Measure("distance", E, NOW, 90.0, to=Junction("roundabout", 1)),
+            Measure("exit-number", E, NOW, 2.0, count=4),
+        ),
+    ),
+    Verdict(
+        Happens(Event("turn", E, side="left", tense="future", modal="will")),
+        None,
+        (Measure("time", E, NOW, 26.0),),
+        probability=0.97,
+    ),
+    Verdict(
+        Happens(Event("turn", E, side="left", tense="future", modal="will")),
+        None,
+        (Measure("time", E, NOW, 26.0),),
+        probability=0.97,
+        either=True,
+    ),
+    Verdict(Happens(Event("wait", V)), True, (Episode(V, "wait", 12.0),)),
+    SupposedOfOther(2, None, None, ("stop",), ("stop",), same=True, contrast=HOPELESS),
+    SupposedOfOther(2, None, None, ("stop",), ("stop",), same=True, contrast=HOPELESS, past=False),
+    SignalReason(1, BLINKED, ("exit-right", "change-right"), 0.3, TURNED_OFF),
+    SignalReason(1, BLINKED, ("exit-right", "change-right"), 0.3),
+    SignalReason(1, BLINKED, ("exit-right",)),
+    SignalReason(1, Episode(V, "signal", 18.0, side="right"), ("exit-right",), 0.8),
+    SignalReason(1, Episode(V, "signal", 18.0, side="right"), ("exit-right",), 0.3),
+    PlaceReason(1, "ahead-of", Episode(V, "overtake", 8.0, 12.0, E)),
+    PlaceReason(1, "ahead-of", Episode(E, "give-way", 8.0, 12.0, V)),
+    PlaceReason(1, "behind"),
+    Declined(Request(Event("stop", tense="present")), soon=26.0),
+    Declined(Request(Event("stop", tense="present")), soon=20.2),
+    Declined(
+        Request(Event("speed-up", tense="present")),
+        doing=Activity(E, NOW, (), 8.0, "slowing"),
+        already=True,
+    ),
+    Declined(
+        Request(Event("speed-up", tense="present")),
+        facts=(Measure("speed", E, NOW, 13.0, reference=13.9),),
+    ),
+    Comforting(
+        Feel("sick"),
+        Comfort(Measure("deceleration", E, 9.0, 5.2, extreme="highest"), hard=True),
+    ),
+)

@@ -1,0 +1,96 @@
+"""That every answer can be said, and that no rule of the answer grammars is idle."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from tests.nlg import answer_cases, causal_cases, dialogue_cases, measure_cases, rare_cases
+from tests.nlg.scenery import CONTEXT
+from tests.nlg.test_nlg_properties import check
+from xavi_dialogue.domain.answers import Again, Answer, Measures, Refusal
+from xavi_dialogue.nlg import paper
+from xavi_dialogue.nlg.say import PLANNERS, say
+from xavi_dialogue.nlg.surface import generator
+from xavi_dialogue.nlg.surface.realiser import grammar
+from xavi_dialogue.nlg.surface.rules import load_grammar
+
+GOLDEN = Path(__file__).parent / "golden" / "rare.txt"
+DETAILS = ("usual", "more", "simpler", "less")
+CASES = (
+    *answer_cases.CASES,
+    *causal_cases.CASES,
+    *dialogue_cases.CASES,
+    *rare_cases.CASES,
+    *(Measures(measures) for measures in measure_cases.CASES),
+)
+RARE = [
+    pytest.param(case, text, id=text[:60])
+    for case, text in zip(
+        rare_cases.CASES, GOLDEN.read_text(encoding="utf-8").splitlines(), strict=True
+    )
+]
+
+
+@pytest.fixture
+def used(monkeypatch):
+    """The names of the rules that are expanded."""
+    names = set()
+    whole = generator.expand
+
+    def expand(rules, start, *values):
+        names.add(start)
+        return whole(rules, start, *values)
+
+    monkeypatch.setattr(generator, "expand", expand)
+    monkeypatch.setattr(paper, "expand", expand)
+    return names
+
+
+@pytest.mark.parametrize(("case", "text"), RARE)
+def test_a_rare_answer_is_said(case, text):
+    said = say(case, CONTEXT).text
+    assert said == text
+    check(said)
+
+
+def test_every_answer_and_refusal_has_a_planner():
+    assert set(PLANNERS) == {*get_args(Answer), *get_args(Refusal)}
+
+
+def test_every_rule_is_needed_by_a_case(used):
+    for case in CASES:
+        for detail in DETAILS:
+            say(case, replace(CONTEXT, detail=detail))
+        say(case, replace(CONTEXT, repeated=True))
+        for how in ("simpler", "shorter", "longer"):
+            say(Again(how, case), CONTEXT)
+    say(object(), CONTEXT)  # what has no planner
+    assert not set(grammar()) - used
+
+
+def test_every_rule_of_the_paper_is_needed_by_a_case(used):
+    context = replace(CONTEXT, style="paper", max_causes=2, max_effects=2)
+    for case in causal_cases.CASES:
+        say(case, context)
+    assert not set(load_grammar("answer_paper")) - used
+
+
+@pytest.mark.parametrize("how", ["simpler", "shorter", "longer"])
+def test_an_answer_is_never_merely_repeated_where_another_form_is_wanted(how):
+    for case in causal_cases.CHOICES:
+        before = say(case, CONTEXT).text
+        after = say(Again(how, case), CONTEXT).text
+        assert after != before
+        check(after)
+
+
+def test_shorter_is_no_longer_and_longer_is_no_shorter():
+    lead = re.compile(r"^(I cannot put it more briefly|That is all I can tell you): ")
+    for case in causal_cases.CHOICES:
+        usual = len(say(case, CONTEXT).text)
+        shorter = lead.sub("", say(Again("shorter", case), CONTEXT).text)
+        longer = lead.sub("", say(Again("longer", case), CONTEXT).text)
+        assert len(shorter) <= usual <= len(longer)

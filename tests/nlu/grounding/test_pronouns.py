@@ -1,0 +1,102 @@
+"""Pronouns: by what was spoken of, else by the scene."""
+
+from tests.nlu.grounding.fakes import Car, FakeWorld, asked, did, question_of, talk
+from xavi_dialogue.domain.answers import NoSuchVehicle
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.meaning import HowMuch, Identify, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Between,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Is,
+    Measured,
+    Pronoun,
+    Related,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
+
+SCENE = FakeWorld(
+    {1: Car(20.0), 2: Car(-10.0, colour="red"), 3: Car(4.0, 3.5, "truck", "blue")},
+    (did("brake", 15.0, who=2), did("slow-down", 5.0, 8.0)),
+)
+
+
+def meant(form: str, world: FakeWorld = SCENE, discourse: Discourse | None = None) -> Thing:
+    found = question_of(asked(HowMuch(Measured("speed", Pronoun(form))), world, discourse))  # type: ignore[arg-type]
+    assert isinstance(found, HowMuch)
+    return found.of.thing
+
+
+def test_the_most_salient_is_meant() -> None:
+    assert meant("it", discourse=talk(Vehicle(2), Vehicle(1))) == Vehicle(2)
+    assert meant("he", discourse=talk(Ego(), Vehicle(1))) == Vehicle(1)
+    assert meant("that", discourse=talk(Vehicle(3))) == Vehicle(3)
+
+
+def test_they_may_be_several_or_one() -> None:
+    assert meant("they", discourse=talk(Vehicles((1, 3)))) == Vehicles((1, 3))
+    assert meant("they", discourse=talk(Vehicle(3))) == Vehicle(3)
+    assert meant("them-all", discourse=talk(Vehicles((1, 2)))) == Vehicles((1, 2))
+    assert meant("them-all") == Everyone()
+
+
+def test_who_did_what_is_said_is_meant() -> None:
+    why = Why(Happens(Event("brake", Pronoun("it"))))
+    found = question_of(asked(why, SCENE, talk(Vehicle(1), Vehicle(2))))
+    assert found.of.event.actor == Vehicle(2)  # type: ignore[union-attr]
+
+
+def test_without_mentions_our_leader_is_meant() -> None:
+    assert meant("it") == Vehicle(1)
+
+
+def test_without_mentions_the_one_we_give_way_to_is_meant() -> None:
+    world = FakeWorld(SCENE.cars, (did("give-way", 17.0, whom=2, going_on=True),))
+    assert meant("he", world) == Vehicle(2)
+
+
+def test_without_a_leader_the_nearest_is_meant() -> None:
+    world = FakeWorld({5: Car(30.0, 10.0, crossing=True), 6: Car(10.0, -6.0, crossing=True)})
+    found = question_of(asked(Identify(Pronoun("that")), world))
+    assert found.thing == Vehicle(6)  # type: ignore[union-attr]
+
+
+def test_nobody_there_is_nobody_meant() -> None:
+    found = asked(HowMuch(Measured("speed", Pronoun("he"))), FakeWorld())
+    assert isinstance(found.refusal, NoSuchVehicle)
+    assert found.acts == ()
+
+
+def test_somebody_gone_is_not_meant_any_more() -> None:
+    assert meant("it", discourse=talk(Vehicle(77), Vehicle(2))) == Vehicle(2)
+
+
+def test_it_is_an_event_where_the_state_is_one_of_events() -> None:
+    braking = Why(Happens(Event("slow-down", time=Between(5.0, 8.0))))
+    found = asked(
+        Whether(Is("necessary", Pronoun("it"), tense="past")),
+        SCENE,
+        talk(Vehicle(1), question=braking),
+    )
+    said = question_of(found).that  # type: ignore[union-attr]
+    assert (said.thing, said.event.action) == (None, "slow-down")
+    assert found.acts[0].leaned
+
+
+def test_it_is_a_vehicle_where_the_relation_is_one_of_vehicles() -> None:
+    found = question_of(
+        asked(Whether(Related("waiting-for", Pronoun("he"))), SCENE, talk(Vehicle(3)))
+    )
+    assert found.that.thing == Vehicle(3)  # type: ignore[union-attr]
+
+
+def test_of_a_group_of_two_one_is_asked_for() -> None:
+    world = FakeWorld({1: Car(20.0, 3.5), 2: Car(20.0, -3.5, colour="red")})
+    found = asked(HowMuch(Measured("speed", Pronoun("it"))), world, talk(Vehicles((1, 2))))
+    assert found.clarify is not None
+    assert found.clarify.between == "vehicles"
+    assert [o.question.of.thing for o in found.offers] == [Vehicle(1), Vehicle(2)]  # type: ignore[union-attr]

@@ -1,0 +1,109 @@
+"""What a reply tells, as its typed answer again: the dashboard shows what is behind it."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import msgspec
+
+from xavi_dialogue.dialogue.explanation import Contrastive, contrastive, kind_of
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.domain.answers import (
+    Again,
+    Answer,
+    Avoidance,
+    Certainty,
+    ChoiceReason,
+    Comforting,
+    Compared,
+    Contrast,
+    Evidence,
+    Judged,
+    Method,
+    MotionReason,
+    Options,
+    Pivot,
+    Refusal,
+    SupposedOfOther,
+    SupposedOfUs,
+)
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import Vehicle, Vehicles
+from xavi_dialogue.nlu.grounding.rewriting import parts
+
+Result: TypeAlias = Answer | Refusal
+
+#: Answers about what our own car did, does or might do.
+OURS = (ChoiceReason, MotionReason, SupposedOfUs, SupposedOfOther, Compared, Pivot, Avoidance,
+        Certainty, Options, Method)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What a reply explains."""
+
+    answer: Result
+    said: Contrastive
+
+    @property
+    def ours(self) -> bool:
+        """Whether it is about what our own car did, does or might do."""
+        return isinstance(self.answer, OURS)
+
+    @property
+    def decided(self) -> float | None:
+        """When [s] what is explained was decided; None: not told."""
+        if isinstance(self.answer, Options | Method | Certainty):
+            return self.answer.decided
+        return next((one.decided for one in parts(self.answer, Contrast)), None)
+
+
+def told_of(reply: Reply) -> Told | None:
+    """Return what a reply explains: its first causal answer, else the first that names evidence."""
+    if reply.kind != "answer":
+        return None
+    results = [_inner(result) for result in msgspec.convert(reply.answers, tuple[Result, ...])]
+    for result in results:
+        found = contrastive(result)
+        if found is not None:
+            return Told(result, found)
+    for result in results:
+        evidence = next((e for e in parts(result, Evidence) if e.traces), None)
+        if evidence is not None:
+            return Told(result, Contrastive(kind=kind_of(result), evidence=evidence))
+    return None
+
+
+def title_of(told: Told, reply: Reply) -> str:
+    """Return as what the counterfactual came into it: asked about, or thought of beside that."""
+    match told.answer:
+        case SupposedOfOther():
+            return "then"
+        case SupposedOfUs(done=False) | ChoiceReason(form="why-not") | Compared():
+            return "asked"
+        case ChoiceReason(form="why"):
+            named = any(why.instead is not None for why in parts(acts_of(reply), Why))
+            return "asked" if named else "instead"
+    return "instead"
+
+
+def asked_about(reply: Reply) -> Iterable[int]:
+    """Yield the vehicles that were asked about."""
+    acts = acts_of(reply)
+    yield from (vehicle.number for vehicle in parts(acts, Vehicle))
+    for several in parts(acts, Vehicles):
+        yield from several.numbers
+
+
+def acts_of(reply: Reply) -> tuple[GroundedAct, ...]:
+    """Return what was asked."""
+    return msgspec.convert(reply.acts, tuple[GroundedAct, ...])
+
+
+def _inner(result: Result) -> Result:
+    """Return the answer within one that only frames it."""
+    match result:
+        case Comforting(fact=inner) | Again(answer=inner) | Judged(answer=inner):
+            return result if inner is None else inner
+    return result

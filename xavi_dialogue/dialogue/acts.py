@@ -1,0 +1,228 @@
+"""Acts: what is replied to each act of a turn, and to all of them together. Pure."""
+
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+from msgspec.structs import replace as changed
+
+from xavi_dialogue.dialogue.chain import BOTTOM
+from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
+from xavi_dialogue.dialogue.mind import Said, Situation, speak
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state import Understood
+from xavi_dialogue.dialogue.turn import Part, Turn
+from xavi_dialogue.domain.answers import (
+    Acknowledged,
+    Again,
+    Answer,
+    CannotSay,
+    Comforting,
+    Helpful,
+    Judged,
+    NeedRollout,
+    NotUnderstood,
+    Refusal,
+    Sociable,
+    Unfamiliar,
+)
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    AskHelp,
+    Beyond,
+    Claim,
+    Elliptic,
+    Feel,
+    Quizzing,
+    Repair,
+    Request,
+    Social,
+)
+
+Result: TypeAlias = Answer | Refusal
+Results: TypeAlias = tuple[Result, ...]
+
+#: Social moves that a reply to something else makes superfluous.
+_POLITE = frozenset(
+    ("greeting", "farewell", "thanks", "agree", "acknowledge", "laugh", "wish", "address")
+)
+_REWORDINGS = frozenset(("longer", "shorter", "simpler"))
+
+
+@dataclass(frozen=True, slots=True)
+class Lacking:
+    """What it takes to answer the next act, and what was answered before it."""
+
+    need: NeedRollout
+    done: tuple[Results, ...]  # of each act so far
+
+
+def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -> Said | Lacking:
+    """Answer every act in turn.
+
+    Args:
+        now: the question and what there is to answer it from.
+        understood: the acts.
+        done: what was answered of the first of them.
+    """
+    acts = understood.acts
+    spoken = _to_repeat(now, acts)
+    if spoken is not None:
+        return _repeat(now, spoken)
+    for act in acts[len(done) :]:
+        ground = is_ground(act, acts)
+        found = (NOTED,) if ground else replies(now, act, beside=len(acts) > 1)
+        if isinstance(found, NeedRollout):
+            return Lacking(found, done)
+        done = (*done, found)
+    parts = _parts(understood, done)
+    said = speak(now, told(parts), understood.offer)
+    return replace(said, parts=kept(parts))
+
+
+def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRollout:
+    """Return what is replied to one act.
+
+    Args:
+        now: the situation.
+        act: the act.
+        beside: there are other acts in the turn.
+    """
+    match act.act:
+        case Ask() | Claim() | Request():
+            found = now.mind.explain(act, now.record)
+            return found if isinstance(found, NeedRollout) else (found,)
+        case Feel() as feel:
+            return _comfort(now, act, feel, beside)
+        case Repair() as repair:
+            return _repair(now, repair)
+        case Social(kind=kind):
+            return (Sociable(kind),)
+        case AskHelp():
+            return (Helpful(),)
+        case Quizzing():
+            return (Acknowledged("cancelled"),)
+        case Beyond(topic=topic, words=words):
+            return (CannotSay(topic, words),)
+        case Elliptic():
+            return (NotUnderstood(),)
+
+
+def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
+    """Return the acts that are replied to: courtesies only where there is nothing else.
+
+    What is to be said again in another form is not said again as it was, too.
+    """
+    telling = tuple(act for act in acts if not _is_courtesy(act))
+    reworded = any(isinstance(a.act, Repair) and a.act.kind in _REWORDINGS for a in telling)
+    kept = tuple(act for act in telling if not (reworded and act.act == Repair(kind="repeat")))
+    return kept or acts[:1]
+
+
+def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Results | NeedRollout:
+    """Reply to a feeling; beside another act, the reply to that one is the fact."""
+    if beside:
+        return (Comforting(feel),)
+    found = now.mind.explain(act, now.record)
+    if isinstance(found, NeedRollout):
+        return found
+    return (found if isinstance(found, Comforting) else Comforting(feel),)
+
+
+def _repair(now: Situation, repair: Repair) -> Results:
+    """Reply to a turn about the conversation itself."""
+    match repair.kind:
+        case "longer" | "shorter" | "simpler" | "repeat" as how:
+            return _again(now, how)
+        case "continue":
+            return _again(now, "longer")
+        case "why":
+            return (BOTTOM,) if now.memory.last is not None else (NotUnderstood(),)
+        case "cancel":
+            return (Acknowledged("cancelled"),)
+        case "yes":
+            return (Acknowledged("yes"),)
+        case "no":
+            return (Acknowledged("no"),)
+        case "correct" | "meant" | "pick":
+            return (Acknowledged("nothing-open"),)
+
+
+def _again(now: Situation, how: Literal["repeat", "simpler", "shorter", "longer"]) -> Results:
+    """Return the last answers in another form."""
+    last = _previous(now)
+    inner = () if last is None else tuple(_plain(r) for r in last.results)
+    again = tuple(Again(how, one) for one in inner if one is not None)
+    return again or (Acknowledged("nothing-open"),)
+
+
+def _previous(now: Situation) -> Turn | None:
+    """Return the turn that is to be told otherwise: the last that told something."""
+    for turn in reversed(now.memory.turns):
+        if any(isinstance(r, Again) for r in turn.results) or turn is now.memory.last:
+            return turn
+    return now.memory.last
+
+
+def _plain(result: Result) -> Result | None:
+    if isinstance(result, Again | Judged):
+        return result.answer
+    return None if isinstance(result, Unfamiliar) else result
+
+
+def _repeat(now: Situation, last: Turn) -> Said:
+    """Say the same words once more; what was offered still is.
+
+    A wish for more or less words that led to them is not made once more.
+    """
+    reply: Reply = changed(last.reply, sim_time=now.record.now, timing_ms=None)
+    parts = tuple(Part(None, p.result) if _is_repair(p) else p for p in last.parts)
+    return Said(
+        reply=reply,
+        parts=parts,
+        mentioned=last.mentioned,
+        offer=last.offer,
+        quiz=last.quiz,
+    )
+
+
+def _is_repair(part: Part) -> bool:
+    return part.act is not None and isinstance(part.act.act, Repair)
+
+
+def _to_repeat(now: Situation, acts: tuple[GroundedAct, ...]) -> Turn | None:
+    """Return the turn that is to be said again in the same words; None: nothing of the kind.
+
+    A question of ours is put again as it was, however it is asked to be told.
+    """
+    last = next((turn for turn in reversed(now.memory.turns) if not turn.turned_away), None)
+    if last is None or len(acts) != 1 or not isinstance(acts[0].act, Repair):
+        return None
+    kind = acts[0].act.kind
+    open_ = last.offer is not None or last.quiz is not None
+    again = kind == "repeat" or (open_ and kind in ("simpler", "shorter", "longer"))
+    return last if again else None
+
+
+def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...]:
+    """Return acts and results in the order in which they are told."""
+    replied = tuple(
+        Part(act, result)
+        for act, results in zip(understood.acts, done, strict=True)
+        for result in results
+    )
+    doubts = tuple(dict.fromkeys(word for act in understood.acts for word in act.doubts))
+    answered = any(not isinstance(part.result, NotUnderstood) for part in replied)
+    owned = (Part(None, Unfamiliar(doubts)),) if doubts and answered else ()
+    before = tuple(Part(None, one) for one in understood.before)
+    after = tuple(Part(None, one) for one in understood.behind)
+    return (*owned, *before, *replied, *after)
+
+
+def _is_courtesy(act: GroundedAct) -> bool:
+    match act.act:
+        case Social(kind=kind):
+            return kind in _POLITE
+        case Repair(kind="yes" | "no" | "cancel"):
+            return True
+    return False

@@ -1,0 +1,188 @@
+"""Explanation: the object of the contract, derived from a typed answer."""
+
+import re
+from collections.abc import Iterable
+from typing import get_args
+
+import msgspec
+
+from planner.trace import Action
+from xavi_dialogue.dialogue.standing import Result, reason_of
+from xavi_dialogue.domain.answers import (
+    Acknowledged,
+    Again,
+    Avoidance,
+    Cause,
+    Certainty,
+    ChoiceReason,
+    Comforting,
+    Compared,
+    Contrast,
+    Declined,
+    Effect,
+    Evidence,
+    Helpful,
+    Judged,
+    Mechanism,
+    MotionCause,
+    MotionReason,
+    NothingToAsk,
+    OtherReason,
+    OutcomeEstimate,
+    Pivot,
+    Posed,
+    Sociable,
+    SupposedOfOther,
+    SupposedOfUs,
+    Unfamiliar,
+)
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.nlu.grounding.rewriting import parts
+
+_MACRO: frozenset[str] = frozenset(get_args(Action))
+#: Talk, which explains nothing.
+TALK: tuple[type, ...] = (
+    *(Acknowledged, Again, Comforting, Declined, Helpful, Judged, NothingToAsk, Posed),
+    *(Sociable, Unfamiliar),
+)
+
+
+class Contrastive(msgspec.Struct, frozen=True, kw_only=True):
+    """What causal answers have in common: see `Explanation` in the contract."""
+
+    kind: str
+    factual: tuple[Action, ...] = ()
+    counterfactual: tuple[Action, ...] = ()
+    outcome: OutcomeEstimate | None = None
+    effects: tuple[Effect, ...] = ()
+    causes: tuple[Cause, ...] = ()
+    evidence: Evidence = Evidence()
+
+
+def contrastive(result: Result) -> Contrastive | None:
+    """Return fact, foil, effects and causes of a causal answer; None of any other."""
+    kind = kind_of(result)
+    match result:
+        case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
+            return _of_contrast(kind, contrast)
+        case SupposedOfOther():
+            return _of_supposition(kind, result)
+        case MotionReason() | OtherReason():
+            deed = () if result.deed is None else _macro(result.deed)
+            causes = tuple(_cause(c) for c in result.causes if c.vehicle is not None)
+            return Contrastive(kind=kind, factual=deed, causes=causes, evidence=result.evidence)
+        case Compared() | Pivot() | Avoidance() | Certainty() if result.contrast is not None:
+            return _of_contrast(kind, result.contrast)
+        case Comforting(fact=inner) | Again(answer=inner) | Judged(answer=inner):
+            return None if inner is None else contrastive(inner)
+    return None
+
+
+def explanation_of(results: Iterable[Result]) -> dict[str, object] | None:
+    """Return the object of the contract for the first result that explains, else for the first.
+
+    Of a causal answer: fact, foil, outcome, effects, causes and evidence. Of any other: its kind
+    and what its type holds. None where nothing was answered, or it was only talk.
+    """
+    answers = [_told(result) for result in results if reason_of(result) is None]
+    for answer in answers:
+        found = contrastive(answer)
+        if found is not None:
+            return _flat(found)
+    for answer in answers:
+        if not isinstance(answer, TALK):
+            held = as_json(answer)
+            return {"kind": kind_of(answer), **{k: v for k, v in held.items() if k != "is"}}
+    return None
+
+
+def as_json(value: msgspec.Struct) -> dict[str, object]:
+    """Return a value as the JSON object that it is sent as: what is stored reads back the same."""
+    found: dict[str, object] = msgspec.json.decode(msgspec.json.encode(value))
+    return found
+
+
+def kind_of(result: Result) -> str:
+    """Return the name of a type of answer, such as `choice-reason`."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "-", type(result).__name__).lower()
+
+
+def evidence_of(results: Iterable[Result]) -> Evidence | None:
+    """Return the first evidence that names a decision."""
+    found = (e for result in results for e in parts(result, Evidence) if e.traces)
+    return next(found, None)
+
+
+def _told(result: Result) -> Result:
+    """Return the answer within one that only frames it."""
+    match result:
+        case Comforting(fact=inner) | Again(answer=inner) | Judged(answer=inner):
+            return result if inner is None else inner
+    return result
+
+
+def _of_contrast(kind: str, contrast: Contrast) -> Contrastive:
+    return Contrastive(
+        kind=kind,
+        factual=contrast.fact,
+        counterfactual=contrast.foil,
+        outcome=contrast.outcome,
+        effects=contrast.effects,
+        causes=contrast.causes,
+        evidence=contrast.evidence,
+    )
+
+
+def _of_supposition(kind: str, found: SupposedOfOther) -> Contrastive:
+    """Return what would be planned as the counterfactual, and the vehicle as the one cause."""
+    supposed = found.supposed
+    named = supposed is not None and supposed.action in _MACRO
+    actions = msgspec.convert((supposed.action,), tuple[Action, ...]) if named and supposed else ()
+    cause = Cause(
+        vehicle=found.vehicle,
+        actions=actions,
+        probability=1.0 if found.prior is None else found.prior,
+        decision_changes=not found.same,
+    )
+    contrast = found.contrast
+    whole = Contrastive(kind=kind) if contrast is None else _of_contrast(kind, contrast)
+    return msgspec.structs.replace(
+        whole, factual=found.plan, counterfactual=found.then, causes=(cause,)
+    )
+
+
+def _cause(cause: MotionCause) -> Cause:
+    """Return a reason for how we drove as a cause; what was in our way was there for certain."""
+    hold_ups = {"leader", "right-of-way", "cut-in", "blocked"}
+    how = cause.kind if cause.kind in hold_ups else None
+    mechanism = None
+    if how is not None:
+        shape = {"how": how, "speed_from": cause.speed, "speed_to": None, "delay": None, "share": 1}
+        mechanism = msgspec.convert({"is": "Mechanism", **shape}, Mechanism, strict=False)
+    assert cause.vehicle is not None
+    return Cause(
+        vehicle=cause.vehicle,
+        actions=cause.actions,
+        probability=1.0 if cause.probability is None else cause.probability,
+        mechanism=mechanism,
+        necessary=cause.necessary,
+    )
+
+
+def _macro(deed: Episode) -> tuple[Action, ...]:
+    return msgspec.convert((deed.action,), tuple[Action, ...]) if deed.action in _MACRO else ()
+
+
+def _flat(value: object) -> dict[str, object]:
+    """Return a struct as JSON with all its fields, and no tags."""
+
+    def plain(inner: object) -> object:
+        if isinstance(inner, tuple):
+            return [plain(one) for one in inner]
+        if isinstance(inner, msgspec.Struct):
+            return {name: plain(getattr(inner, name)) for name in inner.__struct_fields__}
+        return inner
+
+    found = plain(value)
+    assert isinstance(found, dict)
+    return found

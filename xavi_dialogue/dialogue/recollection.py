@@ -1,0 +1,80 @@
+"""Recollection: what was found out of a record need not be found out again.
+
+The same act and record give the same result, with a memory or without one. Several passengers
+may ask about the same moment.
+"""
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from xavi_dialogue.domain.answers import Answer, NeedRollout, Refusal
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct
+from xavi_dialogue.domain.meaning import Reading
+from xavi_dialogue.explain.answers.engine import explain_in
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
+from xavi_dialogue.nlg.context import Looks
+from xavi_dialogue.nlu.grounding.ground import ground
+from xavi_dialogue.nlu.grounding.result import Grounding
+
+MAX_RIDES = 16  # records that are remembered; that which was used longest ago is forgotten first
+MAX_RESULTS = 256  # of one record
+
+Result: TypeAlias = Answer | Refusal | NeedRollout
+_Key: TypeAlias = tuple[object, ...]
+
+
+@dataclass
+class _Known:
+    """One record, read, and what was explained from it."""
+
+    record: Record  # kept, for it is known by the identity of what is in it
+    ride: Ride
+    world: World
+    results: dict[GroundedAct, Result] = field(default_factory=dict)
+
+
+@dataclass
+class Recollection:
+    """Grounds in, explains from and looks at the latest records. For one thread."""
+
+    _known: dict[_Key, _Known] = field(default_factory=dict)  # used latest at the end
+
+    def ground(
+        self, readings: tuple[Reading, ...], record: Record, discourse: Discourse
+    ) -> Grounding:
+        """Ground readings in the world of a record."""
+        return ground(readings, self._of(record).world, discourse)
+
+    def explain(self, act: GroundedAct, record: Record) -> Result:
+        """Answer an act from a record; see `engine.explain`."""
+        known = self._of(record)
+        if act not in known.results:
+            if len(known.results) >= MAX_RESULTS:
+                known.results.clear()
+            known.results[act] = explain_in(act, known.ride, known.world)
+        return known.results[act]
+
+    def see(self, record: Record) -> Looks:
+        """Return how vehicles look in a record, by vehicle and time."""
+        return self._of(record).world.look
+
+    def _of(self, record: Record) -> _Known:
+        key = _key(record)
+        known = self._known.pop(key, None)
+        if known is None:
+            ride = Ride(record)
+            known = _Known(record, ride, World(ride))
+        self._known[key] = known
+        if len(self._known) > MAX_RIDES:
+            del self._known[next(iter(self._known))]
+        return known
+
+
+def _key(record: Record) -> _Key:
+    """Return what tells a record from all others; comparing its traces would take long."""
+    return (
+        *(record.now, record.ended, record.refused, record.gaps),
+        *(tuple(map(id, part)) for part in (record.traces, record.events, record.extra)),
+    )

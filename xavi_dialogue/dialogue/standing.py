@@ -1,0 +1,109 @@
+"""Standing: whether a result answers, declines or asks back, and for which reason.
+
+The one place where the types of results meet the reasons of the contract and exit statuses.
+"""
+
+from collections.abc import Iterable
+from typing import Literal, TypeAlias, get_args
+
+from xavi_dialogue.domain.answers import (
+    Again,
+    Answer,
+    CannotSay,
+    Declined,
+    DidNotHappen,
+    Measures,
+    NoSuchVehicle,
+    NotApplicable,
+    NotRecorded,
+    NotUnderstood,
+    Reason,
+    Refusal,
+    TooLittle,
+    Unavailable,
+    Verdict,
+    WhichOne,
+)
+from xavi_dialogue.domain.facts import Gap
+
+Kind: TypeAlias = Literal["answer", "refusal", "clarification"]
+Result: TypeAlias = Answer | Refusal
+
+REFUSALS: tuple[type, ...] = get_args(Refusal)
+
+_BY_GAP: dict[Gap, Reason] = {
+    "before-record": "outside-record",
+    "in-future": "outside-record",
+    "gap-in-record": "trace-gap",
+    "out-of-view": "outside-record",
+    "hidden": "outside-record",
+    "not-sensed": "out-of-scope",
+    "not-recorded": "outside-record",
+    "not-applicable": "not-applicable",
+    "others-thoughts": "out-of-scope",
+}
+
+
+def reason_of(result: Result) -> Reason | None:
+    """Return why a result is no answer, in the words of the contract; None of an answer."""
+    match result:
+        case NotUnderstood():
+            return "not-understood"
+        case WhichOne():
+            return "ambiguous"
+        case NoSuchVehicle():
+            return "unknown-vehicle"
+        case DidNotHappen():
+            return "did-not-happen"
+        case NotApplicable():
+            return "not-applicable"
+        case TooLittle(reason=why) | CannotSay(reason=why) | Unavailable(reason=why):
+            return why
+        case NotRecorded(gap=gap):
+            return _BY_GAP[gap]
+        case Again(answer=inner) if inner is not None and not isinstance(inner, WhichOne):
+            return reason_of(inner)
+        case Declined(able=able, already=already):
+            return None if already else "out-of-scope" if able else "not-an-action"
+    return _of_gaps(result)
+
+
+def failed(reason: Reason) -> Refusal:
+    """Return the refusal where the machinery behind an answer gave a reason for its failure."""
+    match reason:
+        case "planner-unavailable" | "timed-out" | "busy":
+            return Unavailable(reason)
+        case "too-little-evidence" | "effect-too-small" | "no-influence":
+            return TooLittle(reason)
+        case "outside-record":
+            return NotRecorded("not-recorded")
+        case "trace-gap":
+            return NotRecorded("gap-in-record")
+    return Unavailable("planner-failed")
+
+
+def standing_of(results: Iterable[Result]) -> tuple[Kind, Reason | None]:
+    """Return what a reply of several results comes to, and the reason where it answers nothing.
+
+    It asks back where one of them does; it answers where one of them does.
+    """
+    results = tuple(results)
+    reasons = [reason_of(result) for result in results]
+    if "ambiguous" in reasons:
+        return "clarification", "ambiguous"
+    if not reasons or None in reasons:
+        return "answer", None
+    return "refusal", reasons[0]
+
+
+def _of_gaps(result: Result) -> Reason | None:
+    """Return why none of the values asked for is known; None where one is."""
+    if isinstance(result, Measures) and result.measures:
+        gaps = [m.gap for m in result.measures]
+        known = any(gap in (None, "not-applicable") for gap in gaps)
+        first = next((gap for gap in gaps if gap is not None), None)
+        return None if known or first is None else _BY_GAP[first]
+    if not isinstance(result, Verdict) or result.holds is not None or result.facts:
+        return None
+    expected = result.probability is not None or result.believed
+    return None if expected or result.gap is None else _BY_GAP[result.gap]

@@ -1,0 +1,181 @@
+"""Findings: answers about what was, is and is expected."""
+
+from typing import Literal
+
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.evidence import Contrast, Evidence
+from xavi_dialogue.domain.facts import (
+    Belief,
+    Episode,
+    Fact,
+    Gap,
+    Look,
+    Measure,
+    OptionValue,
+    Somebody,
+)
+from xavi_dialogue.domain.reasons import MotionCause
+from xavi_dialogue.domain.terms import Event, Proposition, Thing
+
+
+class Measures(Value, frozen=True):
+    """Values that were asked for; each may say why it has none."""
+
+    measures: tuple[Measure, ...]
+
+
+class Verdict(Value, frozen=True):
+    """Whether something holds or held: the answer to a yes or no question, or to a claim."""
+
+    that: Proposition  # grounded
+    holds: bool | None  # None: cannot be told
+    facts: tuple[Fact, ...] = ()  # what is or was so instead, or what bears it out
+    gap: Gap | None = None  # why it cannot be told
+    claim: bool = False  # it answers a claim
+    challenge: bool = False  # ... that disputes what the car said
+    believed: tuple[Belief, ...] = ()  # prediction beside fact: what was expected then
+    mistaken: bool = False  # the car was wrong, and owns up to it
+    probability: float | None = None  # of what is still to come
+    either: bool = False  # it is the one that holds of several asked about: no "yes" before it
+
+
+class Identified(Value, frozen=True):
+    """Who or what it is."""
+
+    looks: tuple[Look, ...]
+    such: Proposition | None = None  # the condition that was asked for
+    facts: tuple[Fact, ...] = ()  # what each is doing
+    none: bool = False  # there is nobody of whom it holds
+
+
+class Counted(Value, frozen=True):
+    """How many there are or were."""
+
+    of: Thing | Event
+    count: int
+    facts: tuple[Fact, ...] = ()
+    at_least: bool = False  # the record has gaps
+    since: float | None = None  # [s] over which interval
+    until: float | None = None
+
+
+class Happenings(Value, frozen=True):
+    """What happened: an account of episodes in order of time."""
+
+    form: Literal["list", "summary", "when", "how-long", "doing", "first", "last"]
+    episodes: tuple[Episode, ...]
+    actor: Thing | None = None  # None: everybody
+    since: float | None = None  # [s]
+    until: float | None = None  # [s]
+    measures: tuple[Measure, ...] = ()  # beside them: duration of the ride, distance, speed
+    looks: tuple[Look, ...] = ()  # of the vehicles concerned, at the time of the first episode
+    asked: Event | None = None
+
+
+class Activity(Value, frozen=True):
+    """What somebody is doing now or at a moment, and is expected to do."""
+
+    actor: Somebody
+    time: float  # [s]
+    doing: tuple[Episode, ...]  # under way at that time
+    speed: float | None
+    trend: Literal["slowing", "steady", "speeding-up", "standing"] | None
+    look: Look | None = None
+    belief: Belief | None = None
+    cause: MotionCause | None = None  # why it stands or slows, where that can be seen
+
+
+class PlanAhead(Value, frozen=True):
+    """What the ego is going to do."""
+
+    steps: tuple[tuple[MacroAction, float], ...]  # with when [s] it is expected to begin
+    measures: tuple[Measure, ...] = ()  # next junction, exit, time to go
+    arrived: bool = False
+    begun: MacroAction | None = None  # a turn or lane change that is under way
+
+
+class Located(Value, frozen=True):
+    """Where somebody or something is or was."""
+
+    thing: Thing
+    looks: tuple[Look, ...]
+    measures: tuple[Measure, ...] = ()
+    gap: Gap | None = None
+
+
+class Bound(Value, frozen=True):
+    """Where somebody is going."""
+
+    actor: Somebody
+    belief: Belief | None = None  # of another vehicle
+    went: Episode | None = None  # where it has gone in fact
+    measures: tuple[Measure, ...] = ()  # of ours: destination, turns
+
+
+class Beliefs(Value, frozen=True):
+    """What was believed of a vehicle, how it moved, and what came of it."""
+
+    vehicle: int
+    of: Event | None  # the conduct that was asked about; None: all
+    history: tuple[Belief, ...]  # oldest first, where it moved
+    probability: float | None = None  # of `of` at the time asked about
+    time: float | None = None  # [s] that time
+    why: Episode | None = None  # what the vehicle did while it moved most
+    turning: tuple[float, float] | None = None  # [s] between which it moved most
+    came: Episode | None = None  # what it did in fact
+
+
+class Options(Value, frozen=True):
+    """What could have been done, and how each was valued."""
+
+    options: tuple[OptionValue, ...]  # best first, the chosen one marked
+    decided: float  # [s]
+    evidence: Evidence
+    besides: bool = False  # only what else
+
+
+class Compared(Value, frozen=True):
+    """Two things or options compared by a measure."""
+
+    by: str
+    first: Thing | Proposition
+    second: Thing | Proposition
+    better: Literal["first", "second", "same", "unknown"]
+    measures: tuple[Measure, ...] = ()
+    contrast: Contrast | None = None
+
+
+class Priority(Value, frozen=True):
+    """Who has or had right of way, and who went first."""
+
+    time: float  # [s]
+    rule: Literal["priority", "give-way", "equal", "depends", "none"]  # for us
+    vehicle: int | None = None
+    first: Somebody | None = None  # who went first in fact
+    waited: Episode | None = None
+    blame: bool = False  # asked as a question of fault or law
+    conflict: bool | None = None  # somebody had to brake or swerve
+    limit: Measure | None = None  # our speed against the limit, where law was asked
+    deeds: tuple[Episode, ...] = ()  # what those concerned did then: cut in, braked, waited
+
+
+class Comfort(Value, frozen=True):
+    """How hard the ride was over an interval."""
+
+    peak: Measure  # deceleration
+    jerk: Measure | None = None
+    episode: Episode | None = None
+    hard: bool = False
+
+
+class Closeness(Value, frozen=True):
+    """How close a vehicle came: the answer to whether it was safe or dangerous."""
+
+    vehicle: int | None
+    closest: Measure | None  # distance at the closest
+    ttc: Measure | None = None  # shortest time to collision
+    risk: float | None = None  # of a collision under the plan, as foreseen
+    asked: Literal["safe", "dangerous", "close", "hit"] = "safe"
+    time: float = 0.0
+    past: bool = True

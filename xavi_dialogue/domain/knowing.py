@@ -1,0 +1,73 @@
+"""Knowing: answers about how something is known, decided, and could be changed."""
+
+from typing import Literal
+
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.evidence import Contrast, Evidence
+from xavi_dialogue.domain.facts import Episode, OptionValue
+from xavi_dialogue.domain.vocabulary import ActionName
+
+
+class Grounds(Value, frozen=True):
+    """How we came to believe something of another vehicle: how the belief grew, and why."""
+
+    vehicle: int
+    actions: tuple[MacroAction, ...]  # what is believed of it
+    seen: bool  # it has been seen to do so
+    history: tuple[tuple[float, float], ...]  # time [s] and probability, oldest first
+    since: float | None = None  # [s] from when on it was more probable than not
+    start: float | None = None  # [s] the decisions between which it grew most ...
+    end: float | None = None
+    before: float | None = None  # ... and how probable it was at either
+    after: float | None = None
+    deed: Episode | None = None  # what the vehicle was doing between them that it had not before
+    rival: tuple[MacroAction, ...] = ()  # what goes with the likeliest goal that it excludes
+    fit: float | None = None  # how many times better its path fits the goal believed than that
+
+
+class Certainty(Value, frozen=True):
+    """How sure we are of a plan, or that a choice was better than the best alternative."""
+
+    about: Literal["plan", "choice"]
+    share: float  # probability that the plan goes well, or that the choice does better
+    low: float  # that probability is at least this, at 95 %
+    good: int  # situations in which it does
+    situations: int  # that were tried
+    decided: float  # [s]
+    evidence: Evidence
+    contrast: Contrast | None = None
+
+
+class Method(Value, frozen=True):
+    """How the car decided, or decides."""
+
+    decided: float | None  # [s] None: in general
+    options: tuple[OptionValue, ...] = ()
+    evidence: Evidence = Evidence()
+    vehicles: int = 0  # whose behaviour was foreseen
+
+
+class Pivot(Value, frozen=True):
+    """What a decision hangs on: what would have changed it, or what mattered most."""
+
+    kind: Literal["conduct", "removal", "factor", "none"]
+    contrast: Contrast | None
+    vehicle: int | None = None
+    actions: tuple[MacroAction, ...] = ()
+    probability: float | None = None
+    most: bool = False
+
+
+class Avoidance(Value, frozen=True):
+    """Whether something could have been avoided, by which of the options known."""
+
+    mishap: ActionName
+    possible: bool
+    happened: bool
+    risk: float  # probability of it under what was chosen, as seen at that decision
+    other: float  # and under the alternative; where impossible, the lowest there is
+    decisions: int  # that were looked at
+    options: int
+    contrast: Contrast | None = None  # with the alternative as foil
+    impact: Episode | None = None  # the collision, where there was one

@@ -1,0 +1,149 @@
+"""Reasons: why something was done or not, and what would have come of something else."""
+
+from typing import Literal
+
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.evidence import Contrast, Evidence
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
+
+
+class ChoiceReason(Value, frozen=True):
+    """Why the ego chose an action, or not another."""
+
+    form: Literal["why", "why-not", "necessary", "worth-it"]
+    deed: Episode | None  # what was done; None where it is only planned
+    contrast: Contrast
+    suspect: int | None = None  # a vehicle that the question takes for the cause ...
+    suspected: Literal["main", "part", "none"] | None = None  # ... and whether it is
+    past: bool = True
+
+
+class MotionCause(Value, frozen=True):
+    """One reason for how the ego drives: who or what is in the way or ahead."""
+
+    kind: Literal[
+        "leader",  # somebody in front drives so, or stands
+        "right-of-way",  # somebody goes first
+        "cut-in",
+        "blocked",
+        "turn",  # a turn to be taken at this speed
+        "bend",  # likewise a bend of the road
+        "roundabout",  # likewise a roundabout
+        "limit",  # the speed limit
+        "give-way-line",  # a line at which one must be ready to stop
+        "hidden",  # what cannot be seen
+        "destination",
+        "lane-end",
+        "plan",  # the plan calls for it, no reason beyond
+        "starting",  # we have only just set off
+        "light",
+    ]
+    vehicle: int | None = None
+    actions: tuple[MacroAction, ...] = ()  # what it was expected to do ...
+    probability: float | None = None  # ... and how surely
+    speed: float | None = None  # [m/s] of that vehicle then
+    did: Episode | None = None  # what it did in fact since
+    necessary: bool | None = None  # without it we would not have done so; None: not tried
+    value: float | None = None  # the limit [m/s], the turn's speed, the distance [m]
+
+
+class MotionReason(Value, frozen=True):
+    """Why the ego drove as it did: slowed, braked, stood, waited, gave way, drove slowly."""
+
+    deed: Episode
+    causes: tuple[MotionCause, ...]  # most important first; () none is known
+    premise: bool = True  # False: the question called it otherwise ("stop" for slowing down)
+    asked: ActionName | None = None  # what the question called it
+    suspect: int | None = None
+    suspected: Literal["main", "part", "none"] | None = None
+    evidence: Evidence = Evidence()
+    manner: Manner | None = None  # how it drove, where that is asked about: slowly, fast, close
+    limit: float | None = None  # [m/s] that was in force
+    form: Literal["why", "necessary"] = "why"
+    cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
+
+
+class Bystander(Value, frozen=True):
+    """Somebody whose way crosses ours at the moment when we go: who goes first, what it does."""
+
+    vehicle: int
+    first: Literal["ego", "vehicle", "depends"]
+    trend: Literal["slowing", "steady", "speeding-up", "standing"] | None = None
+    distance: float | None = None  # [m] from us
+    gone: bool = False  # we have let it go first
+
+
+class GoReason(Value, frozen=True):
+    """Why the ego went then: whom it had let go, who had to let it, who was not in its way."""
+
+    deed: Episode | None
+    others: tuple[Bystander, ...]  # () nobody's way crossed ours
+    contrast: Contrast | None = None  # with waiting
+    past: bool = True
+
+
+class Unslowed(Value, frozen=True):
+    """What can be said, without a simulation, of not having slowed down or waited."""
+
+    deed: Episode  # the slowing or waiting
+    cause: MotionCause | None  # why we did
+    ours: float | None = None  # [s] when we would have been where our ways meet ...
+    theirs: float | None = None  # [s] ... and when the vehicle was there
+    going: bool = True  # asked of going on; False: of another speed
+
+
+class OtherReason(Value, frozen=True):
+    """Why another vehicle does or did something, as far as can be seen or was inferred."""
+
+    vehicle: int
+    deed: Episode | None
+    asked: Event | None = None  # what was asked, where it did otherwise
+    causes: tuple[MotionCause, ...] = ()
+    goal: Belief | None = None  # where it was thought to be going
+    evidence: Evidence = Evidence()
+
+
+class SignalReason(Value, frozen=True):
+    """What the indicator of another vehicle announces, and what came of it."""
+
+    vehicle: int
+    deed: Episode  # the indicating
+    aims: tuple[ActionName, ...]  # what it may announce on that road
+    probability: float | None = None  # that it does so, as it was believed then
+    came: Episode | None = None  # what it did of that since
+
+
+class PlaceReason(Value, frozen=True):
+    """How another vehicle came to be where it is, seen from us."""
+
+    vehicle: int
+    relation: Relation
+    deed: Episode | None = None  # who let whom go first, or went past whom
+
+
+class SupposedOfUs(Value, frozen=True):
+    """What would have come of another action of the ego."""
+
+    contrast: Contrast
+    done: bool = False  # it is just what was done
+    past: bool = True
+    asked: ActionName | None = None  # where the foil is only the nearest to it: "brake" for a stop
+
+
+class SupposedOfOther(Value, frozen=True):
+    """What the ego would have done had another vehicle done otherwise, or not been there."""
+
+    vehicle: int
+    supposed: Event | None  # None: it were not there
+    prior: float | None  # probability of what is supposed, as it was believed
+    plan: tuple[MacroAction, ...]  # as things were
+    then: tuple[MacroAction, ...]  # as it would have been
+    same: bool
+    contrast: Contrast | None = None  # of `then` (foil) against `plan` (fact)
+    past: bool = True
+    asked: Event | None = None  # "would you still have braked": the deed asked about ...
+    still: bool | None = None  # ... and whether it would have come about; None: not known
+    negated: bool = False  # it is supposed not to have done that

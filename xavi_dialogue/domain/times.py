@@ -1,0 +1,62 @@
+"""Times: those that name no other thing; see `terms`."""
+
+from typing import Literal
+
+from xavi_dialogue.domain.base import Value
+
+
+class Now(Value, frozen=True):
+    """The moment of the question: "now", "currently", "at the moment"."""
+
+
+class Unsaid(Value, frozen=True):
+    """No time was said: tense and discourse decide."""
+
+
+class At(Value, frozen=True):
+    """A time of the ride: "at 0:12", "at 12 seconds"."""
+
+    at: float  # [s] simulation time
+
+
+class Ago(Value, frozen=True):
+    """A time before now: "five seconds ago", "just now" (None: a few seconds)."""
+
+    seconds: float | None = None  # [s]
+
+
+class Within(Value, frozen=True):
+    """A time after now: "in five seconds", "soon" (None)."""
+
+    seconds: float | None = None  # [s]
+
+
+class Between(Value, frozen=True):
+    """An interval of the ride."""
+
+    begin: float  # [s]
+    end: float  # [s]
+
+
+class Back(Value, frozen=True):
+    """The episode spoken of: "then", "at that time", "back there", "before that"."""
+
+    relation: Literal["during", "before", "after"] = "during"
+
+
+class Rank(Value, frozen=True):
+    """Which of several times: "the first time", "the second time", "last time"."""
+
+    rank: int  # -1 the last
+
+
+class Start(Value, frozen=True):
+    """The beginning of the ride."""
+
+
+class WholeRide(Value, frozen=True):
+    """All of the ride so far: "so far", "ever", "the whole trip", "until now"."""
+
+
+class Next(Value, frozen=True):
+    """What comes next: "next", "from now on", "later"."""

@@ -1,0 +1,266 @@
+"""Accounts: lists and summaries of the ride, of a stretch of it, or of a vehicle."""
+
+from collections.abc import Sequence
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Beliefs,
+    Evidence,
+    Happenings,
+    Helpful,
+    Identified,
+    NotRecorded,
+    Options,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
+from xavi_dialogue.domain.meaning import Listing, Summarise, Why
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Everyone,
+    Is,
+    That,
+    Thing,
+    Vehicle,
+    Vehicles,
+    WholeRide,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import history_of
+from xavi_dialogue.explain.answers.comfort import stretch
+from xavi_dialogue.explain.answers.conditions import handed
+from xavi_dialogue.explain.answers.findings import known as valued
+from xavi_dialogue.explain.answers.mistakes import mistakes
+from xavi_dialogue.explain.answers.moments import SHORT, Window, window
+from xavi_dialogue.explain.answers.naming import first_look, is_us, number, somebodies
+from xavi_dialogue.explain.answers.occasions import (
+    did_not_happen,
+    duration,
+    occasion,
+    occasions,
+    overlaps,
+)
+from xavi_dialogue.explain.answers.places import time_to_go
+
+TOLD = 6  # episodes of a summary at most
+LEADING = 5.0  # [s] before the last thing that happened which belongs to it
+LISTED = 40  # of a list
+MACROS: frozenset[ActionName] = frozenset(
+    ("change-left", "change-right", "exit-left", "exit-right", "exit-straight",
+     "continue-next-exit", "stop")
+)  # fmt: skip
+#: How much an episode matters in a summary.
+WEIGHT: dict[ActionName, float] = {
+    "collide": 20.0, "nearly-collide": 12.0, "arrive": 6.0, "give-way": 6.0, "cut-in": 6.0,
+    "overtake": 5.0, "leave": 5.0, "wait": 5.0, "stop": 5.0, "stand": 4.0, "enter": 3.0,
+    "exit-left": 5.0, "exit-right": 5.0, "exit-straight": 3.0, "continue-next-exit": 5.0,
+    "change-left": 4.0, "change-right": 4.0, "pull-out": 4.0, "change-plan": 3.0, "brake": 4.0,
+    "pass": 2.0, "cross": 3.0, "slow-down": 2.0, "speed-up": 0.5, "disappear": 0.5, "appear": 0.5,
+}  # fmt: skip
+
+
+def listing(question: Listing, asked: Asked) -> Answer:
+    """List things of a sort, with times where they have them.
+
+    Raises:
+        Unanswered: there is nothing of the sort in the record.
+    """
+    about = window(asked, question.time)
+    match question.of:
+        case "vehicles":
+            return _vehicles(asked, about)
+        case "options":
+            return _options(asked, about)
+        case "beliefs":
+            return _beliefs(asked, question.about, about)
+        case "wrong-predictions":
+            return _mistakes(asked, question.about, about)
+        case "causes" | "reasons":
+            answer = handed(Why(That()), asked)
+            if answer is not None:
+                return answer
+            raise Unanswered(NotRecorded("not-recorded", about=question.of))
+        case "capabilities":
+            return Helpful()
+    actor = _actor(asked, question.about)
+    return Happenings(
+        "list", _listed(asked, question.of, actor, about), actor, about.begin, about.end
+    )
+
+
+def summarise(question: Summarise, asked: Asked) -> Answer:
+    """Tell what mattered of the ride, an interval, a vehicle, or an episode.
+
+    Raises:
+        Unanswered: the episode did not happen.
+    """
+    about = window(asked, question.time)
+    if isinstance(question.about, Event):
+        found = occasion(asked, question.about)
+        if found is None:
+            raise did_not_happen(asked, question.about)
+        return summary(asked, None, stretch(asked, found).widened(2.0))
+    if isinstance(question.time, WholeRide):
+        about = Window(asked.world.begin, asked.now)
+    return summary(asked, question.about, about)
+
+
+def summary(asked: Asked, about: Thing | None, time: Window) -> Happenings:
+    """Give the episodes that matter of a stretch of the ride, or of a vehicle in it."""
+    near = time.widened(2.0) if time.instant else time
+    begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
+    vehicle = number(about)
+    told = list(asked.world.account(begin, end))
+    if not told and not time.said and not (asked.past is not None and asked.past.said):
+        told = _before(asked, begin)
+        begin = min((e.begin for e in told), default=begin)
+    if vehicle is not None:
+        told = [e for e in told if _concerns(e, vehicle)]
+        if not told:
+            told = list(asked.world.episodes(actor=Vehicle(vehicle), begin=begin, end=end))
+    else:
+        told = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)] or told
+    chosen = select(asked, told, TOLD)
+    whole = end - begin > 0.8 * (asked.now - asked.world.begin)
+    measures = _of_ride(asked, begin, end) if whole and vehicle is None else ()
+    actor = about if vehicle is not None else None
+    looks = taking_part(asked, chosen)
+    if vehicle is not None and all(look.vehicle != vehicle for look in looks):
+        look = first_look(asked, vehicle, begin)
+        looks = looks if look is None else (look, *looks)
+    return Happenings("summary", chosen, actor, begin, end, measures, looks)
+
+
+def _before(asked: Asked, at: float) -> list[Episode]:
+    """Give what happened last before a time [s]: the last episode, and what led up to it."""
+    earlier = [e for e in asked.world.account(asked.world.begin, at) if e.begin <= at]
+    last = max((e.begin for e in earlier), default=at)
+    return [e for e in earlier if e.begin >= last - LEADING]
+
+
+def select(asked: Asked, told: Sequence[Episode], most: int) -> tuple[Episode, ...]:
+    """Choose the episodes that matter most, in order of time."""
+    ranked = sorted(told, key=lambda e: (-_weight(asked, e), e.begin))
+    chosen: list[Episode] = []
+    for episode in ranked:
+        if len(chosen) < most and not any(_same(asked, episode, other) for other in chosen):
+            chosen.append(episode)
+    return tuple(sorted(chosen, key=lambda e: e.begin))
+
+
+def _weight(asked: Asked, episode: Episode) -> float:
+    weight = WEIGHT.get(episode.action, 0.2)
+    if isinstance(episode.actor, Ego):
+        weight *= 1.5
+    if episode.peak is not None and episode.peak >= 4.0:
+        weight += 3.0
+    return weight + min(duration(asked, episode) / 20.0, 0.5)
+
+
+def _same(asked: Asked, one: Episode, other: Episode) -> bool:
+    """Tell whether two are one thing: of one actor at one time, slowing down or stopping."""
+    slowing = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
+    both = one.action in slowing and other.action in slowing
+    return (
+        one.actor == other.actor
+        and (both or one.action == other.action)
+        and overlaps(asked, one, stretch(asked, other))
+    )
+
+
+def _concerns(episode: Episode, vehicle: int) -> bool:
+    return number(episode.actor) == vehicle or number(episode.object) == vehicle
+
+
+def _of_ride(asked: Asked, begin: float, end: float) -> tuple[Measure, ...]:
+    """Tell how long and how far it was, how fast at most, and how long it still takes."""
+    world = asked.world
+    time = Measure("duration", Ego(), begin, value=end - begin, until=end, extreme="total")
+    driven = world.measure("distance-driven", Ego(), end)
+    fastest = world.extreme("speed", Ego(), "highest", begin, end)
+    left = () if asked.ride.arrived else (time_to_go(asked, asked.now),)
+    return (time, *valued(driven, fastest, *left))
+
+
+def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[Episode, ...]:
+    begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
+    if of == "stops":
+        who = actor if actor is not None else Ego()
+        return tuple(e for e in occasions(asked, Event("stop", who)) if overlaps(asked, e, about))
+    if of == "decisions":
+        mine = asked.world.episodes(actor=Ego(), begin=begin, end=end)
+        return tuple(e for e in mine if e.action in MACROS)
+    told = list(asked.world.account(begin, end))
+    vehicle = number(actor)
+    if vehicle is not None:
+        told = [e for e in told if _concerns(e, vehicle)]
+    elif is_us(actor):
+        told = [e for e in told if isinstance(e.actor, Ego)]
+    else:
+        ours = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)]
+        told = ours or told
+    return tuple(sorted(told, key=lambda e: e.begin))[:LISTED]
+
+
+def _vehicles(asked: Asked, about: Window) -> Identified:
+    """Tell who is in view; over a stretch of the ride, all who were seen in it."""
+    world = asked.world
+    if about.end - about.begin <= SHORT or asked.past is None:
+        numbers, at = world.in_view(asked.moment), asked.moment
+    else:
+        at = about.end
+        times = [t.sim_time for t in asked.ride.traces if about.begin <= t.sim_time <= about.end]
+        numbers = tuple(sorted({v for t in times for v in world.in_view(t)}))
+    found = (first_look(asked, v, at) for v in numbers)
+    seen = tuple(sorted((x for x in found if x is not None), key=lambda look: look.distance))
+    return Identified(seen, none=not seen)
+
+
+def _options(asked: Asked, about: Window) -> Answer:
+    at = about.end if asked.past is None else about.begin
+    trace, found = asked.ride.at(at), asked.world.options(at)
+    if trace is None or not found:
+        raise Unanswered(NotRecorded("not-recorded", about="value", since=at))
+    return Options(found, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
+
+
+def _beliefs(asked: Asked, thing: Thing | None, about: Window) -> Answer:
+    """Tell what we expect of a vehicle and how it moved; or of all in view, each with a look."""
+    vehicle = number(thing)
+    if vehicle is not None:
+        found: Beliefs = history_of(asked, vehicle, None)
+        return found
+    at = asked.moment if asked.past is not None else asked.now
+    seen = tuple(x for v in asked.world.in_view(at) if (x := asked.world.look(v, at)) is not None)
+    beliefs = (asked.world.belief(look.vehicle, at) for look in seen)
+    facts: tuple[Belief, ...] = tuple(b for b in beliefs if b is not None)
+    return Identified(seen, facts=facts, none=not seen)
+
+
+def _mistakes(asked: Asked, thing: Thing | None, about: Window) -> Verdict:
+    """Tell what we expected of others that came otherwise."""
+    found = mistakes(asked, number(thing), about)
+    return Verdict(
+        Is("wrong", thing if thing is not None else Ego()), bool(found),
+        tuple(e for _, e in found), believed=tuple(b for b, _ in found), mistaken=bool(found),
+    )  # fmt: skip
+
+
+def _actor(asked: Asked, thing: Thing | None) -> Thing | None:
+    if thing is None or isinstance(thing, Everyone | Vehicles):
+        return None
+    who = somebodies(asked, thing, asked.now)
+    return who[0] if who else None
+
+
+def taking_part(asked: Asked, episodes: Sequence[Episode]) -> tuple[Look, ...]:
+    """Give each vehicle that takes part, as it was seen when its first episode began."""
+    first: dict[int, float] = {}
+    for episode in episodes:
+        for thing in (episode.actor, episode.object):
+            if (vehicle := number(thing)) is not None and vehicle not in first:
+                first[vehicle] = episode.begin
+    found = (first_look(asked, v, at) for v, at in first.items())
+    return tuple(x for x in found if x is not None)

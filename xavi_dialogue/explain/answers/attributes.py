@@ -1,0 +1,161 @@
+"""Attributes: those whose value takes more than a look: waits, costs, places, right of way."""
+
+from collections.abc import Callable, Mapping
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Evidence,
+    Identified,
+    Located,
+    Measures,
+    NotRecorded,
+    Options,
+)
+from xavi_dialogue.domain.meaning import HowLong, HowMany, HowSure, Where, Whither, Why
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Junction,
+    Measured,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute
+from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import how_sure
+from xavi_dialogue.explain.answers.comfort import asked_stretch, comfort
+from xavi_dialogue.explain.answers.counting import how_many
+from xavi_dialogue.explain.answers.durations import (
+    cost_of,
+    how_long,
+    remaining_wait,
+    stands,
+    waited,
+)
+from xavi_dialogue.explain.answers.moments import SHORT, instant, is_ahead, window
+from xavi_dialogue.explain.answers.naming import (
+    first_look,
+    is_us,
+    looks,
+    number,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.places import locate, where, whither
+from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
+
+#: What is chosen, and whose cost is told by what else could have been chosen.
+CHOSEN: frozenset[ActionName] = frozenset(
+    ("change-left", "change-right", "change-lane", "overtake")
+)
+
+
+def _waiting(of: Measured, asked: Asked) -> Answer:
+    """Tell how long somebody waited; of a wait that goes on, also what is still expected."""
+    about = window(asked, of.time, of.tense)
+    if is_ahead(asked, of.time, of.tense) and stands(asked):
+        return Measures((remaining_wait(asked),))
+    return Measures((waited(asked, of.thing, of.to, about),))
+
+
+def _options(of: Measured, asked: Asked) -> Answer:
+    """Tell how the options of a decision were valued."""
+    at = instant(asked, of.time, of.tense)
+    trace = asked.ride.at(at)
+    known = asked.world.options(at)
+    if trace is None or not known:
+        raise Unanswered(NotRecorded("not-recorded", about=of.attribute, since=at))
+    return Options(known, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
+
+
+def _comfort(of: Measured, asked: Asked) -> Answer:
+    return comfort(asked, of.event, asked_stretch(asked, of.event))
+
+
+def _duration(of: Measured, asked: Asked) -> Answer:
+    return how_long(HowLong(of.event or Event("do", of.thing, time=of.time)), asked)
+
+
+def _delay(of: Measured, asked: Asked) -> Answer:
+    """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
+    if of.event is not None and of.event.action in CHOSEN:
+        explained = causal.explainer(Why(Happens(of.event)), asked)
+        if explained is not None:
+            return explained(Why(Happens(of.event)), asked)
+    return Measures((cost_of(asked, of.event, window(asked, of.time)),))
+
+
+def _probability(of: Measured, asked: Asked) -> Answer:
+    about = of.about
+    if about is None and of.event is not None:
+        about = Happens(of.event)
+    return how_sure(HowSure(about, time=of.time), asked)
+
+
+def _place(of: Measured, asked: Asked) -> Answer:
+    return where(Where(of.thing, of.time), asked)
+
+
+def _heading(of: Measured, asked: Asked) -> Answer:
+    return whither(Whither(of.thing, of.time), asked)
+
+
+def _name(of: Measured, asked: Asked) -> Answer:
+    at = instant(asked, of.time, of.tense)
+    if is_us(of.thing):
+        return Measures((asked.world.measure("name", Ego(), at),))
+    numbers = tuple(v.number for v in somebodies(asked, of.thing, at) if isinstance(v, Vehicle))
+    return Identified(looks(asked, numbers, at), none=not numbers)
+
+
+def _turn(of: Measured, asked: Asked) -> Answer:
+    """Tell which way is taken next: of others, where they are thought to be going."""
+    if number(of.thing) is not None:
+        return whither(Whither(of.thing, of.time), asked)
+    at = instant(asked, of.time, of.tense)
+    turn = asked.world.measure("turn", Ego(), at)
+    if at < asked.now - SHORT or turn.gap is not None:
+        return Measures((turn,))
+    exit_ = asked.world.measure("exit-number", Ego(), at)
+    ring = asked.world.measure("distance", Ego(), at, Junction("roundabout", 1))
+    near = ring.value is not None and turn.value is not None and ring.value <= turn.value + 1.0
+    return Measures((turn, exit_, ring) if near and exit_.gap is None else (turn,))
+
+
+def _count(of: Measured, asked: Asked) -> Answer:
+    return how_many(HowMany(of.thing if number(of.thing) is not None else Everyone()), asked)
+
+
+def _right_of_way(of: Measured, asked: Asked) -> Answer:
+    about = where_rule_holds(asked, None, window(asked, of.time, of.tense))
+    return right_of_way(asked, of.thing, of.to, about)
+
+
+def _origin(of: Measured, asked: Asked) -> Answer:
+    """Tell where somebody came from: as the record has it, with where it was when first seen."""
+    at = instant(asked, of.time, of.tense)
+    if number(of.thing) is None:
+        return locate(asked, of.thing, asked.world.begin)
+    known = asked.world.measure("origin", of.thing, at)
+    first = first_look(asked, number(of.thing) or 0, asked.world.begin)
+    return Located(of.thing, () if first is None else (first,), (known,), gap=known.gap)
+
+
+SPECIAL: Mapping[Attribute, Callable[[Measured, Asked], Answer]] = {
+    "waiting-time": _waiting,
+    "value": _options,
+    "cost": _options,
+    "comfort": _comfort,
+    "duration": _duration,
+    "delay": _delay,
+    "probability": _probability,
+    "place": _place,
+    "heading": _heading,
+    "name": _name,
+    "right-of-way": _right_of_way,
+    "origin": _origin,
+    "route": _heading,
+    "turn": _turn,
+    "count": _count,
+}

@@ -1,0 +1,214 @@
+"""Choices: why the ego did one thing and not another, and whether it had to."""
+
+from typing import Literal
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    DidNotHappen,
+    MotionReason,
+    NotApplicable,
+)
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event, Proposition
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.foils import earlier_exit, foil_at, named_foil, settled
+from xavi_dialogue.explain.answers.reading import check_able, event_of, is_past, subject
+from xavi_dialogue.explain.causes.actions import (
+    CHANGES,
+    DRIVING,
+    TURNS,
+    names_of,
+    to_macros,
+)
+from xavi_dialogue.explain.causes.contrast import (
+    SameAsPlan,
+    alone,
+    alternatives,
+    compare,
+    contrast,
+    factual,
+)
+from xavi_dialogue.explain.causes.natural import natural, on_way, other_way
+from xavi_dialogue.explain.causes.options import free
+from xavi_dialogue.explain.causes.premise import (
+    Premise,
+    deeds_called,
+    episode_of,
+    premise,
+)
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import ROUNDING, planned
+
+Form = Literal["why", "why-not", "necessary", "worth-it"]
+LEAST = 1.0  # [s] that a change of lane or a turn takes at least
+
+
+def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -> Answer:
+    """Tell why we did or plan something: against the foil named, else the best alternative.
+
+    Raises:
+        Unanswered: we did not; or the record lacks it; or rollouts are needed.
+    """
+    if event is not None:
+        check_able(event)
+    other = event_of(instead)
+    exit_ = None if other is None else earlier_exit(other, scene)
+    if exit_ is not None:
+        found, foil = exit_
+    else:
+        found = free(scene.ride, premise(scene.ride, subject(scene, event)))
+        foil = named_foil(scene, other, found) or ()
+    if not foil:
+        against = natural(scene.ride, found.trace, found.node)
+        return ChoiceReason("why", deed_of(scene, found), against, past=_over(scene, event, found))
+    try:
+        against = contrast(scene.ride, found.trace, foil, found.node)
+        against = on_way(found.trace, against, found.node)
+    except SameAsPlan:  # the contrast that the question draws is none
+        against = natural(scene.ride, found.trace, found.node)
+    return ChoiceReason("why", deed_of(scene, found), against, past=_over(scene, event, found))
+
+
+def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
+    """Tell why we did not do something.
+
+    Args:
+        event: what was not done.
+        scene: the setting.
+        deed: what was done instead, where the question says so.
+
+    Raises:
+        Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
+    """
+    found, foil = foil_at(event, scene, deed)
+    try:
+        against = contrast(scene.ride, found.trace, foil, found.node)
+        against = on_way(found.trace, against, found.node)
+    except SameAsPlan as done:
+        found = free(scene.ride, Premise(scene.ride.latest, None))
+        if scene.past is not None or planned(found.trace)[: len(foil)] == foil:
+            told = () if done.deed is None else (done.deed,)
+            raise Unanswered(DidNotHappen(event, told)) from None
+        foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
+        against = contrast(scene.ride, found.trace, foil)
+    return ChoiceReason("why-not", deed_of(scene, found), against, past=_over(scene, event, found))
+
+
+def straight(scene: Asked) -> Answer:
+    """Tell why we go straight on: the way, where we could turn at the next junction; else the lane.
+
+    Raises:
+        Unanswered: there is no other lane; or rollouts are needed.
+    """
+    trace = scene.ride.at(scene.moment)
+    if trace is None or trace.under_way is not None or planned(trace)[:1] != ("continue",):
+        return in_lane(scene)
+    against = other_way(scene.ride, trace)
+    if against is None:
+        return in_lane(scene)
+    going = Episode(Ego(), "continue", trace.sim_time)
+    return ChoiceReason("why", going, against, past=scene.past is not None)
+
+
+def in_lane(scene: Asked) -> Answer:
+    """Tell why we are in our lane: why we moved there, or what speaks against another.
+
+    Raises:
+        Unanswered: there is no other lane; or rollouts are needed.
+    """
+    ride = scene.ride
+    moves = [d for d in deeds_called(ride, (*CHANGES, *TURNS)) if _lasted(d)]
+    before = [d for d in moves if d.time <= scene.moment + ROUNDING]
+    last = before[-1] if before else None
+    if last is not None and last.action in CHANGES:
+        return ChoiceReason("why", episode_of(last), natural(ride, ride.choice_of(last)))
+    unfrozen = [t for t in ride.traces if t.under_way is None and t.sim_time <= scene.moment]
+    trace = unfrozen[-1] if unfrozen else ride.latest
+    model = ride.model(trace)
+    known = {a: model.intervene((a,)) for a in CHANGES if a in model.options()}
+    sides = sorted(known, key=lambda a: -(i.value if (i := known[a]) is not None else 0.0))
+    stay = Episode(Ego(), "keep-lane", trace.sim_time)
+    if sides and planned(trace)[:1] != (sides[0],):
+        found = contrast(ride, trace, (sides[0],))
+        return ChoiceReason("why-not", stay, found, past=scene.past is not None)
+    refused = [n for n in trace.not_applicable if not n.node and n.action in CHANGES]
+    if refused:
+        asked = tuple(n.action for n in refused)
+        raise Unanswered(NotApplicable(asked, refused[0].reason, trace.sim_time))
+    return why(None, scene)
+
+
+def needed(event: Event | None, scene: Asked, form: Form = "necessary") -> Answer:
+    """Tell whether we had to do what we did: what the best alternative would have cost.
+
+    Raises:
+        Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
+    """
+    found = free(scene.ride, premise(scene.ride, subject(scene, event)))
+    ride, trace, node = scene.ride, found.trace, found.node
+    model, plan = ride.model(trace), planned(trace)
+    here = factual(model, trace)
+    others = alternatives(model, plan[len(node)], node) if len(plan) > len(node) else []
+    past = _over(scene, event, found)
+    if not others:
+        return ChoiceReason(form, deed_of(scene, found), alone(ride, model, here), past=past)
+    foil, there = others[0]
+    against = compare(ride, model, here, there, foil)
+    return ChoiceReason(form, deed_of(scene, found), against, past=past)
+
+
+def is_choice(event: Event) -> bool:
+    """Tell whether an event of ours is one that the planner chooses, not a way of driving."""
+    return not set(names_of(event)) & DRIVING
+
+
+def with_suspect(found: Answer, suspect: int | None) -> Answer:
+    """Tell of the vehicle that the question takes for the cause whether it is.
+
+    Where it is one of the causes it goes first, so that it is the one that is spoken of.
+    """
+    if suspect is None:
+        return found
+    if isinstance(found, ChoiceReason):
+        named = [cause.vehicle for cause in found.contrast.causes]
+        part = _part(named, suspect)
+        ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
+        against = replace(found.contrast, causes=tuple(ranked))
+        return replace(found, contrast=against, suspect=suspect, suspected=part)
+    if isinstance(found, MotionReason):
+        part = _part([cause.vehicle for cause in found.causes], suspect)
+        motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+        return replace(found, causes=tuple(motive), suspect=suspect, suspected=part)
+    return found
+
+
+def _part(named: list[int | None] | list[int], suspect: int) -> Literal["main", "part", "none"]:
+    if suspect not in named:
+        return "none"
+    return "main" if named[0] == suspect else "part"
+
+
+def deed_of(scene: Asked, found: Premise) -> Episode | None:
+    """Tell what was done, with where it was done, as far as the road is recorded."""
+    if found.deed is None:
+        return None
+    deed = episode_of(found.deed)
+    end = scene.now if deed.end is None else deed.end
+    seen = scene.world.episodes(Ego(), deed.action, deed.begin, end)
+    same = next((e for e in seen if e.action == deed.action and e.place is not None), None)
+    return deed if same is None else replace(deed, place=same.place, exit=same.exit)
+
+
+def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
+    """Whether it is told as past: what was asked so, or has ended."""
+    if found.deed is None:
+        return is_past(scene, event) and found.trace is not scene.ride.latest
+    return is_past(scene, event) or found.deed.ended is not None
+
+
+def _lasted(deed: Deed) -> bool:
+    """Whether it was more than given up at once."""
+    return deed.ended is None or deed.ended - deed.started >= LEAST

@@ -1,0 +1,258 @@
+"""Comparisons: whether an attribute has a value, how two compare, and whether there is anybody."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Located
+from xavi_dialogue.domain.facts import Fact, Look, Measure
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Destination,
+    Ego,
+    Everyone,
+    Exists,
+    Exit,
+    Feature,
+    Has,
+    Junction,
+    Lane,
+    Measured,
+    Nobody,
+    Quantity,
+    Thing,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import Attribute, Comparator
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.measures import best_of, value_at
+from xavi_dialogue.explain.answers.moments import Window, instant, is_past, window
+from xavi_dialogue.explain.answers.naming import (
+    check_sense,
+    first_look,
+    looks,
+    of_kind,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.places import junction
+
+#: Up to which difference two values are the same.
+SAME: dict[Attribute, float] = {
+    "speed": 0.6, "limit": 0.3, "gap": 0.5, "distance": 0.5, "headway": 0.2,
+    "time-to-collision": 0.3, "deceleration": 0.3, "acceleration": 0.3, "size": 0.3,
+    "time-to-go": 1.0, "distance-to-go": 5.0, "probability": 0.03, "duration": 0.5,
+}  # fmt: skip
+LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
+#: What a vehicle keeps when it is out of view.
+LASTING: frozenset[Attribute] = frozenset(("colour", "kind", "size", "name", "origin"))
+NONE = ("none", "off", "no", "")
+
+
+def has(of: Has, asked: Asked) -> Finding:
+    """Weigh that an attribute has a value that was named in words.
+
+    Raises:
+        Unanswered: the thing is unknown.
+    """
+    check_sense(of.thing)
+    about = window(asked, of.time, of.tense)
+    at = instant(asked, of.time, of.tense)
+    things: tuple[Thing, ...] = somebodies(asked, of.thing, at) or (of.thing,)
+    lasting = of.attribute in LIGHTS and is_past(asked, of.time, of.tense) and not about.instant
+    found = [
+        _shown_over(of, asked, thing, about) if lasting else _has(of, asked, thing, at)
+        for thing in things
+    ]
+    true = next((one for one in found if one.holds), None)
+    return true or found[0]
+
+
+def _has(of: Has, asked: Asked, thing: Thing, at: float) -> Finding:
+    values = value_at(asked, Measured(of.attribute, thing), thing, at)
+    value = values[-1] if of.attribute in LASTING else values[0]
+    if value.gap is not None:
+        return unknown(value.gap, *known(*values))
+    if of.attribute in LIGHTS:
+        return Finding(_lit(of, value.lights), (value,))
+    said = of.value.strip().lower()
+    if value.word is not None:
+        return Finding(value.word.lower() == said or said in value.word.lower().split(), (value,))
+    number = "" if value.value is None else f"{value.value:g}"
+    side = value.side or ""
+    return Finding(said in (number, side), (value,))
+
+
+def _shown_over(of: Has, asked: Asked, thing: Thing, about: Window) -> Finding:
+    """Tell whether a light was shown at any time in a stretch of the ride."""
+    last: Measure | None = None
+    for at in _moments(asked, about):
+        found = asked.world.measure(of.attribute, thing, at)
+        if found.gap is None:
+            if _lit(of, found.lights):
+                return Finding(True, (found,))
+            last = found
+        elif last is None:
+            last = found
+    if last is None:
+        return unknown("not-recorded")
+    return unknown(last.gap) if last.gap is not None else Finding(False, (last,))
+
+
+def _moments(asked: Asked, about: Window) -> tuple[float, ...]:
+    count = max(int((about.end - about.begin) / 0.4), 1)
+    return tuple(about.begin + k * 0.4 for k in range(count + 1))
+
+
+def _lit(of: Has, lights: tuple[str, ...]) -> bool:
+    said = of.value.strip().lower()
+    if of.attribute == "brake-lights":
+        return ("brake" in lights) != (said in NONE)
+    turning = [light for light in lights if light in ("left", "right")]
+    if said in NONE:
+        return not turning
+    if said in ("left", "right"):
+        return said in turning
+    if said in ("both", "hazard", "warning"):
+        return len(turning) == 2
+    return bool(turning)
+
+
+def compares(of: Compares, asked: Asked) -> Finding:
+    """Weigh how a measure compares with another one, with a number, or with what is allowed.
+
+    Of several things it holds where it does of each.
+
+    Raises:
+        Unanswered: a thing is unknown.
+    """
+    at = instant(asked, of.left.time, of.left.tense)
+    each = somebodies(asked, of.left.thing, at)
+    if len(each) < 2:
+        return _compared(of, asked)
+    found = [_compared(replace(of, left=replace(of.left, thing=one)), asked) for one in each]
+    told = [one for one in found if one.holds is not None]
+    if not told:
+        return found[0]
+    left = tuple(one.facts[0] for one in told)
+    right = told[0].facts[1:]
+    return Finding(all(one.holds for one in told), (*left, *right))
+
+
+def _compared(of: Compares, asked: Asked) -> Finding:
+    at = instant(asked, of.left.time, of.left.tense)
+    left = best_of(asked, of.left, at)
+    right = _other_side(of, asked, left)
+    if left.value is None or right is None or right.value is None:
+        gap = left.gap or (None if right is None else right.gap) or "not-recorded"
+        facts = known(left, *(() if right is None else (right,)))
+        return unknown(gap, *facts)
+    margin = SAME.get(of.left.attribute, 0.0)
+    holds = _holds(of.comparator, left.value - right.value, margin, of.by)
+    if isinstance(of.right, Measured):
+        return Finding(holds, (left, right))
+    return Finding(holds, (replace(left, reference=right.value),))
+
+
+def _other_side(of: Compares, asked: Asked, left: Measure) -> Measure | None:
+    """Tell what the left side is held against: the limit, where nothing was named."""
+    match of.right:
+        case Measured():
+            return best_of(asked, of.right, left.time)
+        case Quantity(value=value):
+            share = value / 100.0 if of.right.unit == "%" else value
+            return Measure(left.attribute, left.thing, left.time, value=share)
+    if left.attribute == "speed" and isinstance(left.thing, Ego | Vehicle):
+        return asked.world.measure("limit", left.thing, left.time)
+    return None
+
+
+def _holds(comparator: Comparator, difference: float, margin: float, by: Quantity | None) -> bool:
+    least = margin if by is None else by.value - margin
+    match comparator:
+        case "more" | "too-much":
+            return difference > least
+        case "less":
+            return difference < -least
+        case "at-least" | "enough":
+            return difference >= -margin
+        case "at-most":
+            return difference <= margin
+        case "same":
+            return abs(difference) <= margin
+
+
+def exists(of: Exists, asked: Asked) -> Finding:
+    """Weigh that there is or was such a thing.
+
+    Raises:
+        Unanswered: it has no sense here.
+    """
+    check_sense(of.thing)
+    at = instant(asked, of.time, of.tense)
+    about = window(asked, of.time, of.tense)
+    match of.thing:
+        case Nobody():
+            near = _near(asked, at, of.thing.described)
+            return Finding(of.thing.described is None and not near, near)
+        case Lane():
+            return _lane(asked, of.thing, at)
+        case Junction():
+            found = junction(asked, of.thing, at)
+            if found.gap == "not-recorded":
+                return unknown(found.gap)
+            return Finding(found.gap is None, known(found))
+        case Exit() | Destination():
+            value = asked.world.measure("exit-number", Ego(), at)
+            return Finding(value.gap is None, known(value))
+        case Feature():
+            return unknown("not-recorded")
+        case Everyone():
+            return _anybody(of.thing, asked, about, at)
+    found_here = somebodies(asked, of.thing, at)
+    numbers = tuple(v.number for v in found_here if isinstance(v, Vehicle))
+    if not numbers:
+        return unknown("not-recorded")
+    seen = looks(asked, numbers, at) or _first(asked, numbers)
+    if seen and not any(look.in_view for look in seen) and not about_past(asked, of):
+        return Finding(None, answer=Located(of.thing, seen, gap="out-of-view"))
+    return Finding(any(look.in_view and look.time <= at for look in seen), seen)
+
+
+def about_past(asked: Asked, of: Exists) -> bool:
+    """Tell whether it is asked of the past."""
+    return is_past(asked, of.time, of.tense)
+
+
+def _anybody(thing: Everyone, asked: Asked, about: Window, at: float) -> Finding:
+    """Tell whether anybody of a kind is or was in view; kinds that no record has cannot be told."""
+    ever = asked.world.vehicles if about.end - about.begin > 1.5 else asked.world.in_view(at)
+    fits = of_kind(asked, ever, thing.kind, at)
+    if not fits and thing.kind in ("pedestrian", "tram"):
+        return unknown("not-recorded")
+    return Finding(bool(fits), looks(asked, fits, at))
+
+
+def _near(asked: Asked, at: float, described: Described | None) -> tuple[Fact, ...]:
+    """Tell who is in view when nobody fits: the nearest of the kind that was asked for."""
+    kind = "vehicle" if described is None else described.kind
+    seen = looks(asked, of_kind(asked, asked.world.in_view(at), kind, at), at)
+    return tuple(sorted(seen, key=lambda look: look.distance)[:1])
+
+
+def _first(asked: Asked, numbers: tuple[int, ...]) -> tuple[Look, ...]:
+    found = (first_look(asked, v, asked.world.begin) for v in numbers)
+    return tuple(look for look in found if look is not None)
+
+
+def _lane(asked: Asked, lane: Lane, at: float) -> Finding:
+    own = asked.world.measure("lane", Ego(), at)
+    if own.gap is not None:
+        return unknown(own.gap)
+    road = asked.world.road(at)
+    place = None if road is None else road.places.get(0)
+    if place is None or place.lane is None:
+        return unknown("not-recorded")
+    there = {
+        "left": place.lane + 1 < place.lanes, "right": place.lane > 0, "other": place.lanes > 1,
+    }  # fmt: skip
+    return Finding(there.get(lane.which, True), (own,))

@@ -1,0 +1,300 @@
+"""Conditions: whether a thing or an event is safe, free, over, fast, close, possible, ..."""
+
+from collections.abc import Callable, Mapping
+
+from xavi_dialogue.domain.answers import Answer, NotApplicable
+from xavi_dialogue.domain.facts import Fact, Gap
+from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
+from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Is, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import State
+from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import how_sure
+from xavi_dialogue.explain.answers.closeness import How, closeness
+from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
+from xavi_dialogue.explain.answers.durations import remaining_wait, stands
+from xavi_dialogue.explain.answers.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.foreseen import macros
+from xavi_dialogue.explain.answers.happens import happens
+from xavi_dialogue.explain.answers.limits import fast, within_limit
+from xavi_dialogue.explain.answers.mistakes import wrong
+from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, is_past, window
+from xavi_dialogue.explain.answers.naming import (
+    first_look,
+    is_us,
+    look_of,
+    looks,
+    number,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, taken_place
+from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.priority import fault, right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.room import free
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
+NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
+BIG = 7.0  # [m] from which a vehicle is big
+MANY = 6  # vehicles in view from which it is busy
+STUCK = 5.0  # [s] at a standstill from which one is stuck
+RIGHT_OF_WAY = ("enter", "turn", "exit-left", "exit-right", "exit-straight", "cross", "go", "merge")
+
+
+def condition(of: Is, asked: Asked) -> Finding:
+    """Weigh that a thing or an event is in a state.
+
+    Raises:
+        Unanswered: it is of what is unknown, or of an event that did not happen.
+    """
+    found = STATES.get(of.state)
+    if found is None:
+        return unknown("not-recorded")
+    return found(of, asked)
+
+
+def handed(question: Question, asked: Asked) -> Answer | None:
+    """Give the answer of the causal explainers, where the question is one of theirs."""
+    explainer = causal.explainer(question, asked)
+    return None if explainer is None else explainer(question, asked)
+
+
+def actor(of: Is) -> Thing:
+    """Tell whose state it is: ours where nobody is named."""
+    if of.thing is not None:
+        return of.thing
+    return Ego() if of.event is None else of.event.actor
+
+
+def _about(of: Is, asked: Asked) -> Window:
+    """Give the stretch of the ride that a state is about: that of its event, where it has one."""
+    if of.event is not None:
+        found = occasion(asked, of.event)
+        if found is not None:
+            return stretch(asked, found)
+    return window(asked, of.time, of.tense)
+
+
+def _safe(of: Is, asked: Asked) -> Finding:
+    how: How = "safe" if of.state == "safe" else "dangerous"
+    past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
+    if of.event is not None and past:
+        taken_place(asked, of.event)
+    other = number(of.thing)
+    if other is None and of.event is not None:
+        other = number(of.event.actor) or number(of.event.object)
+    about = _about(of, asked) if past else Window(asked.now, asked.now)
+    return Finding(None, answer=closeness(asked, other, about, how, past=past))
+
+
+def _comfortable(of: Is, asked: Asked) -> Finding:
+    if of.event is not None:
+        taken_place(asked, of.event)
+    about = _about(of, asked)
+    if of.event is None and about.instant and asked.past is None:
+        about = Window(asked.world.begin, asked.now)
+    found = comfort_of(asked, about)
+    return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
+
+
+def _allowed(of: Is, asked: Asked) -> Finding:
+    """Tell what the rules of the road say: of speed the limit, of going first the right of way."""
+    event = of.event
+    if event is not None and event.action in RIGHT_OF_WAY and not _of_speed(event):
+        about = _about(of, asked)
+        past = is_past(asked, of.time, of.tense)
+        about = where_rule_holds(asked, of, about) if past else about
+        found = right_of_way(asked, event.object, event.actor, about)
+        if found.rule != "none" or "first" in event.manner:
+            return Finding(None, answer=found)
+    return within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)
+
+
+def _of_speed(event: Event) -> bool:
+    """Tell whether an event is named for how fast it is."""
+    return "fast" in event.manner or "slowly" in event.manner
+
+
+def _judged(of: Is, asked: Asked) -> Finding:
+    """Tell whether it was necessary, worth it or better: the causal explainers know."""
+    for question in (
+        WhetherQuestion(of),
+        *(() if of.event is None else (Why(Happens(of.event)),)),
+    ):
+        answer = handed(question, asked)
+        if answer is not None:
+            return Finding(None, answer=answer)
+    return unknown("not-recorded")
+
+
+def _possible(of: Is, asked: Asked) -> Finding:
+    """Tell whether an action can be taken: whether the decision then had it among its options."""
+    if of.event is None:
+        return unknown("not-recorded")
+    names = macros(of.event)
+    at = instant(asked, of.time, of.tense)
+    trace = asked.ride.at(at)
+    if trace is None or not names:
+        return unknown("not-recorded")
+    options = [o for o in asked.world.options(at) if o.action in names]
+    if options:
+        return Finding(True, tuple(options))
+    for entry in trace.not_applicable:
+        if not entry.node and entry.action in names:
+            raise Unanswered(NotApplicable((entry.action,), entry.reason, trace.sim_time))
+    return Finding(False if trace.under_way is not None else None, gap="not-recorded")
+
+
+def _seen(of: Is, asked: Asked) -> Finding:
+    """Tell whether somebody is in view, hidden or lost."""
+    vehicle = number(actor(of))
+    about = window(asked, of.time, of.tense)
+    if vehicle is None:
+        return unknown("not-sensed" if not is_us(actor(of)) else "not-applicable")
+    look = asked.world.look(vehicle, about.end)
+    if look is None:
+        first = first_look(asked, vehicle, about.end)
+        return Finding(of.state in ("hidden", "lost"), () if first is None else (first,))
+    hidden = asked.world.measure("visibility", Vehicle(vehicle), about.end)
+    facts: tuple[Fact, ...] = (look, *known(hidden))
+    return Finding(look.in_view == (of.state in ("visible", "present")), facts)
+
+
+def _still(of: Is, asked: Asked) -> Finding:
+    about = window(asked, of.time, of.tense)
+    past = is_past(asked, of.time, of.tense)
+    if past and not about.instant:
+        event = Event("stand" if of.state == "stationary" else "move", actor(of), time=of.time)
+        return happens(Happens(event), asked)
+    who = (somebodies(asked, actor(of), about.end) or (Ego(),))[0]
+    speed = asked.world.measure("speed", who, instant(asked, of.time, of.tense))
+    if speed.value is None:
+        look = look_of(asked, who, asked.now)
+        return unknown(speed.gap or "not-recorded", *(() if look is None else (look,)))
+    return Finding((speed.value < STANDING) == (of.state == "stationary"), (speed,))
+
+
+def _close(of: Is, asked: Asked) -> Finding:
+    vehicle = number(actor(of))
+    past = is_past(asked, of.time, of.tense)
+    about = _about(of, asked) if past else Window(asked.now, asked.now)
+    if past:
+        return Finding(None, answer=closeness(asked, vehicle, about, "close"))
+    if vehicle is None:
+        return Finding(None, answer=closeness(asked, None, about, "close", past=False))
+    other = Vehicle(vehicle)
+    gap, headway, distance = (
+        asked.world.measure(a, Ego(), asked.now, other) for a in ("gap", "headway", "distance")
+    )
+    if distance.value is None:
+        return unknown(distance.gap or "out-of-view")
+    if headway.value is not None:
+        near = headway.value < (NEAR_GAP if not of.too else NEAR_GAP / 2.0)
+        return Finding(near == (of.state == "close"), known(gap, headway))
+    return Finding((distance.value < NEAR) == (of.state == "close"), known(distance))
+
+
+def _over(of: Is, asked: Asked) -> Finding:
+    """Tell whether what is spoken of is over."""
+    vehicle = number(of.thing)
+    if of.event is not None:
+        found = taken_place(asked, of.event)
+        return Finding(found.end is not None and found.end < asked.now, (found,))
+    if vehicle is not None:
+        look = asked.world.look(vehicle, asked.now)
+        passed = look is not None and (not look.in_view or look.ahead < 0.0)
+        return Finding(passed, () if look is None else (look,))
+    if asked.ride.arrived or asked.ride.ended:
+        return Finding(True)
+    told = [
+        e
+        for e in asked.world.episodes()
+        if e.action not in PLAIN
+        and e.action != "speed-up"
+        and (isinstance(e.actor, Ego) or isinstance(e.object, Ego))
+    ]
+    past = asked.past
+    inside = [e for e in told if past is None or asked.meets(e.begin, e.end)]
+    on = [e for e in inside if e.end is None]
+    last = [e for e in on or inside if isinstance(e.actor, Ego)] or on or inside
+    return Finding(not on, tuple(last[-1:]))
+
+
+def _late(of: Is, asked: Asked) -> Finding:
+    """Tell whether we are late: no record has a time by which we are to be there."""
+    return unknown("not-recorded", *known(time_to_go(asked, asked.now)))
+
+
+def _stuck(of: Is, asked: Asked) -> Finding:
+    who = actor(of)
+    event = Event("stand", who, time=of.time, tense="present")
+    found = occasion(asked, event)
+    if found is None:
+        speed = asked.world.measure("speed", (somebodies(asked, who, asked.now) or (Ego(),))[0],
+                                    asked.now)  # fmt: skip
+        return Finding(False, known(speed))
+    waiting = occasion(asked, Event("wait", who, tense="present"))
+    wait = (remaining_wait(asked),) if is_us(who) and stands(asked) else ()
+    facts: tuple[Fact, ...] = (waiting or found, *known(*wait))
+    return Finding(asked.now - found.begin >= STUCK, facts)
+
+
+def _sure(of: Is, asked: Asked) -> Finding:
+    about = None if of.event is None else Happens(of.event)
+    question = HowSure(about, of.time)
+    return Finding(None, answer=handed(question, asked) or how_sure(question, asked))
+
+
+def _at_fault(of: Is, asked: Asked) -> Finding:
+    about = None if of.event is None else Happens(of.event)
+    question = Fault(about, of.thing)
+    return Finding(None, answer=handed(question, asked) or fault(question, asked))
+
+
+def _first(of: Is, asked: Asked) -> Finding:
+    about = where_rule_holds(asked, None, _about(of, asked))
+    other = None if is_us(actor(of)) else actor(of)
+    found = right_of_way(asked, other, Ego(), about)
+    if found.first is None:
+        return Finding(None, answer=found)
+    ours = isinstance(found.first, Ego)
+    first = ours == is_us(actor(of))
+    return Finding(first == (of.state == "first"), answer=found)
+
+
+def _big(of: Is, asked: Asked) -> Finding:
+    size = asked.world.measure("size", actor(of), asked.now)
+    if size.value is None:
+        return unknown(size.gap or "not-recorded")
+    look = look_of(asked, actor(of), asked.now)
+    return Finding(size.value >= BIG, (size, *(() if look is None else (look,))))
+
+
+def _busy(of: Is, asked: Asked) -> Finding:
+    at = instant(asked, of.time, of.tense)
+    seen = looks(asked, asked.world.in_view(at), at)
+    return Finding(len(seen) >= MANY, seen)
+
+
+def _constant(holds: bool | None, gap: Gap | None = None) -> Callable[[Is, Asked], Finding]:
+    return lambda of, asked: Finding(holds, gap=gap)
+
+
+STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
+    "safe": _safe, "dangerous": _safe,
+    "comfortable": _comfortable, "uncomfortable": _comfortable,
+    "allowed": _allowed, "necessary": _judged, "worth-it": _judged, "better": _judged,
+    "possible": _possible, "free": free,
+    "visible": _seen, "hidden": _seen, "present": _seen, "lost": _seen,
+    "stationary": _still, "moving": _still,
+    "fast": fast, "slow": fast, "close": _close, "far": _close,
+    "sure": _sure, "over": _over, "late": _late, "stuck": _stuck,
+    "wrong": wrong, "right": wrong, "at-fault": _at_fault,
+    "first": _first, "last": _first, "big": _big, "busy": _busy,
+    "normal": _constant(None, "not-recorded"),
+    "dirty": _constant(None, "not-sensed"),
+    "faulty": _constant(None, "not-recorded"),
+    "awake": _constant(None, "others-thoughts"),
+    "autonomous": _constant(True),
+}  # fmt: skip

@@ -1,0 +1,105 @@
+"""Counting: how many there are, and how often something happened."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Counted, Measures, NotRecorded
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import HowMany
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Junction,
+    Lane,
+    Nobody,
+    Road,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.moments import SHORT, Window, window
+from xavi_dialogue.explain.answers.naming import ANY, check_sense, first_look, of_kind, somebodies
+from xavi_dialogue.explain.answers.occasions import merged, within
+from xavi_dialogue.explain.answers.places import told
+
+
+def how_many(question: HowMany, asked: Asked) -> Answer:
+    """Tell how many there are or were, or how often something happened.
+
+    Raises:
+        Unanswered: it is of what the record does not hold.
+    """
+    if isinstance(question.of, Event):
+        return _events(asked, question.of)
+    check_sense(question.of)
+    return _things(asked, question.of)
+
+
+def _events(asked: Asked, event: Event) -> Counted:
+    """Tell how often: each time counted once, over the stretch asked about or the whole ride."""
+    about = window(asked, event.time)
+    event = replace(event, object=_named(event.object))
+    if event.tense != "present" and about.instant:
+        about = Window(asked.world.begin, asked.now)
+    found = merged(asked, within(asked, event, about))
+    lost = any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
+    return Counted(event, len(found), found, lost, about.begin, about.end)
+
+
+def _named(thing: Thing | None) -> Thing | None:
+    """Leave out an object that stands for anybody: how often it was done for anybody counts."""
+    return None if isinstance(thing, Nobody | Everyone) else thing
+
+
+def _things(asked: Asked, of: Thing) -> Answer:
+    match of:
+        case Lane() | Road():
+            found = asked.world.measure("lane-count", Ego(), asked.moment)
+            return Measures(told((found,)))
+        case Exit() | Junction():
+            return _junctions(asked, of)
+        case Nobody():
+            return Counted(of, 0)
+        case Vehicles(numbers=numbers):
+            seen = (first_look(asked, v, asked.moment) for v in numbers)
+            return Counted(of, len(numbers), tuple(x for x in seen if x is not None))
+        case Vehicle() | Ego():
+            return Counted(of, len(somebodies(asked, of, asked.moment)))
+        case Everyone(kind=kind) | Described(kind=kind):
+            return _users(asked, Everyone("vehicle" if kind in ANY else kind))
+    raise Unanswered(NotRecorded("not-recorded", of, about="count"))
+
+
+def _users(asked: Asked, of: Everyone) -> Counted:
+    """Tell how many are in view, or were over a stretch of the ride."""
+    past = asked.past
+    long = past is not None and past.end - past.begin > SHORT
+    if past is None or not long:
+        at = asked.moment
+        numbers = of_kind(asked, asked.world.in_view(at), of.kind, at)
+        since = until = at
+    else:
+        since, until = past.begin, min(past.end, asked.now)
+        times = [t.sim_time for t in asked.ride.traces if since <= t.sim_time <= until]
+        every = tuple(sorted({v for t in times for v in asked.world.in_view(t)}))
+        numbers = of_kind(asked, every, of.kind, until)
+    seen = (first_look(asked, v, until) for v in numbers)
+    looks = tuple(x for x in seen if x is not None)
+    return Counted(of, len(numbers), looks, False, since, until)
+
+
+def _junctions(asked: Asked, of: Exit | Junction) -> Answer:
+    """Tell how many junctions are still ahead, or exits the next roundabout has."""
+    road = asked.world.road(asked.moment)
+    if road is None:
+        raise Unanswered(NotRecorded("not-recorded", of, about="count"))
+    if isinstance(of, Exit):
+        ring = next((step for step in road.route if step.exits is not None), None)
+        if ring is None or ring.exits is None:
+            return Measures((Measure("exit-number", Ego(), asked.moment, gap="not-applicable"),))
+        return Counted(of, ring.exits)
+    ahead = [s for s in road.route if of.form == "junction" or s.kind == "roundabout"]
+    return Counted(of, len(ahead), at_least=len(road.route) >= 8)

@@ -1,0 +1,153 @@
+"""Durations: how long something lasted, how long one waited, and what a manoeuvre cost."""
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, Happenings, Measures
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.meaning import HowLong
+from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.foreseen import HALTS
+from xavi_dialogue.explain.answers.moments import Window, is_ahead, window
+from xavi_dialogue.explain.answers.naming import is_us, looks
+from xavi_dialogue.explain.answers.occasions import (
+    did_not_happen,
+    duration,
+    merged,
+    occasion,
+    occasions,
+    overlaps,
+)
+from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.plans import horizon, moving_on
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
+
+
+def how_long(question: HowLong, asked: Asked) -> Answer:
+    """Tell how long something lasted, has lasted so far, or is expected to last.
+
+    Raises:
+        Unanswered: it did not happen.
+    """
+    event = question.of
+    if event.action == "arrive" or (
+        event.action in ("do", "happen", "move") and is_us(event.actor)
+    ):
+        return _ride_time(asked, event)
+    ahead = is_ahead(asked, event.time, event.tense)
+    if ahead and event.action in HALTS and is_us(event.actor) and stands(asked):
+        return Measures((remaining_wait(asked),))
+    found = occasion(asked, event)
+    if found is None and event.action in HALTS:
+        found = _standing(asked, event)
+    if found is None:
+        raise did_not_happen(asked, event)
+    return lasting(asked, found, event)
+
+
+def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happenings:
+    """Tell how long an episode lasted; of one that goes on, also what is still expected."""
+    value = Measure(
+        "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
+        until=episode.end, at_least=episode.end is None or episode.begin <= asked.world.begin,
+    )  # fmt: skip
+    known: tuple[Measure, ...] = (value,)
+    on = episode.end is None or episode.end >= asked.now - 0.5
+    if on and isinstance(episode.actor, Ego) and stands(asked):
+        known += (remaining_wait(asked),)
+    other = episode.actor if isinstance(episode.actor, Vehicle) else episode.object
+    seen = looks(asked, (other.number,), episode.begin) if isinstance(other, Vehicle) else ()
+    return Happenings(
+        "how-long", (episode,), episode.actor, measures=known, looks=seen, asked=event
+    )
+
+
+def remaining_wait(asked: Asked) -> Measure:
+    """Tell how long our car still stands, by its plan; at least so long, where it does not tell."""
+    now, found = asked.now, moving_on(asked)
+    if found is not None and found.share >= 0.5:
+        low, middle, high = (
+            round(max(t - now, 0.0), 2) for t in (found.low, found.moment, found.high)
+        )
+        return Measure(
+            "waiting-time", Ego(), now, value=middle, until=now + middle, low=low, high=high
+        )
+    end = horizon(asked)
+    if end is None:
+        return Measure("waiting-time", Ego(), now, gap="in-future")
+    value = round(max(end - now, 0.0), 2)
+    return Measure("waiting-time", Ego(), now, value=value, until=now + value, at_least=True)
+
+
+def waited(asked: Asked, who: Thing, whom: Thing | None, about: Window) -> Measure:
+    """Tell how long somebody stood in a stretch of the ride, or for another vehicle."""
+    if about.instant:
+        about = Window(asked.world.begin, asked.now)
+    actor: Thing = Ego() if is_us(who) else who
+    event = Event("wait", actor, whom) if whom is not None else Event("stand", actor)
+    found = [e for e in occasions(asked, event) if overlaps(asked, e, about)]
+    if whom is not None and not found:
+        found = list(occasions(asked, Event("give-way", actor, whom)))
+    total = sum(duration(asked, e) for e in merged(asked, found))
+    return Measure(
+        "waiting-time", actor, about.begin, value=round(total, 2), to=whom, until=about.end,
+        extreme="total", at_least=_lost(asked, about),
+    )  # fmt: skip
+
+
+def stands(asked: Asked) -> bool:
+    """Tell whether our car stands now."""
+    motion = asked.ride.motion(EGO)
+    return bool(motion.speed) and motion.speed[-1] < STANDING
+
+
+def _standing(asked: Asked, event: Event) -> Episode | None:
+    """Give a wait of another name: standing is giving way or stopping to a passenger."""
+    for action in WAITS:
+        if action != event.action:
+            other = Event(action, event.actor, event.object, time=event.time, tense=event.tense)
+            if (found := occasion(asked, other)) is not None and _halted(asked, found):
+                return found
+    return None
+
+
+def _halted(asked: Asked, episode: Episode) -> bool:
+    return episode.standing or episode.action == "stand" or duration(asked, episode) > 0.0
+
+
+def _ride_time(asked: Asked, event: Event) -> Answer:
+    """Tell how long the ride still takes, or has taken."""
+    if event.action == "arrive" or is_ahead(asked, event.time, event.tense):
+        return Measures((time_to_go(asked, asked.now),))
+    world, about = asked.world, window(asked, event.time)
+    whole = Measure(
+        "time", Ego(), world.begin, value=about.end - world.begin, until=about.end,
+        extreme="total",
+    )  # fmt: skip
+    left = () if asked.ride.arrived else (time_to_go(asked, asked.now),)
+    return Measures((whole, *left))
+
+
+def _lost(asked: Asked, about: Window) -> bool:
+    return any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
+
+
+def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
+    """Tell what an episode of ours cost in time.
+
+    Raises:
+        Unanswered: there was none.
+    """
+    if event is not None:
+        found = occasion(asked, event)
+    else:
+        slow: list[Episode] = list(
+            asked.world.episodes(actor=Ego(), actions=("give-way", "stop", "stand", "slow-down"))
+        )
+        near = [e for e in slow if overlaps(asked, e, about.widened())]
+        found = max(near or slow[-1:], key=lambda e: duration(asked, e), default=None)
+    if found is None:
+        raise did_not_happen(asked, event or Event("slow-down"))
+    return asked.world.delay(found)

@@ -1,0 +1,93 @@
+"""Engine: a grounded act and the record in; an answer, a refusal or a request to plan again out.
+
+One table tells who explains what. `causal` has the questions after reasons, suppositions and
+decisions, also those whose type alone does not tell ("was it necessary?"); `factual` the others.
+"""
+
+from typing import TypeAlias
+
+from xavi_dialogue.causal.model import CausalError
+from xavi_dialogue.domain.answers import (
+    Answer,
+    CannotSay,
+    DidNotHappen,
+    NeedRollout,
+    NotRecorded,
+    NotUnderstood,
+    Refusal,
+)
+from xavi_dialogue.domain.discourse import GroundedAct, Span
+from xavi_dialogue.domain.meaning import Ask, Beyond
+from xavi_dialogue.domain.terms import At, Between
+from xavi_dialogue.explain.answers import causal, factual
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import event_of
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
+
+Result: TypeAlias = Answer | Refusal | NeedRollout
+
+
+def explain(act: GroundedAct, record: Record) -> Result:
+    """Answer a grounded act from the record of the ride.
+
+    Pure: the same act and record give the same result. A NeedRollout is answered by asking again
+    with the plan made anew among `record.extra`.
+    """
+    ride = Ride(record)
+    return explain_in(act, ride, World(ride))
+
+
+def explain_in(act: GroundedAct, ride: Ride, world: World) -> Result:
+    """Answer a grounded act from a ride that was read before; see `explain`."""
+    scene = Asked(ride, world, act.span or _span(act, ride), act)
+    try:
+        return _answer(scene)
+    except Unanswered as unanswered:
+        return _doubted(unanswered.result, ride)
+    except CausalError:  # a record that contradicts itself explains nothing
+        return NotRecorded("gap-in-record", since=ride.now)
+
+
+def _span(act: GroundedAct, ride: Ride) -> Span | None:
+    """The part of the ride that the terms of a question name, where the act names none."""
+    question = act.act.question if isinstance(act.act, Ask) else None
+    event = event_of(getattr(question, "of", None))
+    for time in (getattr(question, "time", None), None if event is None else event.time):
+        match time:
+            case At(at):
+                return Span(at, at, said=True, ahead=at > ride.now)
+            case Between(begin, end):
+                return Span(begin, end, said=True, ahead=begin > ride.now)
+    return None
+
+
+def _answer(scene: Asked) -> Answer:
+    """The answer of the explainer that the table names.
+
+    Raises:
+        Unanswered: there is no answer, or none yet.
+    """
+    act = scene.act.act
+    if isinstance(act, Ask):
+        question = act.question
+        explainer = causal.explainer(question, scene) or factual.QUESTIONS.get(type(question))
+        if explainer is None:
+            raise Unanswered(NotUnderstood(about=(type(question).__name__,)))
+        return explainer(question, scene)
+    if isinstance(act, Beyond):
+        raise Unanswered(CannotSay(act.topic, act.words))
+    found = factual.ACTS.get(type(act))
+    if found is None:
+        raise Unanswered(NotUnderstood(about=(type(act).__name__,)))
+    return found(act, scene)
+
+
+def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:
+    """The result, unless it denies what may have been in a part of the record that was lost."""
+    if not isinstance(result, DidNotHappen) or result.planned is not None or not ride.gaps:
+        return result
+    if result.instead or result.elsewhen is not None:
+        return result
+    return NotRecorded("gap-in-record", since=ride.gaps[0][0], until=ride.gaps[-1][1])

@@ -1,0 +1,59 @@
+"""Factual: the explainers of what was, is and is expected, by type of question or act."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.meaning import (
+    Claim,
+    Doing,
+    Fault,
+    Feel,
+    HowLong,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Request,
+    Summarise,
+    When,
+    Where,
+    Whether,
+    Which,
+    Whither,
+)
+from xavi_dialogue.explain.answers.accounts import listing, summarise
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.beliefs import how_sure
+from xavi_dialogue.explain.answers.counting import how_many
+from xavi_dialogue.explain.answers.durations import how_long
+from xavi_dialogue.explain.answers.happenings import doing, when
+from xavi_dialogue.explain.answers.identify import identify, which
+from xavi_dialogue.explain.answers.measures import how_much
+from xavi_dialogue.explain.answers.places import where, whither
+from xavi_dialogue.explain.answers.priority import fault
+from xavi_dialogue.explain.answers.talk import feel, request
+from xavi_dialogue.explain.answers.verdicts import claim, whether
+
+Explainer: TypeAlias = Callable[[Any, Asked], Answer]
+
+#: By type of question; those after reasons, suppositions and decisions are in `causal`.
+QUESTIONS: Mapping[type, Explainer] = {
+    Whether: whether,
+    Which: which,
+    Identify: identify,
+    HowMuch: how_much,
+    HowMany: how_many,
+    HowLong: how_long,
+    When: when,
+    Where: where,
+    Whither: whither,
+    Doing: doing,
+    Listing: listing,
+    Summarise: summarise,
+    HowSure: how_sure,
+    Fault: fault,
+}
+#: By type of act beside `Ask`.
+ACTS: Mapping[type, Explainer] = {Claim: claim, Request: request, Feel: feel}

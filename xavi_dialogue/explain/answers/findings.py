@@ -1,0 +1,54 @@
+"""Findings: what came of weighing a proposition against the record."""
+
+from dataclasses import dataclass, replace
+
+from xavi_dialogue.domain.answers import Answer, Verdict
+from xavi_dialogue.domain.facts import Belief, Fact, Gap, Measure
+from xavi_dialogue.domain.terms import Proposition
+
+EXPECTED = 0.5  # probability from which something is expected
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Whether a proposition holds, and what bears it out, is so instead, or hides it."""
+
+    holds: bool | None
+    facts: tuple[Fact, ...] = ()
+    gap: Gap | None = None
+    believed: tuple[Belief, ...] = ()
+    mistaken: bool = False
+    probability: float | None = None
+    answer: Answer | None = None  # one of another type that says it better
+
+    def negated(self) -> "Finding":
+        """Give the finding of the contrary."""
+        probability = None if self.probability is None else 1.0 - self.probability
+        holds = None if self.holds is None else not self.holds
+        return replace(self, holds=holds, probability=probability, answer=None)
+
+    def verdict(
+        self, that: Proposition, *, claim: bool = False, challenge: bool = False
+    ) -> Verdict:
+        """Give the finding as an answer."""
+        return Verdict(
+            that, self.holds, self.facts, self.gap, claim, challenge,
+            self.believed, self.mistaken, self.probability,
+        )  # fmt: skip
+
+
+def unknown(gap: Gap, *facts: Fact) -> Finding:
+    """Say that nothing can be told, for a reason."""
+    return Finding(None, facts, gap)
+
+
+def expected(probability: float | None, *facts: Fact, believed: tuple[Belief, ...] = ()) -> Finding:
+    """Tell what is still to come, by how probable it is."""
+    if probability is None:
+        return Finding(None, facts, "in-future", believed)
+    return Finding(probability >= EXPECTED, facts, None, believed, probability=probability)
+
+
+def known(*measures: Measure) -> tuple[Measure, ...]:
+    """Keep those measures that have a value."""
+    return tuple(m for m in measures if m.gap is None)

@@ -1,0 +1,183 @@
+"""Foreseen: how probable an event was for the car at a time, by its beliefs and its plan."""
+
+from planner.trace import Action, HeldUp, TrajectoryPrediction
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation
+from xavi_dialogue.domain.terms import Event, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.naming import is_us, number
+from xavi_dialogue.explain.answers.occasions import overlaps
+from xavi_dialogue.explain.history.motion import foresees
+from xavi_dialogue.explain.history.ride import planned, prediction
+
+EXPECTED = 0.5  # probability from which something was expected
+MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
+CLEAR = 0.6  # from which one may be said to have been wrong
+BEFORE = 10.0  # [s] before an event that a prediction of it can be from
+
+#: The macro actions that an action of a question is foreseen by, sides apart.
+TURNING: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
+MEANINGS: dict[ActionName, tuple[Action, ...]] = {
+    "continue": ("continue", "exit-straight"),
+    "exit-straight": ("continue", "exit-straight"),
+    "keep-lane": ("continue",),
+    "turn": ("exit-left", "exit-right"),
+    "leave": ("exit-left", "exit-right", "exit-straight"),
+    "change-lane": ("change-left", "change-right"),
+    "cut-in": ("change-left", "change-right"),
+    "merge": ("change-left", "change-right"),
+    "overtake": ("change-left", "change-right"),
+}
+HALTS: frozenset[ActionName] = frozenset(("stop", "stand", "wait"))
+STARTS: frozenset[ActionName] = frozenset(("go", "move", "pull-out", "enter", "cross"))
+#: What is meant of somebody who does so before us.
+CROSSING: frozenset[ActionName] = frozenset(("pull-out", "enter", "cross"))
+YIELDS: frozenset[ActionName] = frozenset(("give-way", "let-go", "wait"))
+
+
+def chance(asked: Asked, event: Event, at: float) -> float | None:
+    """Tell how probable it was at a time [s] that a vehicle does something; None: unknown."""
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return None
+    if event.action in ("collide", "nearly-collide"):
+        return collision_chance(asked, at, vehicle)
+    trace = asked.ride.at(at, vehicle)
+    known = None if trace is None else prediction(trace, vehicle)
+    if trace is None or known is None:
+        return None
+    total, any_known = 0.0, False
+    for goal in known.goals:
+        for way in goal.trajectories:
+            does = foretells(way, event)
+            if does is None:
+                continue
+            any_known = True
+            total += goal.probability * way.probability if does else 0.0
+    return min(total, 1.0) if any_known else None
+
+
+def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
+    """Tell whether a predicted way contains an event; None where ways tell nothing of such."""
+    action = sided(event)
+    if action in YIELDS:
+        return _yields(way.held_up, event) or (action == "wait" and foresees(way, "stop"))
+    if action in ("stop", "stand"):
+        return foresees(way, "stop")
+    if action == "brake":
+        return foresees(way, "slow-down")
+    if action in ("slow-down", "speed-up"):
+        return foresees(way, action)
+    if action in CROSSING and _yields(way.held_up, event):
+        return False  # it goes after us
+    if action in STARTS:
+        return (
+            None
+            if not way.speed
+            else max(way.speed) >= way.speed[0] + MOVING
+            or (way.speed[0] >= MOVING and not foresees(way, "stop"))
+        )
+    return contains(way.actions, event)
+
+
+def contains(actions: tuple[Action, ...], event: Event) -> bool | None:
+    """Tell whether actions are of such an event; leaving means at the next exit. None: unknown."""
+    names = macros(event)
+    if sided(event) != event.action or event.action != "leave":
+        return any(step in names for step in actions) if names else None
+    return next((step in names for step in actions if step != "continue"), False)
+
+
+def macros(event: Event) -> tuple[Action, ...]:
+    """Give the macro actions that an event stands for, its side considered; () for all else."""
+    action = sided(event)
+    if action in MEANINGS:
+        return MEANINGS[action]
+    own: dict[str, Action] = {a: a for a in ("change-left", "change-right", "stop", *TURNING)}
+    return (own[action],) if action in own else ()
+
+
+def sided(event: Event) -> ActionName:
+    """Give the action with the side that was said put into it."""
+    if event.action in ("turn", "leave") and event.side is not None:
+        sides: dict[str, ActionName] = {
+            "left": "exit-left", "right": "exit-right", "straight": "exit-straight"
+        }  # fmt: skip
+        return sides[event.side]
+    if event.action in ("change-lane", "overtake", "merge") and event.side in ("left", "right"):
+        return "change-left" if event.side == "left" else "change-right"
+    return event.action
+
+
+def matches(expected: Expectation, event: Event) -> bool | None:
+    """Tell whether an expectation is of such an event; None where its actions do not tell."""
+    return contains(expected.actions, event)
+
+
+def belief_before(asked: Asked, event: Event, came: Episode | None, at: float) -> Belief | None:
+    """Tell what was believed of the actor just before an event; else at a time [s]."""
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return None
+    return asked.world.belief(vehicle, came.begin if came is not None else at)
+
+
+def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belief | None:
+    """Give the last belief up to an event that it contradicts: what was expected was not what came.
+
+    Args:
+        asked: the act and its setting.
+        event: what came, or what was asked about and did not come.
+        about: when.
+        came: whether it did.
+    """
+    vehicle = number(event.actor)
+    if vehicle is None or not macros(event):
+        return None
+    known = asked.world.beliefs(vehicle, max(about.begin - BEFORE, asked.world.begin), about.end)
+    for belief in reversed(known):
+        first = belief.expectations[0] if belief.expectations else None
+        if first is None or first.probability < CLEAR:
+            continue
+        same = matches(first, event)
+        if same is not None and same != came:
+            return belief
+    return None
+
+
+def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
+    """Tell what a vehicle did first after a time [s] that tells where it went."""
+    ways: tuple[ActionName, ...] = (
+        "exit-left",
+        "exit-right",
+        "exit-straight",
+        "change-left",
+        "change-right",
+        "stop",
+    )
+    found = asked.world.episodes(actor=Vehicle(vehicle), actions=ways, begin=since)
+    later = [e for e in found if e.begin >= since - 0.5 or overlaps(asked, e, Window(since, since))]
+    return min(later, key=lambda e: (ways.index(e.action) > 2, e.begin), default=None)
+
+
+def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> float | None:
+    """Tell how probable a collision was under the plan at a time [s]; None: nothing was tried."""
+    trace = asked.ride.at(at)
+    if trace is None:
+        return None
+    model, plan = asked.ride.model(trace), planned(trace)
+    for length in range(len(plan), 0, -1):
+        found = model.intervene(plan[:length])
+        if found is not None:
+            if vehicle is not None:
+                return min(found.collisions().get(vehicle, 0.0), 1.0)
+            return min(found.outcomes["collision"], 1.0)
+    return None
+
+
+def _yields(stretches: tuple[HeldUp, ...], event: Event) -> bool:
+    """Tell whether it gives way on such a way: to the object, or to us where none is said."""
+    whom = EGO if event.object is None or is_us(event.object) else number(event.object)
+    return any(s.how == "right-of-way" and s.vehicle == whom for s in stretches)

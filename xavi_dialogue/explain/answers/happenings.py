@@ -1,0 +1,201 @@
+"""Happenings: when something came, and what somebody does, did or will do."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import (
+    Activity,
+    Answer,
+    Happenings,
+    Identified,
+    Measures,
+    NotRecorded,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Episode, Fact, Look, Measure
+from xavi_dialogue.domain.meaning import Doing, When
+from xavi_dialogue.domain.terms import (
+    At,
+    Ego,
+    Event,
+    Happens,
+    Not,
+    Proposition,
+    Vehicle,
+)
+from xavi_dialogue.explain.answers.accounts import TOLD, select, summary, taking_part
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.findings import known as valued
+from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, window
+from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
+from xavi_dialogue.explain.answers.occasions import (
+    PLAIN,
+    did_not_happen,
+    duration,
+    occasion,
+)
+from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.weighing import weigh
+
+
+def when(question: When, asked: Asked) -> Answer:
+    """Tell when something came, or is going to.
+
+    Raises:
+        Unanswered: it did not happen and is not going to.
+    """
+    of = question.of.content if isinstance(question.of, Not) else question.of
+    if not isinstance(of, Happens):
+        return _first_held(of, asked)
+    event = of.event
+    if event.action == "arrive" and is_us(event.actor) and not asked.ride.arrived:
+        arrival = asked.world.measure("arrival-time", Ego(), asked.now)
+        return Measures(valued(arrival) or (time_to_go(asked, asked.now),))
+    ahead = is_ahead(asked, event.time, event.tense)
+    under_way = occasion(asked, replace(event, tense="present")) if ahead else None
+    if ahead and under_way is None:
+        return _to_come(asked, of)
+    found = under_way or occasion(asked, event)
+    if found is None:
+        raise did_not_happen(asked, event, planned=_planned(asked, event))
+    form: Literal["how-long", "when"] = "how-long" if question.edge == "end" else "when"
+    return Happenings(
+        form, (found,), found.actor, looks=taking_part(asked, (found,)), asked=event,
+        measures=_until(asked, found) if question.edge == "end" else (),
+    )  # fmt: skip
+
+
+def doing(question: Doing, asked: Asked) -> Answer:
+    """Tell what somebody is doing, did at a time, or will do next; or what happened.
+
+    Raises:
+        Unanswered: it is unknown, or not in the record.
+    """
+    if question.actor is None:
+        about = window(asked, question.time, question.tense)
+        if question.tense == "present" and about.end >= asked.now:
+            return activity(asked, Ego(), asked.now)
+        return summary(asked, None, about)
+    ahead = is_ahead(asked, question.time, question.tense)
+    at = asked.now if ahead else instant(asked, question.time, question.tense)
+    who = somebodies(asked, question.actor, at)
+    if not who:
+        raise Unanswered(NotRecorded("not-recorded", question.actor, about="doing"))
+    if len(who) > 1:
+        return _several(asked, who, at)
+    if ahead and is_us(who[0]):
+        return plan_ahead(asked)
+    about = window(asked, question.time, question.tense)
+    if question.tense in ("past",) and not about.instant and not ahead:
+        return _did(asked, who[0], about)
+    return activity(asked, who[0], at)
+
+
+def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
+    """Tell what somebody is doing at a time [s], how fast, and what it is expected to do."""
+    world = asked.world
+    on = [
+        e
+        for e in world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
+        if e.begin <= at + 0.1 and (e.end is None or e.end >= at - 0.3)
+    ]
+    if not on and isinstance(actor, Ego):
+        on = [
+            e
+            for e in world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
+            if e.action == "continue"
+        ]
+    speed = world.measure("speed", actor, at)
+    vehicle = number(actor)
+    motion = asked.ride.motion(0 if vehicle is None else vehicle)
+    trend = motion.until(at).trend
+    look = look_of(asked, actor, at)
+    belief = None if vehicle is None else world.belief(vehicle, at)
+    lost = look is not None and not look.in_view
+    return Activity(
+        actor, at, () if lost else tuple(on), None if lost else speed.value,
+        None if lost else trend, look, belief,
+    )  # fmt: skip
+
+
+def _to_come(asked: Asked, of: Happens) -> Answer:
+    """Tell when something is to come: by our plan; of others there is only how probable it is."""
+    event = of.event
+    if is_us(event.actor):
+        found = foreseen(asked, event)
+        if found is None or found.share < 0.5:
+            past = occasion(asked, replace(event, tense="past"))
+            raise (
+                did_not_happen(asked, event)
+                if past is None
+                else did_not_happen(asked, replace(event, tense="future"))
+            )
+        time = Measure(
+            "time", Ego(), asked.now, value=max(found.moment, asked.now),
+            low=max(found.low, asked.now), high=max(found.high, asked.now),
+        )  # fmt: skip
+        return Verdict(of, True, (time,), probability=found.share, either=True)
+    vehicle = number(event.actor)
+    share = chance(asked, event, asked.now)
+    belief = None if vehicle is None else asked.world.belief(vehicle, asked.now)
+    return Verdict(
+        of, None, gap="in-future", believed=() if belief is None else (belief,), probability=share
+    )
+
+
+def _planned(asked: Asked, event: Event) -> float | None:
+    """Tell when [s] our plan comes to an event that has not happened; None where it does not."""
+    found = foreseen(asked, event) if is_us(event.actor) and asked.past is None else None
+    return None if found is None or found.share < 0.5 else max(found.moment, asked.now)
+
+
+def _first_held(of: Proposition, asked: Asked) -> Answer:
+    """Tell when a state or relation held first, of the moments at which we decided."""
+    about = window(asked)
+    for trace in asked.ride.traces:
+        at = trace.sim_time
+        if not about.begin - SHORT <= at <= about.end:
+            continue
+        moment = replace(of, time=At(at)) if hasattr(of, "time") else of
+        found = weigh(moment, asked)
+        if found.holds:
+            return Verdict(moment, True, found.facts)
+    return Verdict(of, False)
+
+
+def _until(asked: Asked, episode: Episode) -> tuple[Measure, ...]:
+    """Tell when an episode ended, or how long it goes on still."""
+    return (
+        Measure(
+            "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
+            until=episode.end, at_least=episode.end is None,
+        ),
+    )  # fmt: skip
+
+
+def _did(asked: Asked, actor: Ego | Vehicle, about: Window) -> Answer:
+    """Tell what somebody did in a stretch of the ride."""
+    begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
+    told = [e for e in asked.world.account(begin, end) if e.actor == actor]
+    told = told or list(asked.world.episodes(actor=actor, begin=begin, end=end))
+    chosen = select(asked, [e for e in told if e.action not in PLAIN] or told, TOLD)
+    looks = taking_part(asked, chosen)
+    if not looks and isinstance(actor, Vehicle):
+        look = first_look(asked, actor.number, begin)
+        looks = () if look is None else (look,)
+    return Happenings("doing", chosen, actor, begin, end, looks=looks)
+
+
+def _several(asked: Asked, who: Sequence[Ego | Vehicle], at: float) -> Answer:
+    """Tell what several are doing: how each looks, with its speed and what it is about."""
+    looks: list[Look] = []
+    facts: list[Fact] = []
+    for actor in who:
+        found = activity(asked, actor, at)
+        looks += [] if found.look is None else [found.look]
+        facts += [*valued(asked.world.measure("speed", actor, at)), *found.doing[-1:]]
+    return Identified(tuple(looks), facts=tuple(facts))

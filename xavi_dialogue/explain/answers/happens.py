@@ -1,0 +1,286 @@
+"""Happens: whether an event happened, goes on, or is to come."""
+
+from msgspec.structs import replace as with_fields
+
+from xavi_dialogue.domain.answers import Located
+from xavi_dialogue.domain.facts import Episode, Fact, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Exit, Happens, Vehicle
+from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.closeness import closeness
+from xavi_dialogue.explain.answers.findings import Finding, expected, known, unknown
+from xavi_dialogue.explain.answers.foreseen import (
+    HALTS,
+    YIELDS,
+    belief_before,
+    chance,
+    collision_chance,
+    macros,
+    wrong_belief,
+)
+from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
+from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
+from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
+from xavi_dialogue.explain.answers.places import to_go, told
+from xavi_dialogue.explain.answers.plans import foreseen
+
+#: What a driver does for another one whom he sees.
+KIND: tuple[ActionName, ...] = (
+    "give-way",
+    "let-go",
+    "wait",
+    "slow-down",
+    "brake",
+    "stop",
+    "swerve",
+)
+SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
+
+
+def happens(of: Happens, asked: Asked) -> Finding:
+    """Weigh that an event happened, happens or will happen.
+
+    Raises:
+        Unanswered: it is of a vehicle that was never seen.
+    """
+    event = of.event
+    somebodies(asked, event.actor, asked.now)
+    if event.action in BEYOND and event.action != "u-turn" and not is_us(event.actor):
+        return unknown("not-sensed")
+    if event.action == "see":
+        return _sees(asked, event)
+    if event.action == "arrive" and is_us(event.actor):
+        return _arrived(asked, event)
+    if event.action == "block" and is_us(event.actor) and number(event.object) is None:
+        return _blocks(asked, event)
+    if event.action in ("collide", "nearly-collide"):
+        return _collides(asked, event)
+    if is_ahead(asked, event.time, event.tense):
+        return _to_come(asked, event)
+    return _has_been(asked, event)
+
+
+def _has_been(asked: Asked, event: Event) -> Finding:
+    """Tell what happened, or goes on: with the episode, or with what the actor did instead."""
+    found = occasion(asked, event)
+    about = window(asked, event.time, event.tense)
+    if found is not None:
+        spent = Window(found.begin, asked.now if found.end is None else found.end)
+        wrong = wrong_belief(asked, event, spent, came=True)
+        before = belief_before(asked, event, found, found.begin) if macros(event) else None
+        shown = wrong if wrong is not None else before
+        return Finding(
+            True, (found,), None, () if shown is None else (shown,), wrong is not None,
+        )  # fmt: skip
+    lost = _lost(asked, event, about)
+    if lost is not None:
+        return lost
+    wrong = wrong_belief(asked, event, about, came=False) if _was_to_tell(asked, event) else None
+    facts: tuple[Fact, ...] = instead(asked, event, about)
+    if event.tense == "present" or not facts:
+        facts = (*_under_way(asked, event, about), *_speeds(asked, event, about)) or facts
+    believed = () if wrong is None else (wrong,)
+    return Finding(False, facts, None, believed, wrong is not None)
+
+
+def _to_come(asked: Asked, event: Event) -> Finding:
+    """Tell what is to come: by the plan of ours, or by what is believed of the other."""
+    now = asked.now
+    present = with_fields(event, tense="present")
+    under_way = occasion(asked, present)
+    going: tuple[Fact, ...] = () if under_way is None else (under_way,)
+    if is_us(event.actor):
+        if asked.ride.arrived or asked.ride.ended:
+            return Finding(False, going)
+        other = _other_exit(asked, event)
+        if other is not None:
+            return Finding(False, (other,))
+        found = foreseen(asked, event)
+        if found is None and event.action in ("continue", "keep-lane"):
+            moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
+            remains = 1.0 - max((f.share for f in moves if f is not None), default=0.0)
+            return expected(remains, *going)
+        if found is None:
+            return Finding(False, going, probability=0.0)
+        begins = Measure(
+            "time", event.actor, now, value=found.moment, low=found.low, high=found.high
+        )
+        return expected(found.share, *going, begins)
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return _anybody(asked, event)
+    look = look_of(asked, event.actor, now)
+    belief = asked.world.belief(vehicle, now)
+    share = chance(asked, event, now)
+    if look is not None and not look.in_view:
+        return Finding(None, (look,), "out-of-view", () if belief is None else (belief,))
+    facts = (*going, *(() if look is None else (look,)))
+    return expected(share, *facts, believed=() if belief is None else (belief,))
+
+
+def _other_exit(asked: Asked, event: Event) -> Measure | None:
+    """Give the exit that we take, where another one was asked about."""
+    if not isinstance(event.object, Exit) or event.object.rank is None:
+        return None
+    taken = asked.world.measure("exit-number", Ego(), asked.now)
+    if taken.value is None or taken.count is None or taken.value == event.object.rank:
+        return None
+    return taken
+
+
+def _anybody(asked: Asked, event: Event) -> Finding:
+    """Tell what is to come of any of several vehicles: the likeliest of them counts."""
+    found = [
+        (share, v)
+        for v in somebodies(asked, event.actor, asked.now)
+        if isinstance(v, Vehicle)
+        and (share := chance(asked, with_fields(event, actor=v), asked.now)) is not None
+    ]
+    if not found:
+        return expected(None)
+    share, who = max(found, key=lambda one: one[0])
+    look = look_of(asked, who, asked.now)
+    return expected(share, *(() if look is None else (look,)))
+
+
+def _sees(asked: Asked, event: Event) -> Finding:
+    """Tell whether we saw somebody; of others it can only be told how they behaved towards us."""
+    if is_us(event.actor):
+        vehicle = number(event.object)
+        at = window(asked, event.time, event.tense).end
+        if vehicle is None:
+            seen = somebodies(asked, event.object, at)
+            return Finding(bool(seen)) if seen else unknown("not-sensed")
+        first = first_look(asked, vehicle, asked.world.begin)
+        now = asked.world.look(vehicle, at)
+        if event.tense == "present" and now is not None:
+            lost = Located(Vehicle(vehicle), (now,), gap="out-of-view")
+            return Finding(now.in_view, (now,), answer=None if now.in_view else lost)
+        return Finding(first is not None and first.time <= at, () if first is None else (first,))
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return unknown("others-thoughts")
+    return others_mind(asked, vehicle)
+
+
+def others_mind(asked: Asked, vehicle: int) -> Finding:
+    """Tell what bears on what a driver knows of us: what he did for us, and where he was."""
+    behaved = [
+        e
+        for e in asked.world.episodes(actor=Vehicle(vehicle), actions=KIND)
+        if e.action in ("slow-down", "brake", "stop") or isinstance(e.object, Ego)
+    ]
+    for_us = [e for e in behaved if isinstance(e.object, Ego)]
+    look = asked.world.look(vehicle, asked.now)
+    facts: tuple[Fact, ...] = (*(for_us or behaved)[-1:], *(() if look is None else (look,)))
+    return unknown("others-thoughts", *facts)
+
+
+def _arrived(asked: Asked, event: Event) -> Finding:
+    """Tell whether we are there, or are going to be."""
+    if is_ahead(asked, event.time, event.tense) and not asked.ride.arrived:
+        found = foreseen(asked, event)
+        facts = told(to_go(asked, asked.now))
+        return Finding(True if found is None else found.share >= 0.5, facts)
+    if asked.ride.arrived:
+        times = [e.sim_time for e in asked.ride.events if e.kind == "arrived"]
+        return Finding(True, (Episode(Ego(), "arrive", times[0], times[0]),))
+    return Finding(False, told(to_go(asked, asked.now)))
+
+
+def _collides(asked: Asked, event: Event) -> Finding:
+    """Tell whether there was a collision, nearly was one, or may be."""
+    vehicle = number(event.actor) or number(event.object)
+    about = window(asked, event.time, event.tense)
+    ahead = is_ahead(asked, event.time, event.tense) or event.tense == "present"
+    crash = occasion(asked, Event("collide", Ego(), event.object, time=event.time))
+    if crash is not None and event.action == "collide":
+        return Finding(True, (crash,))
+    near = Window(asked.now, asked.now) if ahead else about
+    answer = closeness(asked, vehicle, near, "hit", past=not ahead)
+    risk = collision_chance(asked, asked.now, vehicle) if ahead else None
+    holds = None if event.action == "nearly-collide" else False
+    if ahead and risk is not None:
+        holds = risk >= 0.5
+    facts = known(answer.closest) if answer.closest is not None else ()
+    found = Finding(holds, facts, probability=risk)
+    plain = event.action == "collide" and not ahead
+    return found if plain else Finding(holds, facts, probability=risk, answer=answer)
+
+
+def _blocks(asked: Asked, event: Event) -> Finding:
+    """Tell whether we stood inside a junction."""
+    about = window(asked, event.time, event.tense)
+    stood = [
+        e
+        for e in asked.world.episodes(actor=Ego(), actions=("stop", "stand"))
+        if e.standing and (event.tense != "present" or e.end is None)
+    ]
+    if not any(trace.road is not None for trace in asked.ride.traces):
+        return unknown("not-recorded", *stood[-1:])
+    for episode in stood:
+        road = asked.world.road(asked.now if episode.end is None else episode.end)
+        place = None if road is None else road.places.get(0)
+        if place is not None and place.in_junction and overlaps(asked, episode, about.widened()):
+            return Finding(True, (episode,))
+    return Finding(False)
+
+
+def _lost(asked: Asked, event: Event, about: Window) -> Finding | None:
+    """Tell that it cannot be told, as it was not in view or the record has a hole there."""
+    for begin, end in asked.ride.gaps:
+        if begin <= about.end and end >= about.begin:
+            return unknown("gap-in-record")
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return None
+    look = asked.world.look(vehicle, about.end)
+    if look is None:
+        first = first_look(asked, vehicle, about.end)
+        return unknown("out-of-view", *(() if first is None else (first,)))
+    here = look.in_view or (look.seen is not None and look.seen >= about.begin - SHORT)
+    if here or not about.instant:
+        return None
+    past = instead(asked, event, about)
+    return unknown("out-of-view", look, *past[:1])
+
+
+def _was_to_tell(asked: Asked, event: Event) -> bool:
+    """Tell whether the vehicle has since done what tells where it went."""
+    vehicle = number(event.actor)
+    if vehicle is None:
+        return False
+    ways: tuple[ActionName, ...] = (
+        "exit-left",
+        "exit-right",
+        "exit-straight",
+        "change-left",
+        "change-right",
+        "stop",
+    )
+    return bool(asked.world.episodes(actor=Vehicle(vehicle), actions=ways))
+
+
+def _under_way(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:
+    """Tell what the actor is about at that time."""
+    who = somebodies(asked, event.actor, about.end)
+    near = about.widened(0.5)
+    return tuple(
+        e
+        for actor in who[:1]
+        for e in asked.world.episodes(actor=actor, begin=near.begin, end=near.end)
+        if e.action not in (event.action, "signal") and (e.end is None or e.end >= about.end - 0.5)
+    )[-2:]
+
+
+def _speeds(asked: Asked, event: Event, about: Window) -> tuple[Measure, ...]:
+    """Give the speed of the actor, where the event is about how fast it drives."""
+    who = somebodies(asked, event.actor, about.end)
+    if event.action not in SPEEDS or not who:
+        return ()
+    return known(asked.world.measure("speed", who[0], about.end))
+
+
+def happened(asked: Asked, event: Event) -> bool:
+    """Tell whether there was such an event at any time so far."""
+    return bool(occasions(asked, event))

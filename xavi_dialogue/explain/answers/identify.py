@@ -1,0 +1,304 @@
+"""Identify: who or what a thing is, and who it is of whom something holds."""
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from msgspec.structs import fields, replace
+
+from xavi_dialogue.domain.answers import Answer, DidNotHappen, Identified, Located, Priority
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.facts import Episode, Fact, Look, Relating
+from xavi_dialogue.domain.meaning import Identify, Which
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Is,
+    Nobody,
+    Passenger,
+    Proposition,
+    Related,
+    Thing,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Kind
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import time_of
+from xavi_dialogue.explain.answers.findings import Finding, known
+from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, window
+from xavi_dialogue.explain.answers.naming import (
+    check_sense,
+    first_look,
+    looks,
+    of_kind,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, occasions, overlaps
+from xavi_dialogue.explain.answers.places import locate
+from xavi_dialogue.explain.answers.weighing import weigh
+
+Term = TypeVar("Term", bound=Value)
+MOST = 4  # vehicles of whom it is told what they do
+BESIDE = 2.0  # [m] sideways from which somebody is in another lane
+REACH = 30.0  # [m] behind us from which somebody is about to pass
+GOING: tuple[ActionName, ...] = ("go", "move", "enter", "cross", "turn", "continue")
+LATELY = 10.0  # [s] for which one that was lost from view may still be around
+LIKELY = 0.3  # probability from which somebody may be meant by who is going to do something
+
+
+def identify(question: Identify, asked: Asked) -> Answer:
+    """Tell what a thing is: how it looks, where it is and what it is doing.
+
+    Raises:
+        Unanswered: it is unknown.
+    """
+    check_sense(question.thing)
+    return identified(asked, question.thing, asked.moment)
+
+
+def identified(asked: Asked, thing: Thing, at: float) -> Answer:
+    """Tell who or what a thing is at a time [s].
+
+    Raises:
+        Unanswered: it is unknown.
+    """
+    match thing:
+        case Nobody():
+            return Identified((), none=True)
+        case Vehicle() | Vehicles() | Everyone():
+            who = somebodies(asked, thing, at)
+            numbers = tuple(v.number for v in who if isinstance(v, Vehicle))
+            seen = tuple(x for v in numbers if (x := first_look(asked, v, at)) is not None)
+            return Identified(seen, facts=_conduct(asked, numbers, at), none=not seen)
+        case Ego() | Passenger():
+            return Identified((), facts=known(asked.world.measure("speed", Ego(), at)))
+    return locate(asked, thing, at)
+
+
+def which(question: Which, asked: Asked) -> Answer:
+    """Tell of whom something holds, held or will hold.
+
+    Raises:
+        Unanswered: it takes for granted what did not happen.
+    """
+    such = question.such
+    if such is None:
+        return identified(asked, question.thing, asked.moment)
+    if isinstance(such, Happens) and "first" in such.event.manner and such.event.action in GOING:
+        such = Is("first", such.event.actor, time=such.event.time, tense=_tense(such.event))
+    if isinstance(such, Happens) and not is_ahead(asked, such.event.time, such.event.tense):
+        return _who_did(question, such, asked)
+    return _who_is(question, such, asked)
+
+
+def _who_did(question: Which, such: Happens, asked: Asked) -> Answer:
+    """Find of whom an event is known: by its episodes of the time asked about."""
+    event = _open(such.event)
+    found = [
+        (e, who)
+        for candidate in _candidates(question, asked, ever=True)
+        for e, who in _told(asked, event, candidate)
+    ]
+    about = window(asked, event.time, event.tense)
+    if event.tense == "present" and about.end >= asked.now:
+        about = Window(asked.now, asked.now)
+    near = about.widened() if about.instant else about
+    inside = [(e, who) for e, who in found if overlaps(asked, e, near)]
+    said = asked.past is not None and asked.past.said
+    picked = inside or ([] if said or event.tense == "present" else found)
+    if not picked:
+        return _nobody(question, such, asked)
+    picked.sort(key=lambda pair: pair[0].begin)
+    ours = any(isinstance(who, Ego) for _, who in picked)
+    numbers = dict.fromkeys(who.number for _, who in picked if isinstance(who, Vehicle))
+    seen = {v: next(e for e, who in picked if who == Vehicle(v)).begin for v in numbers}
+    shown = (first_look(asked, v, at) for v, at in seen.items())
+    facts: tuple[Fact, ...] = tuple(e for e, _ in picked)
+    return Identified(
+        tuple(x for x in shown if x is not None), such, facts, none=not numbers and not ours
+    )
+
+
+def _told(
+    asked: Asked, event: Event, candidate: Ego | Vehicle
+) -> list[tuple[Episode, Ego | Vehicle]]:
+    single = _substituted(event, candidate)
+    if single.actor == single.object:
+        return []
+    return [(e, candidate) for e in occasions(asked, single)]
+
+
+def _nobody(question: Which, such: Proposition, asked: Asked) -> Answer:
+    """Tell that nobody did, with what the one who is named did."""
+    event = such.event if isinstance(such, Happens) else None
+    if event is not None and isinstance(event.actor, Ego) and _wants(event.object):
+        alone = replace(event, object=None)
+        done = occasion(asked, alone)
+        if done is None:
+            mine = asked.world.episodes(actor=Ego())
+            told = tuple(e for e in mine if e.action not in PLAIN)[-1:]
+            raise Unanswered(DidNotHappen(alone, told))
+        return Identified((), such, (done,), none=True)
+    if event is not None and event.action in ("pass", "overtake") and _wants(event.actor):
+        near = _coming_past(asked)
+        return Identified(near, such, _conduct(asked, _numbers(near), asked.now), none=not near)
+    return Identified((), such, none=True)
+
+
+def _coming_past(asked: Asked) -> tuple[Look, ...]:
+    """Tell who is about to pass us, or does, in another lane: the nearest of them."""
+    ours = asked.world.measure("speed", Ego(), asked.now).value or 0.0
+    found = [
+        look
+        for look in looks(asked, asked.world.in_view(asked.now), asked.now)
+        if abs(look.left) > BESIDE
+        and look.ahead <= look.length
+        and look.ahead >= -REACH
+        and (look.oncoming or look.speed > ours + 0.5)
+        and not look.bearing.startswith("crossing")
+    ]
+    return tuple(sorted(found, key=lambda look: look.distance))[:1]
+
+
+def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
+    return tuple(look.vehicle for look in seen)
+
+
+def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
+    """Find of whom a state or relation holds, or who is likeliest to do something."""
+    at = instant(asked, time_of(such), "present")
+    ahead = isinstance(such, Happens)
+    unseen = isinstance(such, Is) and such.state in ("hidden", "lost")
+    found: list[tuple[float, Ego | Vehicle, Finding]] = []
+    for candidate in _candidates(question, asked, ever=unseen):
+        try:
+            one = weigh(_substituted(such, candidate), asked)
+        except Unanswered:
+            continue
+        if isinstance(one.answer, Priority):
+            return one.answer
+        chance = one.probability if one.probability is not None else float(bool(one.holds))
+        if one.holds or (ahead and chance >= LIKELY):
+            found.append((chance, candidate, one))
+    found.sort(key=lambda entry: -entry[0])
+    numbers = tuple(who.number for _, who, _ in found if isinstance(who, Vehicle))
+    seen = _extreme(question.thing, looks(asked, numbers, at))
+    if unseen:
+        lost = tuple(x for x in seen if _lost(asked, x))
+        if lost:
+            return Located(Vehicles(_numbers(lost)), lost, gap="out-of-view")
+        return Identified((), such, none=True)
+    if isinstance(such, Related):
+        seen = _plainest(such, seen)
+    facts = tuple(f for _, _, one in found for f in (*one.facts, *one.believed))
+    shown = {look.vehicle for look in seen}
+    facts = tuple(f for f in facts if not isinstance(f, Look | Relating))
+    if isinstance(such, Related):
+        facts = _conduct(asked, tuple(shown)[:1], at) or facts
+    ours = any(isinstance(who, Ego) for _, who, _ in found)
+    return Identified(seen, such, facts[: 2 * MOST], none=not seen and not ours)
+
+
+def _extreme(thing: Thing, seen: tuple[Look, ...]) -> tuple[Look, ...]:
+    """Keep the nearest, fastest, biggest of them, where the description wants one."""
+    wanted = thing.extreme if isinstance(thing, Described) else None
+    if wanted is None or not seen:
+        return seen
+    keys: dict[str, Callable[[Look], float]] = {
+        "nearest": lambda look: look.distance,
+        "farthest": lambda look: -look.distance,
+        "fastest": lambda look: -look.speed,
+        "slowest": lambda look: look.speed,
+        "biggest": lambda look: -look.length,
+    }
+    return (min(seen, key=keys[wanted]),)
+
+
+def _lost(asked: Asked, look: Look) -> bool:
+    """Tell whether a vehicle is hidden, or was lost a short while ago."""
+    if look.in_view or look.seen is None:
+        return False
+    shown = asked.world.measure("visibility", Vehicle(look.vehicle), asked.now)
+    return shown.word == "hidden" or look.seen >= asked.now - LATELY
+
+
+def _plainest(such: Related, seen: tuple[Look, ...]) -> tuple[Look, ...]:
+    """Choose of those at a place who is straight there, if anybody is; the nearest first."""
+    bearing = {"ahead-of": "ahead", "behind": "behind"}.get(such.relation)
+    straight = [look for look in seen if look.bearing == bearing]
+    return tuple(sorted(straight or seen, key=lambda look: look.distance))
+
+
+def _candidates(question: Which, asked: Asked, *, ever: bool) -> tuple[Ego | Vehicle, ...]:
+    """Find who may be meant: those of the kind asked for; ours too where no kind is said."""
+    thing, world = question.thing, asked.world
+    at = asked.moment
+    match thing:
+        case Vehicle() | Vehicles():
+            return somebodies(asked, thing, at)
+        case Wanted(kind=kind) | Everyone(kind=kind) | Described(kind=kind):
+            every = world.vehicles if ever else world.in_view(at)
+            numbers = _of_kind(asked, every, kind, at)
+            colour = thing.colour if isinstance(thing, Described) else None
+            if colour is not None:
+                numbers = tuple(x.vehicle for x in looks(asked, numbers, at) if x.colour == colour)
+            others = tuple(Vehicle(v) for v in numbers)
+            return (*others, Ego()) if kind == "vehicle" else others
+    return tuple(Vehicle(v) for v in world.in_view(at))
+
+
+def _of_kind(asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float) -> tuple[int, ...]:
+    """Keep those of a kind; of a kind that passengers use loosely, any."""
+    strict = of_kind(asked, vehicles, kind, at, strict=True)
+    return strict or of_kind(asked, vehicles, kind, at)
+
+
+def _substituted(term: Term, by: Thing) -> Term:
+    """Give the term with whoever is asked for in the place of `Wanted`."""
+    changed: dict[str, object] = {}
+    for field in fields(term):
+        value = getattr(term, field.name)
+        if isinstance(value, Wanted):
+            changed[field.name] = by
+        elif isinstance(value, tuple) and any(isinstance(x, Value) for x in value):
+            changed[field.name] = tuple(
+                _substituted(x, by) if isinstance(x, Value) else x for x in value
+            )
+        elif isinstance(value, Value):
+            changed[field.name] = _substituted(value, by)
+    return replace(term, **changed) if changed else term
+
+
+def _open(event: Event) -> Event:
+    """An event asked of somebody: without a part that is asked for, its actor is."""
+    parts = (event.actor, event.object)
+    return event if any(_wants(part) for part in parts) else replace(event, actor=Wanted())
+
+
+def _tense(event: Event) -> str:
+    """Give the tense of an event for a state."""
+    return "past" if event.tense in ("past", "perfect") else "present"
+
+
+def _wants(thing: Thing | None) -> bool:
+    return isinstance(thing, Wanted)
+
+
+def _conduct(asked: Asked, numbers: tuple[int, ...], at: float) -> tuple[Fact, ...]:
+    """Tell what each of a few vehicles is doing at a time [s]: its speed, and what is under way."""
+    if len(numbers) > MOST:
+        return ()
+    found: list[Fact] = []
+    for v in numbers:
+        found += known(asked.world.measure("speed", Vehicle(v), at))
+        on = [
+            e
+            for e in asked.world.episodes(actor=Vehicle(v), begin=at - 0.5, end=at)
+            if e.end is None or e.end >= at - 0.5
+        ]
+        found += [e for e in on if e.action not in PLAIN or e.action == "follow"][-1:]
+    return tuple(found)

@@ -1,0 +1,219 @@
+"""Knowing: on what evidence something is believed, how sure the car is, and how it decides."""
+
+from itertools import pairwise
+
+from planner.trace import PlanTrace
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Beliefs,
+    Certainty,
+    Method,
+    NeedRollout,
+    NotRecorded,
+)
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
+from xavi_dialogue.domain.terms import Event, Proposition, Vehicle
+from xavi_dialogue.explain.answers import choices, foils
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.motions import motion
+from xavi_dialogue.explain.answers.reading import (
+    check_seen,
+    event_of,
+    is_own,
+    is_past,
+    subject,
+    unwrapped,
+    vehicle_in,
+)
+from xavi_dialogue.explain.causes import certainty, options
+from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, HALTS, YIELDS
+from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
+from xavi_dialogue.explain.causes.grounds import grounds
+from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, premise
+from xavi_dialogue.explain.history.ride import prediction
+
+MOVED = 0.05  # of probability, from which a belief has moved
+
+
+def how_know(question: HowKnow, scene: Asked) -> Answer:
+    """Tell on what evidence something was believed or decided.
+
+    Of another vehicle, how the belief grew; of a deed of ours, how we came to expect what the
+    vehicle would do because of which we did it, else how we decided.
+
+    Raises:
+        Unanswered: nothing was believed of it; or the record lacks it.
+    """
+    of, _ = unwrapped(question.of)
+    event = event_of(of)
+    vehicle = _whom(scene, of, event)
+    if vehicle is not None:
+        names = () if event is None or is_own(event.actor) else conduct_names(event)
+        return grounds(scene.ride, vehicle, names, scene.moment)
+    held_up = None if event is None else _because_of(event, scene)
+    if held_up is not None:
+        return grounds(scene.ride, held_up, (), scene.moment)
+    return how_decide(HowDecide(of), scene)
+
+
+def how_sure(question: HowSure, scene: Asked) -> Answer:
+    """Tell how probable the car holds something, or how sure it was of what it did.
+
+    Raises:
+        Unanswered: the record lacks it.
+    """
+    of, negated = unwrapped(question.of)
+    event = event_of(of)
+    vehicle = _whom(scene, of, event)
+    if vehicle is not None:
+        return beliefs(scene, vehicle, None if event is None or is_own(event.actor) else event)
+    return certain(scene, event, negated=negated)
+
+
+def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Certainty:
+    """Tell how surely a deed was better than the best alternative, or the plan goes well.
+
+    Raises:
+        Unanswered: the deed did not happen, or the record lacks it.
+    """
+    ride = scene.ride
+    if event is None and scene.past is None:
+        found = Premise(ride.latest, None)
+        return certainty.of_choice(ride, options.free(ride, found)) or certainty.of_plan(
+            ride, found
+        )
+    if event is not None and negated:
+        about = Subject(None, (), is_past(scene, event), scene.span)
+        found = about_foil(ride, about, foils.settled(scene, event)[:1])
+    elif event is not None and not choices.is_choice(event):
+        found = Premise(_trace_at(scene), None)
+    else:
+        found = premise(ride, subject(scene, event))
+    return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
+
+
+def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
+    """Tell what was believed of a vehicle, how it moved, and what came of it.
+
+    Raises:
+        Unanswered: no decision expects anything of it.
+    """
+    ride, at = scene.ride, scene.moment
+    known = [t for t in ride.traces if prediction(t, vehicle) is not None]
+    if not known:
+        raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
+    names = () if event is None else conduct_names(event)
+    trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]
+    rows = [belief_of(ride, t, vehicle) for t in known]
+    chances = [probability(ride, t, vehicle, names) if names else 0.0 for t in known]
+    moved = _moved(rows, chances, asked=bool(names))
+    told = _turning(rows, chances, asked=bool(names))
+    done = () if event is None else scene.world.holds(event, 0.0, scene.now)
+    return Beliefs(
+        vehicle=vehicle,
+        of=event,
+        history=moved,
+        probability=probability(ride, trace, vehicle, names) if names else None,
+        time=trace.sim_time,
+        why=None if told is None else _meanwhile(scene, vehicle, told),
+        turning=told,
+        came=done[-1] if done else _went(scene, vehicle, trace.sim_time),
+    )
+
+
+def how_decide(question: HowDecide, scene: Asked) -> Answer:
+    """Tell what was compared at a decision, and on how many situations it rests.
+
+    Raises:
+        Unanswered: what the question names did not happen; or there is too little evidence.
+    """
+    event = event_of(question.of)
+    ride = scene.ride
+    if event is not None and is_own(event.actor) and not choices.is_choice(event):
+        found = Premise(_trace_at(scene), None)
+    else:
+        found = premise(ride, subject(scene, event if event and is_own(event.actor) else None))
+    found = options.free(ride, found)
+    count = len(found.trace.predictions)
+    rows, rests_on = options.weighed(ride, found), options.situations(found)
+    return Method(found.trace.sim_time, rows, rests_on, count)
+
+
+def _trace_at(scene: Asked) -> PlanTrace:
+    return scene.ride.at(scene.moment) or scene.ride.latest
+
+
+def _whom(scene: Asked, of: Proposition | None, event: Event | None) -> int | None:
+    """The other vehicle that a proposition is about."""
+    if event is not None:
+        return check_seen(scene, event.actor)
+    thing = getattr(of, "thing", None)
+    found = check_seen(scene, thing)
+    return found if found is not None else vehicle_in(getattr(of, "to", None))
+
+
+def _because_of(event: Event, scene: Asked) -> int | None:
+    """Because of whom we chose to do so, or drove so.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    whom = vehicle_in(event.object)
+    if whom is not None and event.action in HALTS | YIELDS:
+        return whom
+    try:
+        choice = choices.is_choice(event)
+        found = choices.why(event, scene) if choice else motion(event, scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    against = getattr(found, "contrast", None)
+    causes = getattr(found, "causes", ()) if against is None else against.causes
+    return next((cause.vehicle for cause in causes if cause.vehicle), None)
+
+
+def _moved(rows: list[Belief], chances: list[float], *, asked: bool) -> tuple[Belief, ...]:
+    """The beliefs where they moved, the first and the last."""
+    kept: list[int] = []
+    for k, row in enumerate(rows):
+        if kept and k < len(rows) - 1:
+            before = rows[kept[-1]]
+            same = abs(chances[k] - chances[kept[-1]]) < MOVED if asked else _alike(before, row)
+            if same:
+                continue
+        kept.append(k)
+    return tuple(rows[k] for k in kept)
+
+
+def _alike(one: Belief, other: Belief) -> bool:
+    if not one.expectations or not other.expectations:
+        return one.expectations == other.expectations
+    first, second = one.expectations[0], other.expectations[0]
+    return first.actions == second.actions and abs(first.probability - second.probability) < MOVED
+
+
+def _turning(
+    rows: list[Belief], chances: list[float], *, asked: bool
+) -> tuple[float, float] | None:
+    """Between which decisions [s] the belief moved most."""
+    values = chances if asked else [r.expectations[0].probability for r in rows if r.expectations]
+    steps = [abs(b - a) for a, b in pairwise(values)]
+    best = max(range(len(steps)), key=lambda k: steps[k], default=None)
+    if best is None or steps[best] < MOVED or len(values) != len(rows):
+        return None
+    return rows[best].time, rows[best + 1].time
+
+
+def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode | None:
+    """What a vehicle did while the belief moved."""
+    seen = scene.world.episodes(Vehicle(vehicle), begin=told[0], end=told[1])
+    real = [e for e in seen if e.action not in ("appear", "disappear", "follow", "move")]
+    return real[-1] if real else None
+
+
+def _went(scene: Asked, vehicle: int, since: float) -> Episode | None:
+    """Where a vehicle went, after a time [s]."""
+    found = scene.world.episodes(Vehicle(vehicle), (*EXITS, *CHANGES), begin=since)
+    return found[0] if found else None

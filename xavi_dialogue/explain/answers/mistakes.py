@@ -1,0 +1,82 @@
+"""Mistakes: what we expected of others that came otherwise, and whether anything was amiss."""
+
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.comfort import HARD, stretch
+from xavi_dialogue.explain.answers.findings import Finding, unknown
+from xavi_dialogue.explain.answers.foreseen import came_of, wrong_belief
+from xavi_dialogue.explain.answers.moments import Window, window
+from xavi_dialogue.explain.answers.naming import is_us, number
+from xavi_dialogue.explain.answers.occasions import overlaps, taken_place
+
+#: What tells which way a vehicle went.
+WAYS: tuple[ActionName, ...] = (
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "leave",
+    "change-left",
+    "change-right",
+)
+
+
+def mistakes(
+    asked: Asked, vehicle: int | None, about: Window
+) -> tuple[tuple[Belief, Episode], ...]:
+    """List the beliefs that what came contradicts, each with what came, oldest first.
+
+    Args:
+        asked: the act and its setting.
+        vehicle: of whom; None: of anybody.
+        about: when it came.
+    """
+    who = asked.world.vehicles if vehicle is None else (vehicle,)
+    near = about.widened() if about.instant else about
+    found: list[tuple[Belief, Episode]] = []
+    for one in who:
+        for came in asked.world.episodes(actor=Vehicle(one), actions=WAYS):
+            if not overlaps(asked, came, near):
+                continue
+            event = Event(came.action, Vehicle(one))
+            spent = Window(came.begin, came.begin)
+            wrong = wrong_belief(asked, event, spent, came=True)
+            if wrong is not None:
+                found.append((wrong, came))
+    return tuple(sorted(found, key=lambda pair: pair[1].begin))
+
+
+def wrong(of: Is, asked: Asked) -> Finding:
+    """Tell whether we were wrong in what we expected, of a vehicle or of anybody."""
+    if of.event is not None and is_us(of.event.actor):
+        return _trouble(of, asked, of.event)
+    about, vehicle = window(asked, of.time, "past"), number(of.thing)
+    found = mistakes(asked, vehicle, about)
+    if not found:
+        right = Finding(of.state == "right")
+        return right if vehicle is None else _borne_out(of, asked, vehicle, about)
+    facts = tuple(episode for _, episode in found)
+    believed = tuple(belief for belief, _ in found)
+    return Finding(of.state == "wrong", facts, None, believed, mistaken=True)
+
+
+def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
+    """Tell what we believed of a vehicle, where it came so or is yet to be seen."""
+    whole = asked.past is None and not about.instant
+    belief = asked.world.belief(vehicle, asked.now if whole else about.begin)
+    if belief is None:
+        return unknown("not-recorded")
+    came = came_of(asked, vehicle, belief.time)
+    if came is None or came.action == "stop":
+        return Finding(None, () if came is None else (came,), "in-future", (belief,))
+    return Finding(of.state == "right", (came,), None, (belief,))
+
+
+def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
+    """Tell whether there was anything amiss in what we did: a collision, or hard braking."""
+    found = taken_place(asked, event)
+    crashed = asked.world.episodes(actor=Ego(), actions=("collide", "nearly-collide"))
+    near = [e for e in crashed if overlaps(asked, e, stretch(asked, found).widened())]
+    amiss = bool(near) or (found.peak or 0.0) >= HARD
+    return Finding(amiss == (of.state == "wrong"), (found, *near))

@@ -1,0 +1,213 @@
+"""Motions: why we slowed, stood, waited, gave way, drove slowly or fast, or stayed behind."""
+
+import dataclasses
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    DidNotHappen,
+    MotionCause,
+    MotionReason,
+    NotRecorded,
+)
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.vocabulary import ActionName, Manner
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
+from xavi_dialogue.explain.causes import when
+from xavi_dialogue.explain.causes.contrast import against_best
+from xavi_dialogue.explain.causes.driving import ego_speed, reasons_for
+from xavi_dialogue.explain.causes.premise import episode_of
+from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
+from xavi_dialogue.explain.causes.slowness import Slowness, slowness
+from xavi_dialogue.explain.history.ride import chose
+
+SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
+#: What was done, by what it may be called; the first of several rows that has an episode counts,
+#: and from the second on the question did not call it what it was.
+KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
+    "slow-down": (SLOWING, ("stop", "stand")),
+    "brake": (SLOWING, ("stop", "stand")),
+    "stop": (("stop", "stand"), SLOWING),
+    "stand": (("stop", "stand"), SLOWING),
+    "wait": (("wait", "give-way", "stop", "stand"), SLOWING),
+    "give-way": (("give-way",), ("wait", "stop"), SLOWING),
+    "let-go": (("give-way",), ("wait", "stop"), SLOWING),
+    "speed-up": (("speed-up", "go"),),
+    "block": (("stop", "stand"), SLOWING),
+    "avoid": (SLOWING, ("stop", "stand")),
+}
+STILL: tuple[ActionName, ...] = ("stop", "stand")
+STANDING = 0.3  # [m/s]
+WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
+
+
+def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> Answer:
+    """Tell why we drove as an event says.
+
+    Raises:
+        Unanswered: we did not; or the record lacks it; or rollouts are needed.
+    """
+    named = asked or event.action
+    rows = KINDS.get(named, (SLOWING,))
+    present = not is_past(scene, event)
+    for rank, kinds in enumerate(rows):
+        deed = _episode(scene, event, kinds, present=present)
+        if deed is not None:
+            premise = rank == 0 and not (named == "stand" and deed.action not in STILL)
+            return _told(scene, event, deed, named, premise=premise)
+    if present and named != "speed-up":
+        return _state(scene, event, named)
+    raise _denied(scene, event, rows)
+
+
+def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
+    """Tell why we stand, where we do; else why we drive no faster.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    time = _time(scene, event)
+    speed = ego_speed(scene.ride, time)
+    if speed is not None and speed < STANDING:
+        return motion(Event("stand", tense="present"), scene, asked="stand")
+    return slow(scene, event=event)
+
+
+def _time(scene: Asked, event: Event | None) -> float:
+    """When [s] a state is asked about: now where the question is in the present."""
+    present = event is not None and event.tense == "present"
+    return scene.now if present else scene.moment
+
+
+def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) -> Answer:
+    """Tell why we drive, or drove, no faster: the state, not slowing down.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    found = slowness(scene.ride, scene.world, _time(scene, event))
+    speed = found.deed.speed_to
+    if not any(cause.vehicle for cause in found.reasons.causes) and found.is_slow is not False:
+        found = _slowed_for(scene, found)
+    if speed is not None and speed < STANDING and manner == "slowly":
+        return standing_or_slow(scene)
+    return MotionReason(
+        deed=found.deed,
+        causes=found.reasons.causes,
+        premise=manner != "slowly" or found.is_slow is not False,
+        asked="move",
+        evidence=found.reasons.evidence,
+        manner=manner,
+        limit=found.limit,
+        cleared=found.reasons.cleared,
+    )
+
+
+def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
+    """With those for whom we have just slowed down, where nobody else makes us slow."""
+    time = found.deed.begin
+    slowing = scene.world.episodes(Ego(), (*SLOWING, "give-way"), time - when.RECENT, time)
+    slowing = tuple(e for e in slowing if e.action in (*SLOWING, "give-way"))
+    if not slowing:
+        return found
+    reasons = reasons_for(scene.ride, scene.world, slowing[-1])
+    return dataclasses.replace(found, reasons=reasons)
+
+
+def fast(scene: Asked) -> Answer:
+    """Tell why we drive as fast as we do: the limit, and setting off.
+
+    Raises:
+        Unanswered: the record lacks it.
+    """
+    time = scene.moment
+    speed = ego_speed(scene.ride, time)
+    if speed is None:
+        raise Unanswered(NotRecorded("before-record", since=time))
+    limit = limit_at(scene.ride, time)
+    causes: list[MotionCause] = []
+    if setting_off(scene.ride, time):
+        causes.append(MotionCause("starting"))
+    if limit is not None:
+        causes.append(MotionCause("limit", value=limit))
+    end = None if time >= scene.now - 0.5 else time
+    return MotionReason(
+        deed=Episode(Ego(), "move", time, end, speed_from=speed, speed_to=speed),
+        causes=tuple(causes) or (MotionCause("plan"),),
+        premise=limit is None or speed > limit,
+        asked="move",
+        manner="fast",
+        limit=limit,
+    )
+
+
+def _episode(
+    scene: Asked, event: Event, kinds: tuple[ActionName, ...], *, present: bool
+) -> Episode | None:
+    """The episode of some kinds that is asked about, of those about the object where there are."""
+    found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+    about = vehicle_in(event.object)
+    if about is not None:
+        found = [e for e in found if vehicle_in(e.object) == about] or found
+    if present and scene.past is None:
+        found = [e for e in found if e.end is None or e.end >= scene.now - when.RECENT]
+    return scene.pick(_preferring(found, kinds), lambda e: (e.begin, e.end))
+
+
+def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Episode]:
+    """Those in order of their end; of several that meet, the kind that is named first last."""
+    rank = {kind: -k for k, kind in enumerate(kinds)}
+    return sorted(found, key=lambda e: (round(e.begin / WIDER), rank.get(e.action, -9), e.begin))
+
+
+def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
+    reasons = reasons_for(scene.ride, scene.world, deed)
+    ours = [cause for cause in reasons.causes if cause.vehicle is not None]
+    if not ours and deed.action in STILL and chose(reasons.trace, "stop"):
+        contrast = against_best(scene.ride, reasons.trace)
+        if contrast.decisive is not None and not contrast.close:
+            past = is_past(scene, event)
+            return ChoiceReason("why", deed, contrast, past=past)
+    return MotionReason(
+        deed=deed,
+        causes=reasons.causes,
+        premise=premise,
+        asked=named,
+        evidence=reasons.evidence,
+        manner=next(iter(event.manner), None),
+        limit=limit_at(scene.ride, deed.begin),
+        cleared=reasons.cleared,
+    )
+
+
+def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
+    """What goes on now where nothing of what is asked about does: driving slowly, or it is over."""
+    speed = ego_speed(scene.ride, scene.now)
+    found = slowness(scene.ride, scene.world, scene.now)
+    if found.is_slow and speed is not None and speed >= STANDING:
+        reason = slow(scene)
+        if isinstance(reason, MotionReason):
+            return replace(reason, premise=False, asked=named)
+    rows = KINDS.get(named, (SLOWING,))
+    raise _denied(scene, event, rows)
+
+
+def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]) -> Unanswered:
+    """The refusal where we did not drive so; with when we did, or what we did instead."""
+    for kinds in rows:
+        others = scene.world.episodes(Ego(), kinds)
+        near = when.pick(_loose(scene), others, lambda e: (e.begin, e.end))
+        if near is not None:
+            return Unanswered(DidNotHappen(event, (near,), elsewhen=near.begin))
+    deed = scene.pick(scene.ride.deeds, lambda d: d.span)
+    return Unanswered(DidNotHappen(event, () if deed is None else (episode_of(deed),)))
+
+
+def _loose(scene: Asked) -> Span | None:
+    """The span as one that was only inferred, so that the nearest is found."""
+    return None if scene.span is None else replace(scene.span, said=False)

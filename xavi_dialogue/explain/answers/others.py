@@ -1,0 +1,267 @@
+"""Others: why another vehicle does or did something, or did not: who is in its way, and its goal.
+
+What drivers think is not known. What is told is whom a vehicle gave way to or had in its way, as
+far as its predicted ways show, and where we thought it was going.
+"""
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import (
+    Answer,
+    DidNotHappen,
+    MotionCause,
+    OtherReason,
+    PlaceReason,
+)
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.terms import Ego, Event, Proposition, Related, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import choices
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import check_seen, event_of, is_own, is_past
+from xavi_dialogue.explain.causes.actions import YIELDS
+from xavi_dialogue.explain.causes.announced import announced, meeting
+from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
+from xavi_dialogue.explain.causes.grounds import grounds
+from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, slowed, stood
+from xavi_dialogue.explain.causes.when import RECENT
+
+EXPECTED = 0.3  # probability from which something may be said to be expected
+CREEPING = 1.5  # [m/s]
+STILL = frozenset[ActionName](("stop", "stand", "wait", "give-way", "let-go", "block"))
+SLOWING = frozenset[ActionName](("slow-down", "brake"))
+GOING = frozenset[ActionName](("go", "move", "continue", "enter", "cross", "come", "pull-out"))
+OPEN = frozenset[ActionName](("do", "happen", "signal", "see", "appear", "disappear", "block"))
+#: What a vehicle does instead, that answers why it did not do something.
+INSTEAD: dict[ActionName, tuple[ActionName, ...]] = {
+    "speed-up": ("slow-down", "brake", "stop", "stand"),
+    "slow-down": ("speed-up", "go"),
+    "brake": ("speed-up", "go"),
+    "stop": ("go", "speed-up", "slow-down"),
+    "exit-left": ("exit-right", "exit-straight"),
+    "exit-right": ("exit-left", "exit-straight"),
+    "turn": ("exit-straight", "exit-left", "exit-right"),
+}
+
+
+def why(event: Event, scene: Asked, *, negated: bool) -> Answer:
+    """Tell why another vehicle did something, or did not.
+
+    Raises:
+        Unanswered: it did not, or did; or it was never seen.
+    """
+    vehicle = check_seen(scene, event.actor)
+    assert vehicle is not None
+    if negated and event.action in GOING | {"speed-up"}:
+        return _standing(event, scene, vehicle)
+    if negated:
+        return _why_not(event, scene, vehicle)
+    if event.action in STILL | SLOWING:
+        return _braking(event, scene, vehicle)
+    if event.action in OPEN:
+        return _at_present(event, scene, vehicle)
+    return _deed(event, scene, vehicle)
+
+
+def believed(content: Proposition, scene: Asked) -> Answer:
+    """Tell what made us expect something of another vehicle.
+
+    Raises:
+        Unanswered: it is about nobody else, or nothing was expected of it.
+    """
+    event = event_of(content)
+    vehicle = None if event is None else check_seen(scene, event.actor)
+    if event is None or vehicle is None:
+        return choices.why(event if event is not None and is_own(event.actor) else None, scene)
+    return grounds(scene.ride, vehicle, conduct_names(event), scene.moment)
+
+
+def _standing(event: Event, scene: Asked, vehicle: int) -> Answer:
+    """Why it does not go: it stands, or slows, and for whom; else it goes."""
+    still = Event("stand", event.actor, tense=event.tense, time=event.time)
+    try:
+        return _asked(_braking(still, scene, vehicle), event)
+    except Unanswered as unanswered:
+        if not isinstance(unanswered.result, DidNotHappen):
+            raise
+    return _why_not(event, scene, vehicle)
+
+
+def _asked(found: Answer, event: Event) -> Answer:
+    return replace(found, asked=event) if isinstance(found, OtherReason) else found
+
+
+def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
+    """Why it brakes, stands or waits: who is in its way."""
+    yielded = _yielded(event, scene, vehicle)
+    if yielded is not None:
+        return yielded
+    order: tuple[tuple[ActionName, ...], ...] = (
+        (("stop", "stand"), ("slow-down", "brake"))
+        if event.action in STILL
+        else (("slow-down", "brake"), ("stop", "stand"))
+    )
+    for rank, kinds in enumerate(order):
+        found = _last(scene, vehicle, kinds, event)
+        if found is None:
+            continue
+        end = scene.now if found.end is None else found.end
+        if found.action in ("stop", "stand"):
+            hindered = stood(scene.ride, vehicle, found.begin)
+            now = found.end is None or scene.moment <= end
+            if not hindered.causes and now:
+                hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
+        else:
+            hindered = slowed(scene.ride, vehicle, found.begin, end)
+            if not hindered.causes and scene.moment <= end:
+                hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
+        said = rank == 0 or _hardly_moves(scene, vehicle)
+        return _told(scene, vehicle, found, None if said else event, hindered, found.begin)
+    raise _denied(scene, vehicle, event)
+
+
+def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
+    """Whom it let go first, where it was seen to do that and was asked about then."""
+    if event.action not in YIELDS:
+        return None
+    found = _last(scene, vehicle, ("give-way",), event)
+    whom = None if found is None else found.object
+    if found is None or not isinstance(whom, Ego | Vehicle):
+        return None
+    other = whom.number if isinstance(whom, Vehicle) else EGO
+    first = Hindrance((MotionCause("right-of-way", other),))
+    return _told(scene, vehicle, found, None, first, found.begin)
+
+
+def _hardly_moves(scene: Asked, vehicle: int) -> bool:
+    """Whether it is so slow that it may be said to stand."""
+    speeds = scene.ride.motion(vehicle).until(scene.moment).speed
+    return bool(speeds) and speeds[-1] < CREEPING
+
+
+def _deed(event: Event, scene: Asked, vehicle: int) -> Answer:
+    """Why it did something else than brake: where it was going."""
+    past = is_past(scene, event)
+    begin, end = (0.0, scene.now) if scene.past is None else (scene.past.begin, scene.past.end)
+    done = scene.world.holds(event, begin, end)
+    if not past and scene.past is None:
+        done = tuple(e for e in done if e.end is None or e.end >= scene.now - RECENT)
+    found = scene.pick(done, lambda e: (e.begin, e.end))
+    if found is not None:
+        return _told(scene, vehicle, found, None, Hindrance(), found.begin)
+    chance = _chance(scene, vehicle, event)
+    if not past and chance >= EXPECTED:
+        return _told(scene, vehicle, None, event, Hindrance(), scene.moment)
+    raise _denied(scene, vehicle, event)
+
+
+def _at_present(event: Event, scene: Asked, vehicle: int) -> Answer:
+    """Why it does what it does at the time: what that is, who is in its way, where it goes."""
+    time = scene.moment
+    under_way = scene.world.episodes(Vehicle(vehicle), begin=time - RECENT, end=time)
+    wanted = [e for e in under_way if e.action == event.action]
+    doing = wanted or [e for e in under_way if e.action not in ("appear", "move", "follow")]
+    hindered = at_present(scene.ride, vehicle, time)
+    deed = doing[-1] if doing else None
+    if event.action == "signal":
+        return _signalled(scene, vehicle, event)
+    return _told(scene, vehicle, deed, None if wanted else event, hindered, time)
+
+
+def _signalled(scene: Asked, vehicle: int, event: Event) -> Answer:
+    """What its indicator means.
+
+    Raises:
+        Unanswered: it does not indicate.
+    """
+    deed = _last(scene, vehicle, ("signal",), event)
+    found = (
+        None if deed is None else announced(scene.ride, scene.world, vehicle, deed, scene.moment)
+    )
+    if found is None:
+        raise _denied(scene, vehicle, event)
+    return found
+
+
+def placed(of: Related, scene: Asked) -> Answer:
+    """Tell how another vehicle came to be where it is: who let whom go first, or went past whom.
+
+    Raises:
+        Unanswered: it was never seen.
+    """
+    vehicle = check_seen(scene, of.thing)
+    assert vehicle is not None
+    return PlaceReason(
+        vehicle, of.relation, meeting(scene.world, vehicle, of.relation, scene.moment)
+    )
+
+
+def _why_not(event: Event, scene: Asked, vehicle: int) -> Answer:
+    """Why it did not do something: what it did instead, and what we expected of it."""
+    begin = scene.past.begin if scene.past is not None else 0.0
+    end = scene.past.end if scene.past is not None else scene.now
+    did = scene.world.holds(event, begin, end)
+    others = INSTEAD.get(event.action)
+    after = did[-1].begin if did else begin
+    instead = scene.world.episodes(Vehicle(vehicle), others, after, end)
+    instead = tuple(e for e in instead if e.action not in ("appear", "follow", "move"))
+    if did and not (instead and instead[-1].begin > did[-1].begin):
+        raise Unanswered(DidNotHappen(event, did[-1:]))
+    deed = instead[-1] if instead else None
+    if deed is not None and deed.action in STILL | SLOWING:
+        found = _braking(Event(deed.action, event.actor, tense=event.tense), scene, vehicle)
+        return _asked(found, event)
+    return _told(scene, vehicle, deed, event, Hindrance(), end)
+
+
+def _last(
+    scene: Asked, vehicle: int, kinds: tuple[ActionName, ...], event: Event
+) -> Episode | None:
+    found = [e for e in scene.world.episodes(Vehicle(vehicle), kinds) if e.action in kinds]
+    if not is_past(scene, event) and scene.past is None:
+        found = [e for e in found if e.end is None or e.end >= scene.now - RECENT]
+    return scene.pick(found, lambda e: (e.begin, e.end))
+
+
+def _told(
+    scene: Asked,
+    vehicle: int,
+    deed: Episode | None,
+    asked: Event | None,
+    hindered: Hindrance,
+    time: float,
+) -> OtherReason:
+    causes: tuple[MotionCause, ...] = hindered.causes
+    return OtherReason(vehicle, deed, asked, causes, _goal(scene, vehicle, time), hindered.evidence)
+
+
+def _goal(scene: Asked, vehicle: int, time: float) -> Belief | None:
+    try:
+        trace = last_with(scene.ride, vehicle, time)
+    except Unanswered:
+        try:
+            trace = last_with(scene.ride, vehicle, scene.now)
+        except Unanswered:
+            return None
+    return belief_of(scene.ride, trace, vehicle)
+
+
+def _chance(scene: Asked, vehicle: int, event: Event) -> float:
+    try:
+        trace = last_with(scene.ride, vehicle, scene.moment)
+    except Unanswered:
+        return 0.0
+    return probability(scene.ride, trace, vehicle, conduct_names(event))
+
+
+def _denied(scene: Asked, vehicle: int, event: Event) -> Unanswered:
+    """The refusal where it did not do so: with when it did, or what it did instead."""
+    ever = scene.world.holds(event, 0.0, scene.now)
+    if ever and scene.past is not None:
+        return Unanswered(DidNotHappen(event, ever[-1:], elsewhen=ever[-1].begin))
+    actor = Vehicle(vehicle)
+    at = scene.moment
+    near = scene.world.episodes(actor, begin=at - 5.0, end=at) or scene.world.episodes(actor)
+    told = [e for e in near if e.action not in ("appear", "disappear", "approach")]
+    return Unanswered(DidNotHappen(event, tuple(told[-1:])))

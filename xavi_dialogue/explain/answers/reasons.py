@@ -1,0 +1,249 @@
+"""Reasons: answers to why: of our choices, of how we drive, of states, and of others."""
+
+from msgspec import structs
+
+from xavi_dialogue.domain.answers import Answer, DidNotHappen
+from xavi_dialogue.domain.meaning import HowAvoid, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Caused,
+    Compares,
+    Event,
+    Exists,
+    Exit,
+    Happens,
+    Has,
+    Is,
+    Junction,
+    Pronoun,
+    Proposition,
+    Related,
+    Thing,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation, State
+from xavi_dialogue.explain.answers import choices, deciding, going, motions, others
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import (
+    check_able,
+    check_seen,
+    event_of,
+    is_own,
+    is_past,
+    manner_of,
+    unwrapped,
+    vehicle_in,
+)
+from xavi_dialogue.explain.causes.actions import HALTS
+from xavi_dialogue.explain.causes.driving import ego_speed
+
+GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
+#: Names for going somewhere, that ask for the way where a place or side is said.
+WAY = frozenset[ActionName](("go", "move", "head", "come", "pass"))
+CROSSINGS = frozenset[ActionName](
+    ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
+)
+SLOW = frozenset[State](("slow", "late", "stuck", "stationary"))
+PLACES = frozenset[Relation](("ahead-of", "behind", "left-of", "right-of", "beside", "near"))
+HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
+STANDING = 0.3  # [m/s]
+
+
+def why(question: Why, scene: Asked) -> Answer:
+    """Tell why something is or was so.
+
+    Raises:
+        Unanswered: it was not; or the record lacks it; or rollouts are needed.
+    """
+    of, negated = unwrapped(question.of)
+    blamed = check_seen(scene, question.suspect)
+    if isinstance(of, Caused):
+        blamed = blamed or check_seen(scene, of.cause)
+        of, negated = unwrapped(of.effect) if of.effect is not None else (None, negated)
+    found = _why(of, scene, question, negated=negated)
+    return choices.with_suspect(found, blamed)
+
+
+def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:
+    match of:
+        case Happens(event) if not is_own(event.actor) and vehicle_in(event.actor) is not None:
+            return others.why(event, scene, negated=negated)
+        case Happens(event):
+            return own_not(event, scene, question) if negated else own(event, scene, question)
+        case Is():
+            return _state(of, scene, question, negated=negated)
+        case Related():
+            return _related(of, scene, question)
+        case Compares(left=left) if is_own(left.thing) and left.attribute == "speed":
+            return motions.fast(scene) if of.comparator == "more" else motions.slow(scene)
+        case Compares(left=left) if left.attribute in ("gap", "headway", "distance"):
+            return motions.slow(scene, "close")
+        case Has(attribute="lane") if is_own(of.thing):
+            return choices.in_lane(scene)
+        case Has(attribute="indicator" | "brake-lights"):
+            return _signalling(of, scene)
+        case Believed(content):
+            return others.believed(content, scene)
+        case Exists():
+            return _fact(of, scene)
+    return choices.why(None, scene)
+
+
+def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
+    """Tell why we did something, or drove so.
+
+    Raises:
+        Unanswered: we did not; or the record lacks it; or rollouts are needed.
+    """
+    check_able(event)
+    if event.action in ("collide", "nearly-collide"):
+        return deciding.how_avoid(HowAvoid(Happens(event)), scene)  # nobody decides to collide
+    instead = None if question is None else question.instead
+    if event.action in GOING | {"continue"}:
+        if manner_of(event, "suddenly") is not None and manner_of(event, "slowly") is not None:
+            return motions.motion(event, scene, asked="slow-down")
+        if manner_of(event, "slowly") is not None:
+            return motions.standing_or_slow(scene, event)
+        if manner_of(event, "fast") is not None:
+            return motions.fast(scene)
+    if event.action in HOLDING:
+        return motions.slow(scene, manner_of(event, "close", "far") or "slowly", event)
+    if event.action == "continue" and not is_past(scene, event):
+        return choices.straight(scene)
+    if event.action == "keep-lane":
+        return choices.in_lane(scene)
+    if event.action in WAY and _tells_way(event):  # the way that we take
+        return choices.why(structs.replace(event, action="do"), scene, instead)
+    if event.action in CROSSINGS and manner_of(event, "suddenly", "early", "late") is not None:
+        return going.went(event, scene)
+    if event.action in GOING:
+        return going.went(event, scene)
+    if instead is not None and not choices.is_choice(event):
+        foil = event_of(instead)
+        if foil is not None and choices.is_choice(foil):
+            return choices.why_not(foil, scene)
+    if not choices.is_choice(event) or event.action in ("block", "avoid"):
+        return motions.motion(event, scene)
+    return choices.why(event, scene, instead)
+
+
+def _tells_way(event: Event) -> bool:
+    """Whether going is asked about as a way: round a junction, to a side, out of an exit."""
+    return isinstance(event.object, Junction | Exit) or bool(event.side or event.where)
+
+
+def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
+    """Tell why we did not do something, or do not.
+
+    Raises:
+        Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
+    """
+    check_able(event)
+    if event.action == "speed-up" or manner_of(event, "fast") is not None:
+        return motions.standing_or_slow(scene)
+    if event.action in GOING:
+        return _not_going(event, scene)
+    if event.action in ("slow-down", "brake") or (
+        event.action in HALTS and event.action != "stop" and is_past(scene, event)
+    ):
+        return _not_slowing(event, scene)
+    if event.action in HALTS:
+        foil = Event("stop", tense=event.tense, time=event.time)
+        return choices.why_not(foil, scene)
+    instead = None if question is None else event_of(question.instead)
+    return choices.why_not(event, scene, instead)
+
+
+def _not_going(event: Event, scene: Asked) -> Answer:
+    """Why we did not go: whom we stood or slowed for; else why we did otherwise."""
+    speed = ego_speed(scene.ride, scene.moment)
+    if not is_past(scene, event) and (speed is None or speed < STANDING):
+        return motions.motion(Event("stand", tense="present"), scene)
+    try:
+        return motions.motion(Event("give-way", tense=event.tense, object=event.object), scene)
+    except Unanswered as unanswered:
+        if not isinstance(unanswered.result, DidNotHappen):
+            raise
+    if event.action in ("go", "move") and event.side is None:
+        return motions.slow(scene)
+    return choices.why_not(event, scene)
+
+
+def _not_slowing(event: Event, scene: Asked) -> Answer:
+    """Why we did not brake or wait: we did, or stopping would have been no better."""
+    done = scene.world.holds(event, *_bounds(scene))
+    if done:
+        answer = motions.motion(event, scene)
+        raise Unanswered(DidNotHappen(event, done[-1:], answer=answer))
+    foil = Event("stop", tense=event.tense, time=event.time)
+    return choices.why_not(foil, scene)
+
+
+def _bounds(scene: Asked) -> tuple[float, float]:
+    past = scene.past
+    if past is not None:
+        return past.begin, past.end
+    return scene.now - 2.0, scene.now
+
+
+def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
+    if of.event is not None and of.state in ("necessary", "worth-it", "better", "right"):
+        return choices.needed(of.event, scene)
+    if of.event is not None and is_own(of.event.actor):
+        return own(of.event, scene, question)
+    vehicle = vehicle_in(of.thing)
+    if of.state in ("moving", "fast") and negated and vehicle is None:
+        return motions.standing_or_slow(scene, Event("move", tense=of.tense))
+    if vehicle is not None and of.state in SLOW | {"moving", "fast"}:
+        action: ActionName = "stand" if of.state in ("stationary", "stuck") else "slow-down"
+        event = Event(action, of.thing or _nobody(), tense=of.tense)
+        return others.why(event, scene, negated=negated and of.state == "moving")
+    if of.state in SLOW and is_own(of.thing):
+        return motions.standing_or_slow(scene, Event("move", tense=of.tense))
+    if of.state == "fast" and is_own(of.thing):
+        return motions.fast(scene)
+    if of.state in ("close", "far"):
+        return motions.slow(scene, "close" if of.state == "close" else "far")
+    return _fact(of, scene)
+
+
+def _nobody() -> Thing:
+    return Pronoun("it")
+
+
+def _related(of: Related, scene: Asked, question: Why) -> Answer:
+    """Why two things stand so to each other: what the one that moves does."""
+    lane_like = of.relation == "on" and is_own(of.thing)
+    if lane_like:
+        return choices.in_lane(scene)
+    tense = of.tense
+    if is_own(of.thing) and vehicle_in(of.to) is not None:
+        if of.relation == "waiting-for":
+            return motions.motion(Event("wait", object=of.to, tense=tense), scene)
+        if of.relation in ("must-yield-to", "has-priority-over"):
+            return _fact(of, scene)
+        manner: Manner = "close" if of.relation in ("near", "closer-than") else "slowly"
+        return motions.slow(scene, manner)
+    if vehicle_in(of.thing) is not None:
+        if of.relation in ("waiting-for", "in-the-way-of"):
+            event = Event("stand", of.thing, object=of.to, tense=tense)
+            return others.why(event, scene, negated=False)
+        if is_own(of.to) and of.relation in PLACES:
+            return others.placed(of, scene)
+        return others.why(Event("do", of.thing, tense=tense), scene, negated=False)
+    del question
+    return _fact(of, scene)
+
+
+def _signalling(of: Has, scene: Asked) -> Answer:
+    if is_own(of.thing):
+        return choices.why(None, scene)
+    event = Event("signal", of.thing, tense=of.tense)
+    return others.why(event, scene, negated=False)
+
+
+def _fact(of: Proposition, scene: Asked) -> Answer:
+    """What has no cause that the record tells: whether it is so at all."""
+    # Deferred: whether something is so may itself be asked of the reasons.
+    from xavi_dialogue.explain.answers.verdicts import whether
+
+    return whether(Whether(of), scene)

@@ -1,0 +1,121 @@
+"""Relations: whether two things stand, stood or ever stood in a relation."""
+
+from xavi_dialogue.domain.facts import Fact, Relating
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import Attribute, Relation
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.happens import happens, others_mind
+from xavi_dialogue.explain.answers.moments import SHORT, Window, is_past, window
+from xavi_dialogue.explain.answers.naming import is_us, looks, number, somebodies
+from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
+
+STEP = 0.5  # [s] between the moments at which a relation is tried over a stretch
+COMPARING: dict[Relation, Attribute] = {
+    "faster-than": "speed", "slower-than": "speed", "closer-than": "distance",
+    "near": "distance",
+}  # fmt: skip
+SIDES: frozenset[Relation] = frozenset(
+    ("ahead-of", "behind", "left-of", "right-of", "beside", "near", "oncoming-to", "between",
+     "in-the-way-of", "on", "from", "to", "with")
+)  # fmt: skip
+
+
+def related(of: Related, asked: Asked) -> Finding:
+    """Weigh that two things stand in a relation.
+
+    Raises:
+        Unanswered: a vehicle was never seen.
+    """
+    about = window(asked, of.time, of.tense)
+    if of.relation in ("has-priority-over", "must-yield-to"):
+        return _right_of_way(of, asked, about)
+    if of.relation == "waiting-for":
+        return _waiting(of, asked)
+    if of.relation == "can-see" and not is_us(of.thing) and number(of.thing) is not None:
+        return others_mind(asked, number(of.thing) or 0)
+    if of.relation == "can-see" and is_us(of.thing) and number(of.to) is not None:
+        seeing = Event("see", of.thing, of.to, time=of.time, tense=of.tense)
+        return happens(Happens(seeing), asked)
+    if of.relation == "same-as":
+        one, other = number(of.thing), number(of.to)
+        both = somebodies(asked, of.thing, about.end) + somebodies(asked, of.to, about.end)
+        seen = looks(asked, tuple(v.number for v in both if isinstance(v, Vehicle)), about.end)
+        return Finding(one == other, seen)
+    found = [_between(of, asked, thing, to, about) for thing in _each(asked, of.thing, about.end)
+             for to in _each(asked, of.to, about.end)]  # fmt: skip
+    if not found:
+        return Finding(False)
+    true = next((one for one in found if one.holds), None)
+    return true or next((one for one in found if one.holds is None), found[0])
+
+
+def holds_over(
+    asked: Asked, relation: Relation, thing: Thing, to: Thing, about: Window
+) -> tuple[bool | None, float]:
+    """Tell whether a relation held at any time in a stretch, and when [s]."""
+    if about.instant:
+        return asked.world.relation(relation, thing, to, about.middle), about.middle
+    answers: list[bool | None] = []
+    at = about.end
+    while at >= about.begin - 1e-6:
+        found = asked.world.relation(relation, thing, to, at)
+        if found:
+            return True, at
+        answers.append(found)
+        at -= STEP
+    return (None if all(a is None for a in answers) else False), about.end
+
+
+def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) -> Finding:
+    near = about if is_past(asked, of.time, of.tense) else Window(asked.now, asked.now)
+    holds, at = holds_over(asked, of.relation, thing, to, near)
+    facts = _facts(of, asked, thing, to, at)
+    if holds is None:
+        lost = any(look.in_view is False for look in facts if hasattr(look, "in_view"))
+        return unknown("out-of-view" if lost else "not-recorded", *facts)
+    return Finding(holds, (Relating(of.relation, thing, to, at, holds), *facts))
+
+
+def _facts(of: Related, asked: Asked, thing: Thing, to: Thing, at: float) -> tuple[Fact, ...]:
+    """Tell what shows how two things stand to one another: their looks, or the values compared."""
+    attribute = COMPARING.get(of.relation)
+    if attribute == "speed":
+        speeds = (asked.world.measure("speed", one, at) for one in (thing, to))
+        return known(*speeds)
+    numbers = tuple(n for one in (thing, to) if (n := number(one)) is not None)
+    seen: tuple[Fact, ...] = looks(asked, numbers, at)
+    if attribute == "distance" and numbers:
+        return (*seen, *known(asked.world.measure("distance", Ego(), at, Vehicle(numbers[0]))))
+    return seen
+
+
+def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
+    """Tell who goes first: told as right of way, whichever way round it was asked."""
+    ours = is_us(of.thing) == (of.relation == "has-priority-over")
+    past = is_past(asked, of.time, of.tense)
+    near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
+    found = right_of_way(asked, of.thing, of.to, near)
+    rules = {"priority": True, "give-way": False}
+    first = rules.get(found.rule)
+    holds = None if first is None else first == ours
+    return Finding(holds, answer=found)
+
+
+def _waiting(of: Related, asked: Asked) -> Finding:
+    """Tell whether somebody waits for another: as an episode, else as the relation has it."""
+    event = Event("wait", of.thing, of.to, time=of.time, tense=of.tense)
+    found = happens(Happens(event), asked)
+    if found.holds or number(of.thing) is None:
+        return found
+    near = window(asked, of.time, of.tense)
+    at = near.end if near.end <= asked.now - SHORT else asked.now
+    holds = asked.world.relation("waiting-for", of.thing, of.to, at)
+    moving = known(asked.world.measure("speed", of.thing, at))
+    if holds is None and not moving:
+        return found
+    return Finding(bool(holds), (*moving, *found.facts[:1]), found.gap if holds is None else None)
+
+
+def _each(asked: Asked, thing: Thing, at: float) -> tuple[Thing, ...]:
+    return somebodies(asked, thing, at) or (thing,)

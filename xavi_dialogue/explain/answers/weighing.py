@@ -1,0 +1,216 @@
+"""Weighing: a proposition of any kind against the record."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Measures
+from xavi_dialogue.domain.facts import Fact
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Both,
+    Caused,
+    Compares,
+    Event,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Not,
+    Proposition,
+    Related,
+    That,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import Relation
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.beliefs import time_of
+from xavi_dialogue.explain.answers.comparisons import compares, exists, has
+from xavi_dialogue.explain.answers.conditions import condition, handed
+from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, unknown
+from xavi_dialogue.explain.answers.foreseen import chance, macros
+from xavi_dialogue.explain.answers.happens import happens
+from xavi_dialogue.explain.answers.measures import values
+from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, window
+from xavi_dialogue.explain.answers.naming import first_look, is_us, number
+from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.places import locate
+from xavi_dialogue.explain.answers.relations import related
+from xavi_dialogue.explain.history.ride import planned
+
+#: Where a thing is from another one.
+BEARINGS: frozenset[Relation] = frozenset(
+    ("ahead-of", "behind", "left-of", "right-of", "beside", "oncoming-to")
+)
+
+
+def weigh(of: Proposition, asked: Asked) -> Finding:
+    """Weigh a proposition against the record.
+
+    Raises:
+        Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
+    """
+    match of:
+        case Happens():
+            return happens(of, asked)
+        case Related():
+            return related(of, asked)
+        case Is():
+            return condition(of, asked)
+        case Has():
+            return has(of, asked)
+        case Compares():
+            return compares(of, asked)
+        case Exists():
+            return exists(of, asked)
+        case Caused():
+            return _caused(of, asked)
+        case Believed():
+            return _believed(of, asked)
+        case Not():
+            return _contrary(weigh(of.content, asked))
+        case Both():
+            return _joined(of, asked)
+        case That():
+            return unknown("not-recorded")
+
+
+def _contrary(found: Finding) -> Finding:
+    return found.negated() if found.holds is not None or found.answer is None else found
+
+
+def _joined(of: Both, asked: Asked) -> Finding:
+    """Give several together: all must hold, or one of them."""
+    if of.join == "or" and (chosen := either(of, asked)) is not None:
+        return chosen
+    found = [weigh(part, asked) for part in of.contents]
+    holds = [one.holds for one in found]
+    decided = of.join != "and"
+    whole = decided if decided in holds else (None if None in holds else not decided)
+    told = [one for one in found if of.join == "and" or one.holds or whole is not True]
+    facts: tuple[Fact, ...] = tuple(fact for one in told for fact in one.facts)
+    gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
+    believed = tuple(belief for one in told for belief in one.believed)
+    return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def either(of: Both, asked: Asked) -> Finding | None:
+    """Tell which of several holds: a place or a value as such, else the one that does.
+
+    None where none of them does, or it cannot be told.
+    """
+    first = of.contents[0] if of.contents else None
+    match first:
+        case Related(thing=Vehicle()) if all(_placed(p, first.thing) for p in of.contents):
+            if not is_past(asked, first.time, first.tense):
+                return Finding(None, answer=locate(asked, first.thing, asked.now))
+        case Has() if all(_alike(part, first) for part in of.contents):
+            measured = Measured(first.attribute, first.thing, time=first.time, tense=first.tense)
+            return Finding(None, answer=Measures(values(asked, measured)))
+    found = [(part, weigh(part, asked)) for part in of.contents]
+    likely = [(p, one) for p, one in found if one.holds]
+    if len(likely) != 1:
+        return None
+    part, one = likely[0]
+    answer = one.answer or replace(one.verdict(part), either=True)
+    return Finding(True, one.facts, answer=answer)
+
+
+def _placed(of: Proposition, thing: Thing) -> bool:
+    """Tell whether it is where a thing is from us."""
+    return isinstance(of, Related) and of.relation in BEARINGS and of.thing == thing
+
+
+def _alike(of: Proposition, first: Has) -> bool:
+    return isinstance(of, Has) and (of.attribute, of.thing) == (first.attribute, first.thing)
+
+
+def _caused(of: Caused, asked: Asked) -> Finding:
+    """Tell whether it is because of that: the causal explainers know."""
+    effect = of.effect if of.effect is not None else That()
+    suspect = _suspect(of)
+    answer = handed(Why(effect, suspect=suspect), asked)
+    if answer is not None:
+        return Finding(None, answer=answer)
+    return unknown("not-recorded")
+
+
+def _suspect(of: Caused) -> Thing | None:
+    """Tell who is taken for the cause: of a fact, whoever it is about."""
+    match of.cause:
+        case Happens(event=event):
+            return event.actor
+        case Related(thing=thing):
+            return thing
+        case Is(thing=thing) | Exists(thing=thing):
+            return thing
+        case Has(thing=thing):
+            return thing
+        case Compares(left=left):
+            return left.thing
+        case Caused() | Believed() | Not() | Both() | That():
+            return None
+    return of.cause
+
+
+def _believed(of: Believed, asked: Asked) -> Finding:
+    """Tell whether we believed something: by the probability that it had for us then."""
+    content, negated = of.content, False
+    while isinstance(content, Not):
+        content, negated = content.content, not negated
+    found = _held(of, content, asked)
+    return found.negated() if negated else found
+
+
+def _held(of: Believed, content: Proposition, asked: Asked) -> Finding:
+    time = of.time if not isinstance(of.time, Unsaid) else time_of(content)
+    match content:
+        case Happens(event=event) if number(event.actor) is not None and event.action != "see":
+            return _expected_of(asked, event, time)
+        case Happens(event=event) if is_us(event.actor) and macros(event):
+            return _planned(asked, event, time)
+        case Exists(thing=thing) | Is(thing=thing, state="present" | "visible"):
+            if number(thing) is not None:
+                return _saw(asked, number(thing) or 0, time)
+    return weigh(content, asked)
+
+
+def _expected_of(asked: Asked, event: Event, time: Time) -> Finding:
+    """Tell whether conduct was expected before it came, and what came."""
+    came = occasion(asked, event)
+    about = window(asked, time)
+    said = asked.past is not None or not isinstance(time, Unsaid)
+    at = instant(asked, time, "past") if said else asked.now
+    if came is not None and (not said or came.begin <= about.end + SHORT):
+        at = min(at, came.begin - 0.2)
+    share = chance(asked, event, at)
+    belief = asked.world.belief(number(event.actor) or 0, at)
+    facts: tuple[Fact, ...] = () if came is None else (came,)
+    shown = () if belief is None else (belief,)
+    if share is None:
+        look = first_look(asked, number(event.actor) or 0, at)
+        return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
+    return Finding(share >= EXPECTED, facts, None, shown, probability=share)
+
+
+def _planned(asked: Asked, event: Event, time: Time) -> Finding:
+    """Tell whether we meant to do something at that time."""
+    at = instant(asked, time, "past")
+    trace = asked.ride.at(at)
+    if trace is None:
+        return unknown("before-record")
+    meant = any(step in macros(event) for step in planned(trace))
+    done = occasion(asked, event)
+    return Finding(meant, () if done is None else (done,))
+
+
+def _saw(asked: Asked, vehicle: int, time: Time) -> Finding:
+    """Tell whether we knew of a vehicle, and since when."""
+    at = instant(asked, time, "past")
+    first = first_look(asked, vehicle, asked.world.begin)
+    if first is None:
+        return Finding(False)
+    return Finding(first.time <= at, (first,))

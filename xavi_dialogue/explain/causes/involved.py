@@ -1,0 +1,151 @@
+"""Involved: the vehicles because of which a foil would have turned out as it would.
+
+Which they are depends on the foil. A vehicle is named because the foil collides with it more
+often than the fact; because it holds the ego up longer under the foil, where that is slower; or
+because what it does decides between the two. A vehicle of which none of this holds is not named,
+and none is where the foil leaves the way to the goal: that is nobody's doing.
+"""
+
+from collections.abc import Iterable, Sequence
+
+from planner.trace import HoldUp
+from sim.scene import EGO
+from xavi_dialogue.causal.effects import ComponentEffect
+from xavi_dialogue.causal.holdups import VehicleHoldUp, colliding_choice, hold_ups
+from xavi_dialogue.causal.influence import Influence, influence
+from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
+from xavi_dialogue.domain.answers import Cause, Mechanism
+from xavi_dialogue.explain.history.ride import prediction
+
+MORE_OFTEN = 0.05  # probability by which the foil must terminate more often
+COLLIDES = 0.01  # ... and by which it must collide more often: a collision weighs much
+LONGER = 0.5  # [s] expected, by which the foil must be held up longer
+LIKELY = 0.5  # share of the rollouts of a plan in which somebody holds it up
+AT_ONCE = 0.5  # [s] after a decision by which a hold-up begins that is going on already ...
+SURELY = 0.9  # ... in this share of the rollouts that have it
+SLOWER = 0.5  # [s] by which the foil must arrive later to be called slower
+
+
+def contrastive_causes(
+    model: CausalModel,
+    foil: Intervention,
+    fact: Intervention,
+    effects: Sequence[ComponentEffect],
+) -> tuple[Cause, ...]:
+    """Find the causes of a contrast, most important first, each vehicle once."""
+    if foil.likeliest == "dead":
+        return ()
+    measured = {found.vehicle: found for found in influence(model, (fact, foil))}
+    struck = _struck(model, foil, fact, measured)
+    slowed = _slowed(model, foil, fact, effects, measured)
+    halts = foil.plan[:1] == ("stop",) and fact.plan[:1] != ("stop",)  # slower in any case
+    decided = [] if halts else _deciding(model, measured.values())
+    first, second = (struck, slowed) if foil.likeliest == "collision" else (slowed, struck)
+    found: dict[int, Cause] = {}
+    for cause in (*first, *second, *decided):
+        found.setdefault(cause.vehicle, cause)
+    return tuple(found.values())
+
+
+def holding_up(
+    model: CausalModel, plan: Intervention, window: tuple[float, float] | None = None
+) -> tuple[Cause, ...]:
+    """Find the vehicles that probably hold the ego up under its plan, longest first.
+
+    Args:
+        model: the network of the decision.
+        plan: what the ego does.
+        window: [s] simulation times between which the hold-up must lie at least in part.
+    """
+    found = [
+        h for h in hold_ups(plan, window).values() if h.share >= LIKELY and h.expected >= LONGER
+    ]
+    found.sort(key=lambda h: (-h.expected, h.vehicle))
+    return tuple(_by_hold_up(model, hold_up, None) for hold_up in found)
+
+
+def expected_actions(model: CausalModel, vehicle: int, choice: Choice) -> tuple[Actions, float]:
+    """Tell the actions of a goal and trajectory, and the probability that they are those taken."""
+    known = prediction(model.trace, vehicle)
+    if known is None:
+        return (), 0.0
+    goal, way = choice
+    actions = known.goals[goal].trajectories[way].actions
+    probability = sum(
+        chance
+        for (g, t), chance in model.choices(vehicle).items()
+        if known.goals[g].trajectories[t].actions == actions
+    )
+    return actions, min(probability, 1.0)
+
+
+def _struck(
+    model: CausalModel, foil: Intervention, fact: Intervention, measured: dict[int, Influence]
+) -> list[Cause]:
+    before, found = fact.collisions(), []
+    for vehicle, share in sorted(foil.collisions().items(), key=lambda item: -item[1]):
+        choice = colliding_choice(foil, vehicle)
+        if vehicle == EGO or choice is None or share - before.get(vehicle, 0.0) < COLLIDES:
+            continue
+        mechanism = Mechanism("collision", None, None, None, share)
+        actions, probability = expected_actions(model, vehicle, choice)
+        bits = _bits(measured.get(vehicle))
+        found.append(Cause(vehicle, actions, probability, mechanism, bits, None))
+    return found
+
+
+def _slowed(
+    model: CausalModel,
+    foil: Intervention,
+    fact: Intervention,
+    effects: Sequence[ComponentEffect],
+    measured: dict[int, Influence],
+) -> list[Cause]:
+    later = any(e.component == "time" and e.delta >= SLOWER for e in effects)
+    stuck = foil.outcomes["termination"] - fact.outcomes["termination"] >= MORE_OFTEN
+    if not later and not stuck:
+        return []
+    before = hold_ups(fact)
+    gains = [
+        (held.expected - (before[vehicle].expected if vehicle in before else 0.0), held)
+        for vehicle, held in hold_ups(foil).items()
+    ]
+    gains = [(gain, held) for gain, held in gains if gain >= LONGER]
+    gains.sort(key=lambda item: (-item[0], item[1].vehicle))
+    return [_by_hold_up(model, held, measured.get(held.vehicle)) for _, held in gains]
+
+
+def _deciding(model: CausalModel, measured: Iterable[Influence]) -> list[Cause]:
+    """Those whose behaviour decides between fact (option 0) and foil."""
+    found = []
+    for influenced in measured:
+        if not influenced.significant:
+            continue
+        speaking = [c for c in influenced.choices if c.options[0] >= influenced.options[0]]
+        choice = (speaking or list(influenced.choices))[0].choice
+        actions, probability = expected_actions(model, influenced.vehicle, choice)
+        bits = influenced.bits
+        found.append(Cause(influenced.vehicle, actions, probability, None, bits, None))
+    return found
+
+
+def _by_hold_up(model: CausalModel, held: VehicleHoldUp, measured: Influence | None) -> Cause:
+    actions, probability = expected_actions(model, held.vehicle, held.choice)
+    present = held.began <= model.trace.sim_time + AT_ONCE and held.at_once >= SURELY
+    mechanism = Mechanism(
+        _how(held, actions), held.speed_from, held.speed_to, held.duration, held.share, present
+    )
+    return Cause(held.vehicle, actions, probability, mechanism, _bits(measured), None)
+
+
+def _how(held: VehicleHoldUp, actions: Actions) -> HoldUp:
+    """How it holds up, as one would say it: who goes straight on does not cut in.
+
+    In rollouts it does as well where the ego moves in behind it.
+    """
+    straight = bool(actions) and set(actions) <= {"continue", "exit-straight"}
+    return "leader" if held.how == "cut-in" and straight else held.how
+
+
+def _bits(measured: Influence | None) -> float | None:
+    return measured.bits if measured is not None and measured.significant else None

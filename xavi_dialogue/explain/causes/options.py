@@ -1,0 +1,68 @@
+"""Options: what a decision weighed, and how each came out."""
+
+from planner.trace import Action
+from xavi_dialogue.causal.effects import effects
+from xavi_dialogue.causal.model import Intervention
+from xavi_dialogue.domain.answers import Evidence
+from xavi_dialogue.domain.facts import OptionValue
+from xavi_dialogue.explain.causes.contrast import alternatives, factual, outcome
+from xavi_dialogue.explain.causes.premise import Premise
+from xavi_dialogue.explain.causes.terms import differences
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import Ride, planned
+
+
+def free(ride: Ride, found: Premise) -> Premise:
+    """Find the decision asked about, or the last before it that had a choice."""
+    if found.trace.under_way is None:
+        return found
+    before = [t for t in ride.traces if t.under_way is None and t.sim_time <= found.trace.sim_time]
+    deed: Deed | None = found.deed
+    return Premise(before[-1], deed) if before else found
+
+
+def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
+    """List the options of a decision, best first, the chosen one marked.
+
+    Raises:
+        Unanswered: there is too little evidence of what was chosen.
+    """
+    trace, node = found.trace, found.node
+    model, plan = ride.model(trace), planned(trace)
+    if len(plan) <= len(node):
+        return ()
+    here = factual(model, trace)
+    chosen = plan[len(node)]
+    base = trace.plan[0].value if not node else here.value
+    rows = [_option(chosen, here, here, base, chosen=True)]
+    for foil, there in alternatives(model, chosen, node):
+        value = base - sum(differences(model, there, here).values())
+        rows.append(_option(foil[len(node)], there, here, value, chosen=False))
+    return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
+
+
+def _option(
+    action: Action, plan: Intervention, here: Intervention, value: float, *, chosen: bool
+) -> OptionValue:
+    ends = outcome(plan)
+    delta = next((e.delta for e in effects(plan, here) if e.component == "time"), None)
+    arrives = ends.name == "done"
+    struck = plan.collisions()
+    return OptionValue(
+        action=action,
+        chosen=chosen,
+        outcome=ends.name,
+        probability=ends.probability,
+        time=plan.expectation("time") if arrives else None,
+        delta=None if chosen or not arrives else delta,
+        value=value,
+        collision=min(plan.outcomes["collision"], 1.0),
+        collided_with=max(struck, key=lambda v: struck[v]) if struck else None,
+    )
+
+
+def situations(found: Premise) -> Evidence:
+    """Tell how many rollouts and distinct situations a decision rests on."""
+    trace = found.trace
+    distinct = len({rollout.samples for rollout in trace.rollouts})
+    return Evidence("tree", len(trace.rollouts), distinct, (trace.trace_id,))

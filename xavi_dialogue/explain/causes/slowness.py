@@ -1,0 +1,136 @@
+"""Slowness: why the ego drives slowly, or stays behind another: the state, not its coming about.
+
+Driving slowly is judged against the limit. Who drives in front of us within some seconds is the
+reason where it is no faster than we are and planning without it is faster.
+"""
+
+from dataclasses import dataclass
+
+from planner.trace import PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.causal.model import Actions
+from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
+from xavi_dialogue.domain.facts import Episode, Look
+from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.explain.causes.contrast import evidence, factual
+from xavi_dialogue.explain.causes.driving import Reasons, beside, ego_speed, motion_cause
+from xavi_dialogue.explain.causes.involved import expected_actions, holding_up
+from xavi_dialogue.explain.causes.necessity import proven
+from xavi_dialogue.explain.causes.roadside import limit_at, road_causes, setting_off
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.ride import Ride, Unanswered
+
+SLOW = 0.85  # of the limit, below which driving is slow
+AT_LIMIT = 0.93  # of the limit, from which one drives at it
+HEADWAY = 5.0  # [s] within which somebody in front sets the pace
+NEAR = 12.0  # [m] likewise, however slow we are
+ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
+FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
+AROUND = 3.0  # [s] of the plan that count as now
+
+
+@dataclass(frozen=True, slots=True)
+class Slowness:
+    """How the ego drove at a time, and why."""
+
+    deed: Episode
+    reasons: Reasons
+    limit: float | None  # [m/s]
+    is_slow: bool | None  # None: the limit is not known
+
+
+def slowness(ride: Ride, world: World, time: float) -> Slowness:
+    """Tell why the ego drove no faster at a time [s].
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    trace = ride.at(time) or next(iter(ride.traces), None)
+    speed = ego_speed(ride, time)
+    if trace is None or speed is None:
+        raise Unanswered(NotRecorded("before-record", since=time))
+    limit = limit_at(ride, time)
+    ahead = leader(ride, world, time)
+    deed = Episode(
+        Ego(),
+        "follow" if ahead is not None else "move",
+        begin=time,
+        end=None if time >= ride.now - 0.5 else time,
+        object=None if ahead is None else Vehicle(ahead.vehicle),
+        speed_from=speed,
+        speed_to=speed,
+    )
+    is_slow = None if limit is None else speed < SLOW * limit
+    if limit is not None and speed >= AT_LIMIT * limit:
+        reasons = Reasons((MotionCause("limit", value=limit),), (), _recorded(trace), trace)
+        return Slowness(deed, reasons, limit, is_slow=False)
+    reasons = _reasons(ride, world, trace, deed, ahead)
+    return Slowness(deed, reasons, limit, is_slow)
+
+
+def leader(ride: Ride, world: World, time: float) -> Look | None:
+    """Find who drives or stands in front of the ego at a time, within some seconds; the nearest."""
+    speed = ego_speed(ride, time) or 0.0
+    reach = max(NEAR, HEADWAY * speed)
+    looks = [look for v in world.in_view(time) if (look := world.look(v, time)) is not None]
+    ahead = [look for look in looks if _in_front(look, reach) and _same_lane(ride, look, time)]
+    return min(ahead, key=lambda look: look.distance, default=None)
+
+
+def _in_front(look: Look, reach: float) -> bool:
+    straight = look.ahead > 0.0 and abs(look.left) <= max(ASIDE, 0.08 * look.ahead)
+    return look.in_view and not look.oncoming and straight and look.distance <= reach
+
+
+def _same_lane(ride: Ride, look: Look, time: float) -> bool:
+    """Whether a vehicle is on our lane, as far as the road is recorded."""
+    trace = ride.at(time)
+    if trace is None or trace.road is None:
+        return abs(look.left) <= ASIDE
+    ours, theirs = trace.road.places.get(EGO), trace.road.places.get(look.vehicle)
+    if ours is None or theirs is None or ours.edge != theirs.edge:
+        return True
+    return ours.lane is None or theirs.lane is None or ours.lane == theirs.lane
+
+
+def _reasons(
+    ride: Ride, world: World, trace: PlanTrace, deed: Episode, ahead: Look | None
+) -> Reasons:
+    model = ride.model(trace)
+    try:
+        plan = factual(model, trace)
+    except Unanswered:
+        own = () if ahead is None else (_plain(ahead),)
+        return Reasons(own or road_causes(ride, trace, deed), (), _recorded(trace), trace)
+    window = (deed.begin - 1.0, deed.begin + AROUND)
+    found = list(holding_up(model, plan, window))
+    paced = ahead is not None and ahead.speed <= (deed.speed_to or 0.0) + FASTER
+    if ahead is not None and paced and ahead.vehicle not in [c.vehicle for c in found]:
+        found.append(_as_leader(ride, trace, ahead))
+    tried = proven(ride, model, found, plan, at=trace.sim_time + AROUND)
+    causes = [motion_cause(ride, world, c, trace, deed.begin) for c in tried.causes]
+    if setting_off(ride, deed.begin):
+        causes.append(MotionCause("starting"))
+    if not causes:
+        causes = list(beside(road_causes(ride, trace, deed), tried.cleared))
+    return Reasons(tuple(causes), tried.cleared, evidence(ride, model, plan), trace)
+
+
+def _as_leader(ride: Ride, trace: PlanTrace, ahead: Look) -> Cause:
+    model = ride.model(trace)
+    actions: Actions = ()
+    probability = 0.0
+    if ahead.vehicle in model.vehicles:
+        choices = model.choices(ahead.vehicle)
+        likeliest = max(choices, key=lambda choice: choices[choice])
+        actions, probability = expected_actions(model, ahead.vehicle, likeliest)
+    mechanism = Mechanism("leader", ahead.speed, ahead.speed, None, 1.0, present=True)
+    return Cause(ahead.vehicle, actions, probability, mechanism)
+
+
+def _plain(ahead: Look) -> MotionCause:
+    return MotionCause("leader", vehicle=ahead.vehicle, speed=ahead.speed)
+
+
+def _recorded(trace: PlanTrace) -> Evidence:
+    return Evidence(traces=(trace.trace_id,))

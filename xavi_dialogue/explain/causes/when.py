@@ -1,0 +1,65 @@
+"""When: which of several things that happened a part of the ride points at."""
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from xavi_dialogue.domain.discourse import Span
+
+Item = TypeVar("Item")
+Bounds = tuple[float, float | None]  # [s] begin and end; None while it goes on
+
+LEEWAY = 1.5  # [s] by which passengers misjudge a moment that they name
+RECENT = 2.0  # [s] since when something is still going on
+ROUNDING = 1e-6  # [s]
+
+
+def past(span: Span | None) -> Span | None:
+    """Keep a span of what has been; None for one that is to come."""
+    return span if span is not None and not span.ahead else None
+
+
+def moment_of(span: Span | None, now: float) -> float:
+    """Tell the instant [s] that a span stands for: its middle; now where nothing says when.
+
+    One that was only inferred and lasts up to now stands for now.
+    """
+    found = past(span)
+    if found is None or (not found.said and found.end >= now - ROUNDING):
+        return now
+    return (found.begin + found.end) / 2.0
+
+
+def meets(span: Span | None, begin: float, end: float | None) -> bool:
+    """Tell whether something lies in a span, at least in part; a moment is not taken exactly."""
+    found = past(span)
+    if found is None:
+        return True
+    near = LEEWAY if _is_moment(found) else 0.0
+    last = math.inf if end is None else end
+    return begin <= found.end + near + ROUNDING and last >= found.begin - near - ROUNDING
+
+
+def pick(span: Span | None, items: Sequence[Item], bounds: Callable[[Item], Bounds]) -> Item | None:
+    """Choose, of what happened, oldest first, the one that a span points at: the latest that fits.
+
+    Where the span was only inferred and nothing fits, the nearest to it; None where the passenger
+    said when, and there was nothing then.
+    """
+    found = past(span)
+    if found is None or not items:
+        return items[-1] if items else None
+
+    def away(item: Item) -> tuple[float, float]:
+        begin, end = bounds(item)
+        last = math.inf if end is None else end
+        return max(found.begin - last, begin - found.end, 0.0), -begin
+
+    inside = [item for item in items if meets(found, *bounds(item))]
+    if inside:
+        return min(inside, key=away) if _is_moment(found) else inside[-1]
+    return None if found.said else min(items, key=away)
+
+
+def _is_moment(span: Span) -> bool:
+    return span.end - span.begin < LEEWAY

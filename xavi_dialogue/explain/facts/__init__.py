@@ -1,0 +1,1 @@
+"""Facts: what the record of a ride shows, as relations with times."""

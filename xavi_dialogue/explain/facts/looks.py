@@ -1,0 +1,92 @@
+"""Looks: how a vehicle is seen at a time, and who else looks like it."""
+
+from collections.abc import Mapping
+from typing import TypeAlias, get_args
+
+from msgspec.structs import replace
+
+from planner.road import RoadPlace
+from sim.scene import EGO, VehicleState
+from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.vocabulary import Kind
+from xavi_dialogue.explain.facts.bearings import bearing, offset, oncoming
+from xavi_dialogue.explain.facts.bodies import distance
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.motion import EPSILON
+
+_Places: TypeAlias = tuple[RoadPlace | None, RoadPlace | None]
+
+KINDS: dict[str, Kind] = {kind: kind for kind in get_args(Kind)}
+
+
+def kind_of(state: VehicleState) -> Kind:
+    """What a passenger sees a vehicle to be."""
+    return KINDS.get(state.kind, "vehicle")
+
+
+def look(states: States, vehicle: int, time: float) -> Look | None:
+    """A vehicle as it is seen at a time [s], or was seen last; None where it never was."""
+    return states.memo(("look", vehicle, round(time, 3)), lambda: _look(states, vehicle, time))
+
+
+def _look(states: States, vehicle: int, time: float) -> Look | None:
+    seen = states.last_seen(vehicle, time)
+    if seen is None or vehicle == EGO:
+        return None
+    state, ego = states.lately(vehicle, time), states.state(EGO, seen)
+    if state is None or ego is None:
+        return None
+    places = states.place(EGO, seen), states.place(vehicle, seen)
+    found = _seen(vehicle, seen, ego, state, places)
+    in_view = seen >= time - EPSILON
+    return replace(
+        found,
+        alone=_alone(states, vehicle, seen),
+        in_view=in_view,
+        seen=None if in_view else seen,
+    )
+
+
+def look_in(scene: Mapping[int, VehicleState], vehicle: int, time: float) -> Look | None:
+    """See a vehicle in a scene of which nothing else is known; None where it is not in it."""
+    if vehicle == EGO or EGO not in scene or vehicle not in scene:
+        return None
+    mine = (kind_of(scene[vehicle]), scene[vehicle].colour)
+    others = (state for name, state in scene.items() if name not in (EGO, vehicle))
+    alone = all((kind_of(other), other.colour) != mine for other in others)
+    return replace(_seen(vehicle, time, scene[EGO], scene[vehicle]), alone=alone)
+
+
+def _seen(
+    vehicle: int,
+    time: float,
+    ego: VehicleState,
+    state: VehicleState,
+    places: _Places = (None, None),
+) -> Look:
+    """See a vehicle from our car; `places` on the road are ours and its own."""
+    where = offset(ego, state)
+    return Look(
+        vehicle,
+        time,
+        kind_of(state),
+        state.colour,
+        state.length,
+        bearing(where, *places),
+        round(distance(ego, state), 2),
+        round(where.ahead, 2),
+        round(where.left, 2),
+        state.speed,
+        oncoming=oncoming(where),
+    )
+
+
+def _alone(states: States, vehicle: int, time: float) -> bool:
+    """Whether nobody else in view has a vehicle's kind and colour."""
+    mine = _appearance(states, vehicle)
+    return all(_appearance(states, v) != mine for v in states.in_view(time) if v != vehicle)
+
+
+def _appearance(states: States, vehicle: int) -> tuple[str, str | None] | None:
+    shape = states.shape(vehicle)
+    return None if shape is None else (kind_of(shape), shape.colour)

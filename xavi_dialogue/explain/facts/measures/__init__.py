@@ -1,0 +1,1 @@
+"""Measures: the value of each attribute, or why it has none."""

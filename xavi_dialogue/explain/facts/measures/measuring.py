@@ -1,0 +1,115 @@
+"""Measuring: the table of what works out each attribute."""
+
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Gap, Measure
+from xavi_dialogue.domain.terms import Thing
+from xavi_dialogue.domain.vocabulary import Attribute
+from xavi_dialogue.explain.facts.measures import between, driving, identity, roads, trip
+from xavi_dialogue.explain.facts.measures.asked import Asked
+from xavi_dialogue.explain.facts.options import options
+from xavi_dialogue.explain.facts.states import States
+
+Worker: TypeAlias = Callable[[Asked], Measure]
+
+delay = trip.delay
+
+
+def _comfort(asked: Asked) -> Measure:
+    """How hard it brakes at that time."""
+    return replace(driving.deceleration(asked), attribute="comfort")
+
+
+def _value(asked: Asked) -> Measure:
+    """The expected reward of what was chosen."""
+    chosen = next((o for o in options(asked.states.ride, asked.at) if o.chosen), None)
+    return asked.none("not-recorded") if chosen is None else asked.found(chosen.value)
+
+
+def _count(asked: Asked) -> Measure:
+    """How many vehicles are in view."""
+    return asked.found(float(len(asked.states.in_view(asked.at))))
+
+
+#: Of what must be seen at that time.
+SEEN: Mapping[Attribute, Worker] = {
+    "speed": driving.speed,
+    "limit": driving.limit,
+    "excess": driving.excess,
+    "acceleration": driving.acceleration,
+    "deceleration": driving.deceleration,
+    "jerk": driving.jerk,
+    "comfort": _comfort,
+    "indicator": driving.indicator,
+    "brake-lights": driving.brake_lights,
+    "gap": between.gap,
+    "headway": between.headway,
+    "distance": between.distance,
+    "time-to-collision": between.time_to_collision,
+    "place": between.place,
+    "lane": roads.lane,
+    "lane-count": roads.lane_count,
+    "right-of-way": roads.right_of_way,
+}
+#: Of what is known once it was seen.
+KNOWN: Mapping[Attribute, Worker] = {
+    "colour": identity.colour,
+    "kind": identity.kind,
+    "size": identity.size,
+    "name": identity.name,
+    "origin": identity.origin,
+    "heading": identity.heading,
+    "visibility": identity.visibility,
+    "turn": identity.turn,
+    "exit-number": roads.exit_number,
+    "route": roads.route,
+    "distance-to-go": trip.distance_to_go,
+    "distance-driven": trip.distance_driven,
+    "time-to-go": trip.time_to_go,
+    "arrival-time": trip.arrival_time,
+    "time": trip.clock,
+    "waiting-time": trip.waiting_time,
+    "value": _value,
+    "count": _count,
+}
+#: Of these, what is known of the ego alone: where others want to go is their own.
+OURS: frozenset[Attribute] = frozenset(
+    ("distance-to-go", "time-to-go", "arrival-time", "exit-number", "route", "value")
+)
+#: What has no value without an event or a proposition, and what no record holds.
+LACKING: Mapping[Attribute, Gap] = {
+    "duration": "not-applicable",  # World.duration of an episode
+    "delay": "not-applicable",  # World.delay of an episode
+    "probability": "not-applicable",  # World.belief, World.probability
+    "cost": "not-applicable",  # World.options
+    "weather": "not-sensed",
+    "battery": "not-sensed",
+    "money": "not-recorded",
+    "law": "not-recorded",
+    "world": "not-sensed",
+}
+
+
+def measure(
+    states: States, attribute: Attribute, thing: Thing, at: float, to: Thing | None
+) -> Measure:
+    """The value of an attribute at a time [s]; where it has none, why."""
+    asked = Asked(states, attribute, thing, at, None if to == thing else to)
+    if attribute in LACKING:
+        return asked.none(LACKING[attribute])
+    if at > states.ride.now + 1e-6:
+        return asked.none("in-future")
+    if attribute in OURS and asked.vehicle != EGO:
+        return asked.none("others-thoughts")
+    if attribute == "turn" and asked.vehicle != EGO:
+        return replace(identity.heading(asked), attribute=attribute)
+    if attribute in KNOWN:
+        return KNOWN[attribute](asked)
+    gap = asked.gap()
+    if gap is not None:
+        return asked.none(gap)
+    return SEEN[attribute](asked)

@@ -1,0 +1,97 @@
+"""Measures of the road: lane, lanes, right of way, exits, the route."""
+
+from msgspec.structs import replace
+
+from planner.road import RouteStep
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.terms import Junction
+from xavi_dialogue.explain.facts.measures.asked import Asked
+from xavi_dialogue.explain.facts.ways import ways
+
+
+def lane(asked: Asked) -> Measure:
+    """The lane from the right, 1 the rightmost; `count`: how many there are."""
+    place = asked.states.place(asked.vehicle, asked.time)
+    if place is None:
+        return asked.none("not-recorded")
+    if place.lane is None:
+        return replace(asked.none("not-applicable"), count=place.lanes)
+    number = place.lane + 1
+    word = "only" if place.lanes == 1 else "right" if number == 1 else "middle"
+    word = "left" if number == place.lanes > 1 else word
+    found = replace(asked.found(float(number), word), count=place.lanes)
+    return replace(found, side=word) if word in ("left", "right") else found
+
+
+def lane_count(asked: Asked) -> Measure:
+    """How many lanes there are in that direction."""
+    place = asked.states.place(asked.vehicle, asked.time)
+    return asked.none("not-recorded") if place is None else asked.found(float(place.lanes))
+
+
+def right_of_way(asked: Asked) -> Measure:
+    """Who goes first of the ego and another; without another, the rule at the next junction.
+
+    `rule` is that of `thing`: priority, give-way, equal, depends. `word` names who goes first.
+    """
+    road = asked.states.road(asked.at)
+    if road is None:
+        return asked.none("not-recorded")
+    vehicle = asked.vehicle if asked.vehicle != EGO else asked.other
+    if vehicle is None or vehicle == EGO:
+        step = _next(asked)
+        return asked.none("not-applicable") if step is None else _ruled(asked, step)
+    who = next((fact.who for fact in road.priority if fact.vehicle == vehicle), None)
+    if who is None:
+        return asked.none("not-applicable")
+    first = (who == "ego") == (asked.vehicle == EGO)
+    rule = "depends" if who == "depends" else "priority" if first else "give-way"
+    return replace(asked.found(None, who), rule=rule)
+
+
+def _ruled(asked: Asked, step: RouteStep) -> Measure:
+    return replace(asked.found(step.distance, step.rule), rule=step.rule)
+
+
+def _next(asked: Asked) -> RouteStep | None:
+    """The step of the route that is asked about; the next one unless said."""
+    road = asked.states.road(asked.at)
+    places = [p for p in (asked.thing, asked.to) if isinstance(p, Junction)]
+    steps = [] if road is None else list(road.route)
+    if places and places[0].form == "roundabout":
+        steps = [s for s in steps if s.kind == "roundabout"]
+    rank = 1 if not places or places[0].rank is None else places[0].rank
+    return steps[rank - 1] if 0 < rank <= len(steps) else None
+
+
+def exit_number(asked: Asked) -> Measure:
+    """Which exit of the roundabout is taken: the next one's, else of the last one that was left.
+
+    `count`: how many exits there are; `value` without it: it was in the past.
+    """
+    road = asked.states.road(asked.at)
+    if road is None:
+        return asked.none("not-recorded")
+    left = [e for e in _rings(asked) if e.begin <= asked.at]
+    place = asked.states.place(EGO, asked.at)
+    inside = left and left[-1].action == "enter"
+    step = next((s for s in road.route if s.kind == "roundabout" and s.exit is not None), None)
+    if left and left[-1].exit is not None and (inside or step is None):
+        found = asked.found(float(left[-1].exit), None, asked.at if inside else left[-1].begin)
+        count = step.exits if step is not None and place and place.roundabout else None
+        return replace(found, count=count)
+    if step is None or step.exit is None:
+        return asked.none("not-applicable")
+    return replace(asked.found(float(step.exit)), count=step.exits, side=None)
+
+
+def _rings(asked: Asked) -> list[Episode]:
+    """The roundabouts that the ego entered and left, in order."""
+    return [e for e in ways(asked.states, EGO) if e.action in ("enter", "leave")]
+
+
+def route(asked: Asked) -> Measure:
+    """How many junctions are on the way to the destination; `World.road` has them."""
+    road = asked.states.road(asked.at)
+    return asked.none("not-recorded") if road is None else asked.found(float(len(road.route)))

@@ -1,0 +1,94 @@
+"""Episodes that only the ego has: arriving, colliding, changing its plan; and near misses."""
+
+import itertools
+from collections.abc import Iterator
+
+from planner.road import RoadFacts
+from planner.trace import Action, PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Destination
+from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.ride import planned
+
+TURNS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
+SAME_JUNCTION = 6.0  # [m] by which the distance to one junction varies between decisions
+
+
+def own(states: States) -> list[Episode]:
+    """What the ego's events tell, and where its plan changed."""
+    return [*_told(states), *_changed_plans(states), *_driving_on(states)]
+
+
+def _told(states: States) -> Iterator[Episode]:
+    for event in states.ride.events:
+        time = event.sim_time
+        if event.kind == "arrived":
+            yield Episode(named(EGO), "arrive", time, time, Destination())
+        elif event.kind == "collided":
+            other = None if event.vehicle is None else named(event.vehicle)
+            yield Episode(named(EGO), "collide", time, time, other)
+
+
+def _driving_on(states: States) -> Iterator[Episode]:
+    """The stretches in which the ego just drove on."""
+    for deed in states.ride.deeds:
+        if deed.action == "continue":
+            yield Episode(named(EGO), "continue", deed.time, deed.ended)
+
+
+def _changed_plans(states: States) -> Iterator[Episode]:
+    """Where the next thing to be done beside driving on was not what had been planned."""
+    traces = states.ride.traces
+    for before, after in itertools.pairwise(traces):
+        if changed(states, before, after):
+            yield Episode(named(EGO), "change-plan", after.sim_time, after.sim_time)
+
+
+def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
+    """Whether a decision means to do something else first than the one before it.
+
+    That is to take another turn at a junction ahead, or another action beside turns. What has
+    been begun in between is no change, nor is a turn that comes within reach of the plan.
+    """
+    if before.road is not None and after.road is not None:
+        driven = driven_between(states, before.sim_time, after.sim_time)
+        if _turns_elsewhere(before.road, after.road, driven):
+            return True
+        old, new = (tuple(a for a in _moves(t) if a not in TURNS) for t in (before, after))
+    else:
+        old, new = _moves(before), _moves(after)
+    if before.under_way is not None and after.under_way is None:
+        return False
+    for deed in states.ride.deeds:
+        begun = before.sim_time - EPSILON <= deed.started <= after.sim_time + EPSILON
+        if begun and old[:1] == (deed.action,) and new[:1] != old[:1]:
+            old = old[1:]
+    if old:
+        return old[:1] != new[:1]
+    return bool(new) and new[0] not in TURNS
+
+
+def driven_between(states: States, begin: float, end: float) -> float:
+    """The way [m] that the ego drove between two times [s]."""
+    motion = states.motion(EGO)
+    first, last = motion.index(begin), motion.index(end)
+    return 0.0 if first is None or last is None else motion.arc[last] - motion.arc[first]
+
+
+def _turns_elsewhere(before: RoadFacts, after: RoadFacts, driven: float) -> bool:
+    """Whether at the first junction that is on both routes another way is taken."""
+    if any(EGO in road.places and road.places[EGO].roundabout for road in (before, after)):
+        return False
+    for old in before.route:
+        for new in after.route:
+            same = old.kind == new.kind and old.arms == new.arms
+            if same and abs(old.distance - driven - new.distance) <= SAME_JUNCTION:
+                return (old.turn, old.exit) != (new.turn, new.exit)
+    return False
+
+
+def _moves(trace: PlanTrace) -> tuple[Action, ...]:
+    return tuple(action for action in planned(trace) if action != "continue")

@@ -1,0 +1,191 @@
+"""Relations of two things at a time: ahead of, has priority over, is waiting for, can see."""
+
+from collections.abc import Callable, Mapping
+from typing import TypeAlias
+
+from sim.scene import EGO
+from xavi_dialogue.domain.terms import Ego, Exit, Junction, Lane, Road, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.vocabulary import Relation
+from xavi_dialogue.explain.facts import bodies
+from xavi_dialogue.explain.facts.actions import somebody
+from xavi_dialogue.explain.facts.attributes import ATTRIBUTES
+from xavi_dialogue.explain.facts.bearings import Offset, oncoming
+from xavi_dialogue.explain.facts.meetings import followings
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.facts.waiting import top_holders, waits
+from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.thresholds import NEAR, ROAD_WIDTH, SAME_LANE, STANDING
+
+Told: TypeAlias = bool | None
+
+
+def holds(states: States, relation: Relation, thing: Thing, to: Thing, at: float) -> Told:
+    """Whether a relation holds at a time [s]; None where that cannot be told."""
+    first, second = _number(thing), _number(to)
+    if relation == "on":
+        return None if first is None else _on(states, first, to, at)
+    if relation == "same-as":
+        return None if first is None or second is None else first == second
+    if first is None or second is None:
+        return None
+    reader = OF_TWO.get(relation)
+    return None if reader is None else reader(states, first, second, at)
+
+
+def _number(thing: Thing) -> int | None:
+    match thing:
+        case Ego():
+            return EGO
+        case Vehicle(number):
+            return number
+        case Vehicles(numbers) if len(numbers) == 1:
+            return numbers[0]
+    return None
+
+
+def _placed(fits: Callable[[Offset], bool]) -> Callable[[States, int, int, float], Told]:
+    """Reads a relation off where the first is, seen from the second."""
+
+    def read(states: States, thing: int, to: int, at: float) -> Told:
+        seen = states.offset(to, thing, at)
+        return None if seen is None else fits(seen)
+
+    return read
+
+
+def _ahead(seen: Offset) -> bool:
+    return seen.ahead > 0.0 and abs(seen.left) <= max(ROAD_WIDTH, 0.5 * seen.ahead)
+
+
+def _behind(seen: Offset) -> bool:
+    return seen.ahead < 0.0 and abs(seen.left) <= max(ROAD_WIDTH, -0.5 * seen.ahead)
+
+
+def _beside(seen: Offset) -> bool:
+    return abs(seen.ahead) <= seen.clear and SAME_LANE < abs(seen.left) <= ROAD_WIDTH
+
+
+def _near(states: States, thing: int, to: int, at: float) -> Told:
+    a, b = states.state(thing, at), states.state(to, at)
+    return None if a is None or b is None else bodies.distance(a, b) <= NEAR
+
+
+def _priority(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether the first goes first; None where it depends or is not recorded."""
+    other = to if thing == EGO else thing
+    road = states.road(at)
+    if EGO not in (thing, to) or other == EGO or road is None:
+        return None
+    who = next((fact.who for fact in road.priority if fact.vehicle == other), None)
+    if who is None or who == "depends":
+        return None
+    return (who == "ego") == (thing == EGO)
+
+
+def _yields(states: States, thing: int, to: int, at: float) -> Told:
+    return _priority(states, to, thing, at)
+
+
+def _waiting(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether the first stands or gives way for the second."""
+    if not states.known(thing, at):
+        return None
+    now = [
+        e for e in waits(states, thing) if e.begin - EPSILON <= at <= _end(states, e.end) + EPSILON
+    ]
+    if any(to in (somebody(e.object) or frozenset()) for e in now):
+        return True
+    state = states.state(thing, at)
+    stands = state is not None and state.speed < STANDING
+    if stands and thing != EGO and not now:
+        return None  # it stands, and for whom cannot be seen
+    return False
+
+
+def _end(states: States, end: float | None) -> float:
+    return states.ride.now if end is None else end
+
+
+def _sees(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether the first can see the second: known of the ego alone."""
+    return states.visible(to, at) if thing == EGO else None
+
+
+def _in_the_way(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether the first holds the second up."""
+    trace = states.trace(at)
+    if trace is None:
+        return None
+    return any(who == thing for who, _ in top_holders(states, trace, to))
+
+
+def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
+    def read(states: States, thing: int, to: int, at: float) -> Told:
+        a, b = states.state(thing, at), states.state(to, at)
+        if a is None or b is None:
+            return None
+        return sign * (a.speed - b.speed) > ATTRIBUTES["speed"].tolerance
+
+    return read
+
+
+def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
+    """Whether a vehicle is on a lane, a roundabout, inside a junction."""
+    here, mine = states.place(vehicle, at), states.place(EGO, at)
+    if here is None:
+        return None
+    if isinstance(where, Junction):
+        return here.roundabout if where.form == "roundabout" else here.in_junction
+    if isinstance(where, Road):
+        return None if mine is None or where.which != "own" else here.edge == mine.edge
+    if not isinstance(where, Lane) or isinstance(where, Exit) or mine is None or here.lane is None:
+        return None
+    whose = mine if where.of is None else states.place(_number(where.of) or EGO, at)
+    if whose is None or whose.lane is None:
+        return None
+    same = here.edge == whose.edge
+    match where.which:
+        case "own":
+            return same and here.lane == whose.lane
+        case "left":
+            return (
+                here.lane == here.lanes - 1 if vehicle == EGO else same and (here.lane > whose.lane)
+            )
+        case "right":
+            return here.lane == 0 if vehicle == EGO else same and here.lane < whose.lane
+        case "rightmost":
+            return here.lane == 0
+        case "leftmost":
+            return here.lane == here.lanes - 1
+        case "other":
+            return not (same and here.lane == whose.lane)
+    return None
+
+
+def _followed(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether the first drives with, after or before the second on one line."""
+    if EGO not in (thing, to):
+        return None
+    other = to if thing == EGO else thing
+    found = followings(states, other)
+    return any(e.begin <= at <= _end(states, e.end) + EPSILON for e in found)
+
+
+OF_TWO: Mapping[Relation, Callable[[States, int, int, float], Told]] = {
+    "ahead-of": _placed(_ahead),
+    "behind": _placed(_behind),
+    "left-of": _placed(lambda seen: seen.left > SAME_LANE),
+    "right-of": _placed(lambda seen: seen.left < -SAME_LANE),
+    "beside": _placed(_beside),
+    "near": _near,
+    "closer-than": _near,
+    "oncoming-to": _placed(oncoming),
+    "has-priority-over": _priority,
+    "must-yield-to": _yields,
+    "waiting-for": _waiting,
+    "can-see": _sees,
+    "in-the-way-of": _in_the_way,
+    "faster-than": _speeds(1.0),
+    "slower-than": _speeds(-1.0),
+    "with": _followed,
+}

@@ -1,0 +1,125 @@
+"""Episodes of speed: slowing down, braking, speeding up, stopping, standing, setting off."""
+
+from collections.abc import Iterator
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
+from xavi_dialogue.explain.history.thresholds import BRAKING, CHANGED, MOVING, STANDING
+
+GROWS = 0.2  # [m/s] in a second from which a speed grows
+
+
+def speeds(states: States, vehicle: int) -> list[Episode]:
+    """What a vehicle did with its speed."""
+    return states.memo(("speeds", vehicle), lambda: _speeds(states, vehicle))
+
+
+def _speeds(states: States, vehicle: int) -> list[Episode]:
+    found: list[Episode] = []
+    motion = states.motion(vehicle)
+    for sighting in motion.sightings():
+        if sighting.action in ("slow-down", "speed-up"):
+            found.append(_changed(states, vehicle, motion, sighting))
+    found += _standstills(states, vehicle, motion)
+    return found
+
+
+def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -> Episode:
+    inside = motion.within(sighting.start, sighting.end)
+    first, last = inside[0], inside[-1]
+    peak = max(-motion.rate[k] for k in inside)
+    slower = sighting.action == "slow-down"
+    going_on = _open(states, vehicle, sighting.end) and _continues(motion, slower)
+    return Episode(
+        named(vehicle),
+        "brake" if slower and peak >= BRAKING else sighting.action,
+        sighting.start,
+        None if going_on else sighting.end,
+        speed_from=motion.speed[first],
+        speed_to=motion.speed[last],
+        peak=round(peak, 2) if slower else None,
+        standing=slower and motion.speed[last] < STANDING,
+    )
+
+
+def _continues(motion: Motion, slower: bool) -> bool:
+    """Whether the speed still changes at the end of the record."""
+    if motion.speed[-1] < STANDING:
+        return False
+    return motion.rate[-1] <= -0.2 if slower else motion.rate[-1] >= 0.2
+
+
+def _open(states: States, vehicle: int, end: float) -> bool:
+    """Whether what was seen up to a time [s] may go on: it is the end of the record."""
+    motion = states.motion(vehicle)
+    over = states.ride.ended or not motion.time or end < motion.time[-1] - EPSILON
+    return not over and states.known(vehicle, states.ride.now)
+
+
+def _standstills(states: States, vehicle: int, motion: Motion) -> Iterator[Episode]:
+    """Standstills, and how they ended; short rolls within one are part of it."""
+    for begin, end, from_first in _still(motion):
+        first = motion.index(begin)
+        assert first is not None
+        yield Episode(
+            named(vehicle),
+            "stand" if from_first else "stop",
+            begin,
+            None
+            if end is None and _open(states, vehicle, motion.time[-1])
+            else end or motion.time[-1],
+            speed_to=0.0,
+            standing=True,
+        )
+        if end is not None:
+            yield _setting_off(states, vehicle, motion, end)
+
+
+def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> Episode:
+    """The setting off that ends a standstill, up to where the speed grows no more."""
+    k, last = motion.index(start), len(motion.speed) - 1
+    assert k is not None
+    while k + 1 < len(motion.speed) and motion.speed[min(k + 5, last)] > motion.speed[k] + GROWS:
+        k += 1
+    going_on = k + 1 == len(motion.speed) and _open(states, vehicle, motion.time[k])
+    end = None if going_on else motion.time[k]
+    return Episode(named(vehicle), "go", start, end, speed_from=0.0, speed_to=motion.speed[k])
+
+
+def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
+    """The standstills: from when to when [s], and whether it stood when it was seen first."""
+    begin: float | None = None
+    last = 0
+    for k, speed in enumerate(motion.speed):
+        broken = k > 0 and motion.time[k] - motion.time[k - 1] > 2.0
+        if begin is not None and (speed >= MOVING or broken):
+            yield (
+                begin,
+                motion.time[last + 1] if not broken else motion.time[last],
+                begin <= (motion.time[0] + EPSILON),
+            )
+            begin = None
+        if speed < STANDING:
+            last = k
+            if begin is None:
+                begin = motion.time[k]
+    if begin is not None:
+        moved = last + 1 < len(motion.time)
+        end = motion.time[last + 1] if moved and motion.speed[-1] >= CHANGED else None
+        yield begin, end, begin <= motion.time[0] + EPSILON
+
+
+def moves(states: States, vehicle: int) -> list[Episode]:
+    """The stretches in which a vehicle was in motion."""
+    motion = states.motion(vehicle)
+    found, start = [], motion.time[0] if motion.time else None
+    for begin, end, _ in _still(motion):
+        if start is not None and begin > start + EPSILON:
+            found.append(Episode(named(vehicle), "move", start, begin))
+        start = end
+    if start is not None:
+        last = None if _open(states, vehicle, motion.time[-1]) else motion.time[-1]
+        found.append(Episode(named(vehicle), "move", start, last))
+    return found

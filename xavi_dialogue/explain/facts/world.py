@@ -1,0 +1,180 @@
+"""World: the facts of a ride, asked by thing, attribute, action and time."""
+
+from collections.abc import Iterable, Mapping
+
+from planner.road import RoadFacts
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure, OptionValue
+from xavi_dialogue.domain.terms import Event, Thing
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation
+from xavi_dialogue.explain.facts import beliefs, happening, looks, options, relations
+from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
+from xavi_dialogue.explain.facts.measures import extremes, measuring
+from xavi_dialogue.explain.facts.states import states_of
+from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride, planned
+
+
+class World:
+    """What the record of a ride shows; all times are simulation seconds.
+
+    Nothing is worked out before it is asked for.
+    """
+
+    def __init__(self, ride: Ride) -> None:
+        self.ride = ride
+        self.states = states_of(ride)
+
+    @property
+    def now(self) -> float:
+        """The moment [s] of the question."""
+        return self.ride.now
+
+    @property
+    def begin(self) -> float:
+        """The first moment [s] of the record."""
+        return self.states.begin
+
+    @property
+    def vehicles(self) -> tuple[int, ...]:
+        """All other vehicles seen so far."""
+        return self.ride.vehicles
+
+    def in_view(self, t: float) -> tuple[int, ...]:
+        """The vehicles in view at a time, in order of their numbers."""
+        return self.states.memo(("view", t), lambda: self.states.in_view(t))
+
+    def look(self, vehicle: int, t: float) -> Look | None:
+        """A vehicle as it is seen at a time, or was seen last; None where it never was."""
+        return looks.look(self.states, vehicle, t)
+
+    def road(self, t: float) -> RoadFacts | None:
+        """The road as it was known at a time; None where no record keeps it."""
+        return self.states.road(t)
+
+    def measure(
+        self, attribute: Attribute, thing: Thing, at: float, to: Thing | None = None
+    ) -> Measure:
+        """The value of an attribute at a time; where it has none, why."""
+        return measuring.measure(self.states, attribute, thing, at, to)
+
+    def extreme(
+        self,
+        attribute: Attribute,
+        thing: Thing,
+        which: Extreme,
+        begin: float,
+        end: float,
+        to: Thing | None = None,
+    ) -> Measure:
+        """The highest, lowest, first, last, mean or total value over an interval."""
+        return extremes.extreme(self.states, attribute, thing, which, (begin, end), to)
+
+    def episodes(
+        self,
+        actor: Thing | int | Iterable[int] | None = None,
+        actions: Iterable[ActionName] | ActionName | None = None,
+        begin: float | None = None,
+        end: float | None = None,
+        object: Thing | int | None = None,  # noqa: A002
+    ) -> tuple[Episode, ...]:
+        """The episodes that meet an interval, in order of their beginnings.
+
+        Args:
+            actor: who does it; None: anybody.
+            actions: what is done, each with all that counts as it; None: anything.
+            begin: of the interval; None: from the beginning of the ride on.
+            end: of the interval; None: up to now.
+            object: whom it concerns; None: anybody or nobody.
+        """
+        wanted = None if actions is None else covered(_names(actions))
+        actors, objects = _numbers(actor), _numbers(object)
+        found = []
+        for episode in happening.happening(self.states, actors, wanted):
+            until = self.now if episode.end is None else episode.end
+            if begin is not None and until < begin - EPSILON:
+                continue
+            if end is not None and episode.begin > end + EPSILON:
+                continue
+            whom = somebody(episode.object)
+            if objects is not None and (whom is None or not whom & objects):
+                continue
+            found.append(episode)
+        return tuple(found)
+
+    def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
+        """The episodes in an interval that are such a grounded event."""
+        named = mirrored(event)
+        actors = happening.actors_of(self.states, named)
+        found = self.episodes(actors, (named.action,), begin, end)
+        return happening.such(found, named, begin)
+
+    def account(self, begin: float, end: float) -> tuple[Episode, ...]:
+        """What is worth telling of an interval: nothing that another episode tells already."""
+        return happening.account(self.episodes(begin=begin, end=end))
+
+    def duration(self, episode: Episode) -> float:
+        """How long [s] an episode lasted, or has lasted."""
+        return max((self.now if episode.end is None else episode.end) - episode.begin, 0.0)
+
+    def delay(self, episode: Episode) -> Measure:
+        """What an episode of slowing down or standing cost against driving on as before."""
+        return measuring.delay(self.states, episode)
+
+    def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
+        """Whether a relation holds at a time; None where that cannot be told."""
+        return relations.holds(self.states, relation, thing, to, at)
+
+    def belief(self, vehicle: int, at: float) -> Belief | None:
+        """What was believed of a vehicle at the last decision up to a time."""
+        return beliefs.belief(self.states, vehicle, at)
+
+    def beliefs(self, vehicle: int, begin: float, end: float) -> tuple[Belief, ...]:
+        """What was believed of a vehicle at each decision of an interval."""
+        return beliefs.over(self.states, vehicle, begin, end)
+
+    def probability(self, event: Event, at: float) -> float | None:
+        """How probable it was held that another vehicle does something; None: not known."""
+        return beliefs.probability(self.states, event, at)
+
+    def plan(self, at: float) -> tuple[MacroAction, ...]:
+        """What the last decision up to a time meant to do, in order."""
+        trace = self.states.trace(at)
+        return () if trace is None else planned(trace)
+
+    def options(self, at: float) -> tuple[OptionValue, ...]:
+        """What the last decision up to a time could choose from, with values; best first."""
+        return options.options(self.ride, at)
+
+    def beginnings(self) -> Mapping[ActionName, float]:
+        """When each action of the ego's plan is expected to begin [s]."""
+        return options.beginnings(self.ride)
+
+
+_kept: list[World] = []  # latest first
+KEPT = 2  # worlds that are kept for the questions that follow
+
+
+def world_of(record: Record) -> World:
+    """The world of a record; the same for the same record, as the parts of one question need."""
+    for known in _kept:
+        if known.ride.record is record:
+            return known
+    found = World(Ride(record))
+    _kept[:] = [found, *_kept][:KEPT]
+    return found
+
+
+def _names(actions: Iterable[ActionName] | ActionName) -> frozenset[ActionName]:
+    return frozenset((actions,)) if isinstance(actions, str) else frozenset(actions)
+
+
+def _numbers(thing: Thing | int | Iterable[int] | None) -> frozenset[int] | None:
+    if thing is None:
+        return None
+    if isinstance(thing, int):
+        return frozenset((thing,))
+    if isinstance(thing, Iterable):
+        return frozenset(thing)
+    return somebody(thing)

@@ -1,0 +1,144 @@
+"""Joining: the recorded histories of all decisions as one motion for each vehicle.
+
+Joined motions are kept for the rides asked about last: a ride that has gone on adds to what is
+known, and one that is looked back upon is a part of it.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from planner.road import LightChange
+from planner.trace import SAMPLE_PERIOD, PlanTrace, Track
+from sim.scene import EGO
+from xavi_dialogue.explain.history.motion import EPSILON, Motion
+
+KEPT = 4  # rides whose motions are kept
+Traces = tuple[PlanTrace, ...]
+Span = tuple[float, float]  # [s]
+NOTHING = Motion((), (), (), ())
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What was seen of one vehicle."""
+
+    motion: Motion = NOTHING
+    lights: tuple[LightChange, ...] = ()  # oldest first; () unknown
+    hidden: tuple[Span, ...] = ()  # when it was behind something, its motion guessed
+
+    def until(self, time: float) -> "Seen":
+        """What was known at the time [s] of a decision."""
+        lights = tuple(change for change in self.lights if change.time <= time + EPSILON)
+        hidden = tuple((a, min(b, time)) for a, b in self.hidden if a < time - EPSILON)
+        return Seen(self.motion.until(time), lights, hidden)
+
+
+@dataclass(frozen=True, slots=True)
+class Joined:
+    """What was seen of everybody in some decisions."""
+
+    traces: Traces = ()
+    seen: Mapping[int, Seen] = field(default_factory=dict)
+
+    def extended(self, traces: Traces) -> "Joined":
+        """The same with further decisions, all of them given."""
+        seen = dict(self.seen)
+        parts: dict[int, _Part] = {}
+        for trace in traces[len(self.traces) :]:
+            for vehicle, track in trace.history.items():
+                if vehicle not in parts:
+                    parts[vehicle] = _Part(seen.get(vehicle, Seen()))
+                parts[vehicle].add(trace, vehicle, track)
+        for vehicle, part in parts.items():
+            seen[vehicle] = part.seen()
+        return Joined(traces, seen)
+
+    def until(self, traces: Traces) -> "Joined":
+        """The same with the first few decisions only."""
+        time = traces[-1].sim_time
+        seen = {v: known.until(time) for v, known in self.seen.items()}
+        return Joined(traces, {v: known for v, known in seen.items() if known.motion.time})
+
+
+_kept: list[Joined] = []  # latest first
+
+
+def joined(traces: Traces) -> Joined:
+    """What was seen of everybody in some decisions of a ride, oldest first."""
+    if not traces:
+        return Joined()
+    for known in tuple(_kept):
+        if len(known.traces) >= len(traces):
+            if _begins(known.traces, traces):
+                return known if len(known.traces) == len(traces) else known.until(traces)
+        elif _begins(traces, known.traces):
+            return _keep(known.extended(traces), known)
+    return _keep(Joined().extended(traces))
+
+
+def _begins(traces: Traces, with_these: Traces) -> bool:
+    last = len(with_these) - 1
+    if traces[last] is not with_these[last]:
+        return False
+    return all(a is b for a, b in zip(traces, with_these, strict=False))
+
+
+def _keep(found: Joined, instead: Joined | None = None) -> Joined:
+    others = [known for known in _kept if known is not instead]
+    _kept[:] = [found, *others][:KEPT]
+    return found
+
+
+class _Part:
+    """Collects the samples of one vehicle."""
+
+    def __init__(self, known: Seen) -> None:
+        self._known = known
+        self._last = known.motion.time[-1] if known.motion.time else float("-inf")
+        self._time: list[float] = []
+        self._position: list[tuple[float, float]] = []
+        self._heading: list[float] = []
+        self._speed: list[float] = []
+        self._lights = list(known.lights)
+        self._hidden = list(known.hidden)
+
+    def add(self, trace: PlanTrace, vehicle: int, track: Track) -> None:
+        """Add what a decision knows beyond those before it."""
+        self._add_lights(trace, vehicle, track)
+        since = trace.unseen.get(vehicle)
+        if since is not None and trace.sim_time > since + EPSILON:
+            if self._hidden and self._hidden[-1][0] == since:
+                self._hidden.pop()
+            self._hidden.append((since, trace.sim_time))
+        first, count = 0, len(track.speed)
+        if self._last >= track.start - SAMPLE_PERIOD / 2.0:
+            first = int((self._last - track.start) / SAMPLE_PERIOD + 0.5 + EPSILON) + 1
+        if first >= count:
+            return
+        self._time += [round(track.start + k * SAMPLE_PERIOD, 3) for k in range(first, count)]
+        self._position += track.position[first:]
+        self._heading += track.heading[first:]
+        self._speed += track.speed[first:]
+        self._last = self._time[-1]
+
+    def _add_lights(self, trace: PlanTrace, vehicle: int, track: Track) -> None:
+        changes: Sequence[LightChange] = track.lights
+        if not changes and vehicle in trace.scene and (vehicle == EGO or not trace.road):
+            changes = (LightChange(trace.sim_time, trace.scene[vehicle].signals),)
+        for change in changes:
+            last = self._lights[-1] if self._lights else None
+            fresh = last is None or change.time > last.time + EPSILON
+            if fresh and (last is None or last.shown != change.shown):
+                self._lights.append(change)
+
+    def seen(self) -> Seen:
+        """All that is known of it now."""
+        motion = self._known.motion
+        if self._time:
+            motion = Motion(
+                motion.time + tuple(self._time),
+                motion.position + tuple(self._position),
+                motion.heading + tuple(self._heading),
+                motion.speed + tuple(self._speed),
+            )
+        return Seen(motion, tuple(self._lights), tuple(self._hidden))

@@ -1,0 +1,20 @@
+"""Record: everything of a ride that explanations may draw on."""
+
+from dataclasses import dataclass
+
+from planner.events import Event
+from planner.trace import PlanTrace
+from xavi_dialogue.domain.answers import NeedRollout
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """The ride so far, oldest first; pure data, live or replayed."""
+
+    now: float  # [s] simulation time at which the question is asked
+    traces: tuple[PlanTrace, ...] = ()
+    events: tuple[Event, ...] = ()
+    ended: bool = False
+    extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
+    refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing
+    gaps: tuple[tuple[float, float], ...] = ()  # [s] from when to when some of it was lost

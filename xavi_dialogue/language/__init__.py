@@ -1,1 +1,0 @@
-"""Text to Query, and Explanation to text."""

@@ -1,0 +1,1 @@
+"""Natural language generation: answers into English. Content planning, then surface form."""

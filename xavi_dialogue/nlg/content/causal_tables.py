@@ -1,0 +1,40 @@
+"""Tables: the planner of each type of causal answer, and of refusals."""
+
+from xavi_dialogue.domain import answers
+from xavi_dialogue.nlg.content import insights, refusals
+from xavi_dialogue.nlg.content.clarifications import plan_which_one
+from xavi_dialogue.nlg.content.corrections import plan_did_not_happen
+from xavi_dialogue.nlg.content.going import plan_going, plan_unslowed
+from xavi_dialogue.nlg.content.motives import plan_motion
+from xavi_dialogue.nlg.content.others import plan_other, plan_place, plan_signal
+from xavi_dialogue.nlg.content.plan import Planner
+from xavi_dialogue.nlg.content.reasons import plan_choice, plan_supposed_of_us
+from xavi_dialogue.nlg.content.suppositions import plan_supposed_of_other
+
+CAUSES: dict[type, Planner] = {
+    answers.ChoiceReason: plan_choice,
+    answers.MotionReason: plan_motion,
+    answers.GoReason: plan_going,
+    answers.Unslowed: plan_unslowed,
+    answers.OtherReason: plan_other,
+    answers.SignalReason: plan_signal,
+    answers.PlaceReason: plan_place,
+    answers.SupposedOfUs: plan_supposed_of_us,
+    answers.SupposedOfOther: plan_supposed_of_other,
+    answers.Grounds: insights.plan_grounds,
+    answers.Certainty: insights.plan_certainty,
+    answers.Method: insights.plan_method,
+    answers.Pivot: insights.plan_pivot,
+    answers.Avoidance: insights.plan_avoidance,
+}
+REFUSALS: dict[type, Planner] = {
+    answers.NotUnderstood: refusals.plan_not_understood,
+    answers.WhichOne: plan_which_one,
+    answers.NoSuchVehicle: refusals.plan_no_such_vehicle,
+    answers.DidNotHappen: plan_did_not_happen,
+    answers.NotApplicable: refusals.plan_not_applicable,
+    answers.TooLittle: refusals.plan_too_little,
+    answers.NotRecorded: refusals.plan_not_recorded,
+    answers.CannotSay: refusals.plan_cannot_say,
+    answers.Unavailable: refusals.plan_unavailable,
+}

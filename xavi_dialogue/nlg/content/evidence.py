@@ -1,0 +1,108 @@
+"""Evidence: what is told of a comparison where more is wanted: ranges, causes, what it rests on."""
+
+from xavi_dialogue.domain.answers import Cause, Contrast, Effect, Evidence
+from xavi_dialogue.domain.terms import Vehicle, Vehicles
+from xavi_dialogue.nlg.content.contrasts import (
+    cause_message,
+    deciding,
+    kind_of,
+    time_effect,
+    told_cause,
+    worth_telling,
+)
+from xavi_dialogue.nlg.content.manoeuvres import own_verbs, plain
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Who
+
+NARROW = 1.0  # [s] a range that is not worth giving
+MOST = 2  # causes beside the first that are told
+
+
+def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[Message, ...]:
+    """What is told beside the reason, most telling first."""
+    first = told_cause(contrast)
+    others = [c for c in contrast.causes if c != first][:MOST]
+    found = [
+        range_of(contrast),
+        _other_effects(contrast, past=past),
+        *(_also(c, contrast, context, past=past) for c in others),
+        None if first is None else _needed(first, contrast, past=past),
+        cleared(contrast.cleared, contrast.decided, past=past),
+        rests_on(contrast.evidence, contrast.decided),
+    ]
+    return tuple(one for one in found if one is not None)
+
+
+def range_of(contrast: Contrast) -> Message | None:
+    """Across which range the difference in time lay in the situations tried."""
+    effect = time_effect(contrast)
+    if kind_of(contrast) in ("alone", "collision", "dead", "late", "way") or effect is None:
+        return None
+    if effect.high - effect.low < NARROW:
+        return None
+    low, high = sorted((effect.low, effect.high))
+    ends = sorted((abs(low), abs(high)))
+    return message(
+        "RANGE",
+        both=low < -0.25 and high > 0.25,
+        sooner=Quantity(abs(low), "s"),
+        later=Quantity(abs(high), "s"),
+        is_later=effect.delta > 0.0,
+        range=Range(Quantity(ends[0], "s"), Quantity(ends[1], "s")),
+    )
+
+
+def _other_effects(contrast: Contrast, *, past: bool) -> Message | None:
+    """Effects beside the one that decided."""
+    if kind_of(contrast) in ("alone", "collision", "dead", "late", "way"):
+        return None
+    main = deciding(contrast)
+    rest: list[Effect] = [e for e in worth_telling(contrast) if e.component != "time"]
+    rest = [e for e in rest if main is None or e.component != main.component][:MOST]
+    if not rest:
+        return None
+    rides = tuple(message("RIDE_EFFECT", ride=e.component, more=e.delta > 0.0) for e in rest)
+    foil = own_verbs(contrast.foil, contrast.fact)
+    return message("ALSO_MEANT", foil=foil, rides=rides, past=past)
+
+
+def _also(cause: Cause, contrast: Contrast, context: SpeechContext, *, past: bool) -> Message:
+    return message("ALSO_CAUSE", cause=cause_message(cause, contrast, context, past=past))
+
+
+def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
+    """Whether we would have decided so without the first cause."""
+    if cause.decision_changes is None:
+        return None
+    who = Who(Vehicle(cause.vehicle), contrast.decided)
+    return message("WITHOUT_CAUSE", who=who, changes=cause.decision_changes, past=past)
+
+
+def cleared(vehicles: tuple[int, ...], time: float, *, past: bool) -> Message | None:
+    """Tell which vehicles made no difference."""
+    if not vehicles:
+        return None
+    who = Who(Vehicles(vehicles) if len(vehicles) > 1 else Vehicle(vehicles[0]), time)
+    return message("NO_DIFFERENCE", who=who, past=past, many=len(vehicles) > 1)
+
+
+def rests_on(evidence: Evidence, decided: float | None) -> Message | None:
+    """On how many situations it rests, and when it was decided."""
+    if not evidence.distinct_samples:
+        return None
+    return message(
+        "RESTS_ON",
+        situations=Number(evidence.distinct_samples, "situation"),
+        when=None if decided is None else Moment(decided),
+        one=evidence.distinct_samples == 1,
+    )
+
+
+def continued(contrast: Contrast, *, past: bool) -> Message | None:
+    """What the foil would have been followed by, where that is another way than ours."""
+    row, fact = plain(contrast.continued), plain(contrast.fact)
+    row = tuple(action for action in row if action != "continue")
+    if not row or row == fact[-len(row) :]:
+        return None
+    return message("CONTINUED", verbs=own_verbs(row, contrast.fact), past=past)

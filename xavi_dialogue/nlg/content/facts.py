@@ -1,0 +1,161 @@
+"""Facts: any fact of the record as a clause."""
+
+from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure, OptionValue, Relating
+from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
+from xavi_dialogue.nlg.content.clauses import doing, episode_clause
+from xavi_dialogue.nlg.content.measures import measure_message
+from xavi_dialogue.nlg.content.propositions import clause_of
+from xavi_dialogue.nlg.content.tenses import PRESENT, tense_at
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.tables import word
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
+
+CHANGED = 1.4  # [m/s] change of speed from which it is told
+OBJECTLESS = frozenset(("slow-down", "brake", "speed-up", "stop"))
+LONG = 1.5  # [s] from which it is told how long somebody stood or waited
+LASTING = frozenset(("stand", "wait", "block", "follow"))
+
+
+def fact_message(fact: Fact, context: SpeechContext, *, when: bool = True) -> Message:
+    """Make a clause of a fact."""
+    match fact:
+        case Episode():
+            return episode_message(fact, context, when=when)
+        case Measure():
+            return measure_message(fact, context, when=when)
+        case Belief():
+            return belief_message(fact, context)
+        case Look():
+            return look_message(fact, context)
+        case OptionValue():
+            return option_message(fact)
+        case Relating():
+            tense = tense_at(fact.time, context.now)
+            that = Related(fact.relation, fact.thing, fact.to, tense=_domain(tense))  # type: ignore[arg-type]
+            clause = clause_of(that, context.now, negated=not fact.holds, tense=tense)
+            return message("PLAIN", it=clause)
+
+
+def _domain(tense: Tense) -> str:
+    return tense if tense in ("past", "present", "future") else "past"
+
+
+def episode_message(
+    episode: Episode,
+    context: SpeechContext,
+    *,
+    when: bool = True,
+    lead: bool = False,
+    tense: Tense | None = None,
+) -> Message:
+    """Make a clause of an episode: what was done, from and to which speed, and when.
+
+    Args:
+        episode: the episode.
+        context: the situation.
+        when: say at what time.
+        lead: with the time in front: "at 0:12, I slowed down".
+        tense: other than its own.
+    """
+    clause = episode_clause(episode, context.now, tense=tense)
+    rule = "EPISODE_LEAD" if lead else "EPISODE"
+    return message(
+        rule,
+        clause=clause,
+        when=Moment(episode.begin) if when and clause.tense == "past" else None,
+        **_speeds(episode),
+        lasted=_lasted(episode),
+        object=episode.object is not None,
+        now=clause.tense == "present",
+        unsure=not episode.sure,
+    )
+
+
+def _speeds(episode: Episode) -> dict[str, object]:
+    start, end = episode.speed_from, episode.speed_to
+    if episode.action not in ("slow-down", "brake", "speed-up", "stop"):
+        return {}
+    if start is None or end is None or abs(start - end) < CHANGED:
+        return {}
+    if episode.action == "stop" or episode.standing:
+        return {"stand": episode.action != "stop"}
+    return {"speeds": Range(Quantity(start, "m/s"), Quantity(end, "m/s"))}
+
+
+def _lasted(episode: Episode) -> Quantity | None:
+    if episode.action not in LASTING or episode.end is None:
+        return None
+    length = episode.end - episode.begin
+    return Quantity(length, "s") if length >= LONG else None
+
+
+def belief_message(belief: Belief, context: SpeechContext) -> Message:
+    """Make a clause of what is or was expected of a vehicle, with the percentage."""
+    past = context.now - belief.time > PRESENT
+    if not belief.expectations:
+        return message("BELIEF_NONE", who=Who(Vehicle(belief.vehicle)), past=past)
+    first = belief.expectations[0]
+    who = Who(Vehicle(belief.vehicle), belief.time if past else None)
+    second = belief.expectations[1] if len(belief.expectations) > 1 else None
+    return message(
+        "BELIEF",
+        who=who,
+        verbs=verbs_of(first.actions),
+        chance=Chance(first.probability),
+        past=past,
+        when=Moment(belief.time) if past else None,
+        open=first.probability < 0.55,
+        other=verbs_of(second.actions) if second else None,
+        other_chance=Chance(second.probability) if second else None,
+    )
+
+
+def verbs_of(actions: tuple[str, ...], ego: bool = False) -> tuple[Clause, ...]:
+    """The verb phrases of a row of actions, to be inflected."""
+    kept = [a for k, a in enumerate(actions) if a != "continue" or len(actions) == 1 or k == -1]
+    rest = kept or list(actions)
+    return tuple(Clause("it", doing(a, ego=ego)) for a in rest)  # type: ignore[arg-type]
+
+
+def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> Message:
+    """Make a clause of where a vehicle is, and how far away; only that where its place is told."""
+    past = context.now - look.time > PRESENT or not look.in_view
+    tense: Tense = "past" if past else "present"
+    at = look.seen if not look.in_view and look.seen is not None else look.time
+    place = word("vehicles", "place", look.bearing)
+    who = Who(Vehicle(look.vehicle), look.time, placed=False)
+    return message(
+        "LOOK",
+        clause=Clause(who, "be", (place,), tense),
+        far=Quantity(look.distance, "m"),
+        when=Moment(at) if past else None,
+        lost=not look.in_view,
+        placed=told and look.in_view and not past,
+        **{"is": "was" if past else "is"},
+        place=place,
+        who=who,
+    )
+
+
+def option_message(option: OptionValue) -> Message:
+    """Make a clause of how an option was valued."""
+    verb = Clause(Who(), doing(option.action, ego=True))
+    delta = option.delta
+    return message(
+        "OPTION",
+        verb=verb,
+        chosen=option.chosen,
+        outcome=option.outcome,
+        chance=Chance(option.probability),
+        sure=option.probability >= 0.995,
+        later=Quantity(delta, "s") if delta is not None and delta > 0.25 else None,
+        sooner=Quantity(-delta, "s") if delta is not None and delta < -0.25 else None,
+        struck=Who(Vehicle(option.collided_with)) if option.collided_with is not None else None,
+        risk=Chance(option.collision) if option.collision > 0 else None,
+    )
+
+
+def asked_of(event: Event) -> Who:
+    """The actor of an event, to be referred to."""
+    return Who(event.actor, ride=isinstance(event.actor, Ego))

@@ -1,0 +1,313 @@
+"""People: who it is, how many there are, and where they are."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import msgspec
+
+from xavi_dialogue.domain.answers import Counted, Identified, Located
+from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Has,
+    Nobody,
+    Proposition,
+    Thing,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.nlg.content.clauses import episode_clause, event_clause, relative_clause
+from xavi_dialogue.nlg.content.facts import fact_message
+from xavi_dialogue.nlg.content.measures import AT_HAND, STANDING, measure_message
+from xavi_dialogue.nlg.content.plan import Plan
+from xavi_dialogue.nlg.content.propositions import clause_of, eventful
+from xavi_dialogue.nlg.content.tenses import PRESENT, tense_at
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.quantities import clock, number
+from xavi_dialogue.nlg.surface.referring import listed
+from xavi_dialogue.nlg.surface.tables import word
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, Who
+
+PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
+CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
+FEW = 3  # vehicles that are told beside their number
+MANY = 5  # vehicles that are described one by one
+
+
+def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
+    """Plan who or what it is; or that there is nobody of whom it holds."""
+    answer = msgspec.structs.replace(answer, facts=_telling(answer.facts))
+    facts = tuple(fact_message(f, context) for f in answer.facts)
+    if answer.none or not answer.looks:
+        did = _nobody(answer.such, context.now) if answer.such else None
+        return Plan((message("NOBODY", did=did),), facts)
+    if answer.such is not None and len(answer.looks) > 1:
+        them = Vehicles(tuple(look.vehicle for look in answer.looks))
+        clause = clause_of(substituted(answer.such, them), context.now)
+        told = () if all(isinstance(f, Measure | Episode) for f in answer.facts) else facts
+        return Plan((message("PLAIN", it=clause),), told)
+    if len(answer.looks) == 1:
+        return _one(answer, answer.looks[0], facts, context)
+    looks = answer.looks[:MANY]
+    past = _past(looks[0], context)
+    whos = tuple(_who(look, context) for look in looks)
+    amount = Number(len(answer.looks), "vehicle")
+    first = message("IDENTIFIED_MANY", can="could" if past else "can", number=amount, looks=whos)
+    left = len(answer.looks) - len(looks)
+    rest = (message("AND_MORE", number=str(left)),) if left else ()
+    return Plan((first,), (*rest, *facts))
+
+
+def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
+    """The facts without what says again that a vehicle stands."""
+    stands = any(
+        isinstance(f, Measure) and f.attribute == "speed" and (f.value or 0.0) < STANDING
+        for f in facts
+    )
+    quiet = ("stop", "stand", "brake", "slow-down")
+    return tuple(f for f in facts if not (stands and isinstance(f, Episode) and f.action in quiet))
+
+
+def _one(
+    answer: Identified, look: Look, facts: tuple[Message, ...], context: SpeechContext
+) -> Plan:
+    who = _who(look, context)
+    past = _past(look, context)
+    did = _did(answer.such, look, context)
+    if did is not None:
+        event = eventful(answer.such) if answer.such is not None else None
+        for fact, deed in zip(answer.facts, facts, strict=True):
+            if event is not None and isinstance(fact, Episode) and fact.action == event.action:
+                return Plan((deed,), tuple(f for f in facts if f is not deed))
+        conduct = {} if event is not None else conduct_slots(answer.facts, look, context)
+        if conduct:
+            return Plan((message("DID_CONDUCT", it=did, **conduct),))
+        told = () if isinstance(answer.such, Has) else facts
+        return Plan((message("PLAIN", it=did),), told)
+    lost = Moment(look.seen) if not look.in_view and look.seen is not None else None
+    conduct = {} if lost is not None else conduct_slots(answer.facts, look, context)
+    first = message("IDENTIFIED", who=who, past=past, seen_last=lost, **conduct)
+    if conduct:
+        return Plan((first,))
+    if facts:
+        return Plan((first,), facts)
+    told = "was" if past else "is"
+    details = message(
+        "IDENTIFIED_FAR",
+        **{"is": told},
+        far=Quantity(look.distance, "m"),
+        speed=Quantity(look.speed, "m/s") if look.speed >= STANDING else None,
+        standing=look.speed < STANDING,
+    )
+    return Plan((first,), () if lost else (details,))
+
+
+def conduct_slots(
+    facts: tuple[Fact, ...], look: Look, context: SpeechContext
+) -> dict[str, object]:
+    """The slots of what a vehicle is doing, in few words: its speed, and what is under way."""
+    mine = [f for f in facts if not isinstance(f, Belief) and _of(f, look.vehicle)]
+    speed = next((f for f in mine if isinstance(f, Measure) and f.attribute == "speed"), None)
+    deed = next((f for f in mine if isinstance(f, Episode)), None)
+    if (speed is None or speed.value is None) and deed is None:
+        return {}
+    value = None if speed is None else speed.value
+    slots: dict[str, object] = {"standing": value is not None and value < STANDING}
+    slots["speed"] = None if value is None else Quantity(value, "m/s")
+    if deed is not None and deed.action not in PLAIN:
+        slots["doing"] = episode_clause(deed, context.now, tense="present")
+        slots["now_at"] = value is not None and deed.action in CHANGING
+    return slots
+
+
+def _of(fact: Fact, vehicle: int) -> bool:
+    thing = fact.actor if isinstance(fact, Episode) else getattr(fact, "thing", None)
+    return thing == Vehicle(vehicle)
+
+
+def _who(look: Look, context: SpeechContext) -> Who:
+    return Who(Vehicle(look.vehicle), look.time if _past(look, context) else None)
+
+
+def _past(look: Look, context: SpeechContext) -> bool:
+    return context.now - look.time > PRESENT
+
+
+def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
+    """The condition that was asked for, with the vehicle in the place of "who"."""
+    if such is None:
+        return None
+    return clause_of(substituted(such, Vehicle(look.vehicle)), context.now)
+
+
+def _nobody(such: Proposition, now: float) -> Clause:
+    """A clause that the condition holds of nobody: "I did not wait for anybody"."""
+    clause = clause_of(substituted(such, Nobody()), now)
+    if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
+        return clause
+    rest = tuple(
+        "anybody" if isinstance(part, Who) and isinstance(part.thing, Nobody) else part
+        for part in clause.rest
+    )
+    return replace(clause, rest=rest, negated=not clause.negated)
+
+
+def substituted(that: Proposition, thing: Thing) -> Proposition:
+    """A proposition with a thing in the place of what was asked for."""
+
+    def put(value: object) -> object:
+        if isinstance(value, Wanted):
+            return thing
+        if isinstance(value, msgspec.Struct):
+            names = value.__struct_fields__
+            changed = {n: put(getattr(value, n)) for n in names}
+            if all(changed[n] is getattr(value, n) for n in names):
+                return value
+            return msgspec.structs.replace(value, **changed)
+        if isinstance(value, tuple):
+            parts = tuple(put(v) for v in value)
+            return parts if any(a is not b for a, b in zip(parts, value, strict=True)) else value
+        return value
+
+    return put(that)  # type: ignore[return-value]
+
+
+def clocks(moments: Sequence[float]) -> str:
+    """Several times of the ride in a row: "at 0:02, 0:09 and 0:14"."""
+    return "at " + listed([clock(moment) for moment in moments])
+
+
+_TIMES = {1: "once", 2: "twice"}
+
+
+def times(count: int) -> str:
+    """How often: "once", "twice", "three times"."""
+    return _TIMES.get(count) or number(Number(count, "time"))
+
+
+def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
+    """Plan how many there are, or how often it happened."""
+    facts = tuple(fact_message(f, context) for f in answer.facts)
+    span = _span(answer, context)
+    if isinstance(answer.of, Event):
+        never = answer.count == 0
+        whole = bool(span.get("whole"))
+        told = event_clause(
+            answer.of, context.now, tense="perfect" if whole else "past", negated=never
+        )
+        moments = [f.begin for f in answer.facts if isinstance(f, Episode)]
+        whens = clocks(moments) if 0 < len(moments) <= MANY else None
+        first = message("COUNTED_EVENTS", clause=told, never=never, times=times(answer.count),
+                        at_least=answer.at_least, whens=whens, one=len(moments) == 1,
+                        **span)  # fmt: skip
+        return Plan((first,), () if whens else _listed(facts))
+    past = answer.until is not None and context.now - answer.until > PRESENT
+    amount = Number(answer.count, _noun(answer.of))
+    first = message("COUNTED_THINGS", past=past, number=amount, **_which(answer.of, context),
+                    at_least=answer.at_least, **(span if past else {}))  # fmt: skip
+    if len(facts) > FEW:
+        return Plan((first,), (), _listed(facts))
+    return Plan((first,), _listed(facts))
+
+
+def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:
+    return (message("ITEMS", items=facts),) if facts else ()
+
+
+def _which(of: Thing, context: SpeechContext) -> dict[str, object]:
+    """Where the things that were counted are, and what they do."""
+    if not isinstance(of, Described):
+        return {}
+    place = word("vehicles", "place", of.bearing) if of.bearing is not None else None
+    did = relative_clause(of.doing, context.now) if of.doing is not None else None
+    return {"place": place, "did": did}
+
+
+def _noun(of: Thing) -> str:
+    if isinstance(of, Described):
+        kind = word("vehicles", "kind", of.kind)
+        return f"{of.colour} {kind}" if of.colour else kind
+    if isinstance(of, Everyone | Wanted):
+        return "other vehicle" if of.kind == "vehicle" else word("vehicles", "kind", of.kind)
+    return "vehicle"
+
+
+def _span(answer: Counted, context: SpeechContext) -> dict[str, object]:
+    if answer.since is None and answer.until is None:
+        return {}
+    begin = answer.since or 0.0
+    end = answer.until if answer.until is not None else context.now
+    return span_slots(begin, end, context)
+
+
+def span_slots(begin: float | None, end: float | None, context: SpeechContext) -> dict[str, object]:
+    """The slots of an interval: all of the ride so far, or between two times."""
+    if begin is None and end is None:
+        return {}
+    first, last = begin or 0.0, context.now if end is None else end
+    whole = first <= PRESENT and context.now - last <= PRESENT
+    return {"span": True, "whole": whole, "short": last - first < 1.0, "begin": Moment(first),
+            "end": Moment(last)}  # fmt: skip
+
+
+def plan_located(answer: Located, context: SpeechContext) -> Plan:
+    """Plan where somebody or something is or was."""
+    details = tuple(measure_message(m, context) for m in answer.measures)
+    if not answer.looks:
+        if answer.gap is None and isinstance(answer.thing, Ego) and details:
+            first, *others = _where_we_are(answer.measures, context)
+            return Plan((first,), tuple(others))
+        if answer.gap is None and details:
+            return Plan(details[:1], details[1:])
+        who = Who(answer.thing, ride=isinstance(answer.thing, Ego), placed=False)
+        gap = answer.gap or "not-recorded"
+        return Plan((message("NOT_LOCATED", who=who, gap=gap, past=False),), details)
+    parts = tuple(_located(look, context) for look in answer.looks)
+    return Plan(parts[:1], (*parts[1:], *details))
+
+
+def _where_we_are(measures: tuple[Measure, ...], context: SpeechContext) -> list[Message]:
+    """Where we are: how far before what comes next, in which lane where there are several."""
+    known = [m for m in measures if m.gap is None and m.value is not None]
+    goal = next((m for m in known if m.attribute == "distance" and m.to is not None), None)
+    lane = next((m for m in known if m.attribute == "lane" and (m.count or 1) > 1), None)
+    others = [measure_message(m, context) for m in known if m.attribute == "distance-to-go"]
+    if goal is None or goal.value is None or goal.to is None:
+        return ([measure_message(lane, context)] if lane is not None else []) + others or [
+            measure_message(m, context) for m in measures
+        ]
+    past = context.now - goal.time > PRESENT
+    first = message(
+        "WHERE_US",
+        when=Moment(goal.time) if past else None,
+        were="were" if past else "are",
+        far=Quantity(goal.value, "m"),
+        at_hand=goal.value < AT_HAND,
+        inside=isinstance(goal.to, Exit),
+        to="our exit" if isinstance(goal.to, Exit) else Who(goal.to, goal.time if past else None),
+        lane=measure_message(lane, context, when=False) if lane is not None else None,
+    )
+    return [first] if past else [first, *others]
+
+
+def _located(look: Look, context: SpeechContext) -> Message:
+    tense = tense_at(look.time, context.now)
+    place = word("vehicles", "place", look.bearing)
+    who = Who(Vehicle(look.vehicle), look.time, placed=False)
+    lost = not look.in_view
+    at = look.seen if lost and look.seen is not None else look.time
+    return message(
+        "LOCATED",
+        lost=lost,
+        who=who,
+        when=Moment(at) if lost or tense == "past" else None,
+        place=place,
+        clause=Clause(who, "be", (place,), tense),
+        far=Quantity(look.distance, "m"),
+    )

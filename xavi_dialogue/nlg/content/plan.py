@@ -1,0 +1,26 @@
+"""Plans: the messages that tell an answer, in order of weight."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from xavi_dialogue.domain.answers import Answer, Refusal
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message
+
+#: A message, or an answer within the answer, which `say` plans in its turn.
+Part: TypeAlias = Message | Answer | Refusal
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is said of an answer; each message is a sentence."""
+
+    core: tuple[Part, ...]  # always
+    details: tuple[Message, ...] = ()  # unless little is wanted
+    more: tuple[Message, ...] = ()  # where more is wanted
+    choices: tuple[Message, ...] = ()  # of a clarification
+    suggestions: tuple[str, ...] = ()
+
+
+Planner: TypeAlias = Callable[[Any, SpeechContext], Plan]

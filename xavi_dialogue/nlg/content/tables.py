@@ -1,0 +1,44 @@
+"""Tables: the planner of each type of factual answer, and of replies to talk."""
+
+from xavi_dialogue.domain import answers
+from xavi_dialogue.nlg.content import (
+    beliefs,
+    clarifications,
+    conduct,
+    people,
+    quizzes,
+    safety,
+    talk,
+)
+from xavi_dialogue.nlg.content.happenings import plan_happenings
+from xavi_dialogue.nlg.content.joint_measures import plan_measures
+from xavi_dialogue.nlg.content.plan import Planner
+from xavi_dialogue.nlg.content.verdicts import plan_verdict
+
+FACTS: dict[type, Planner] = {
+    answers.Measures: plan_measures,
+    answers.Verdict: plan_verdict,
+    answers.Identified: people.plan_identified,
+    answers.Counted: people.plan_counted,
+    answers.Located: people.plan_located,
+    answers.Happenings: plan_happenings,
+    answers.Activity: conduct.plan_activity,
+    answers.PlanAhead: conduct.plan_ahead,
+    answers.Bound: conduct.plan_bound,
+    answers.Beliefs: beliefs.plan_beliefs,
+    answers.Options: beliefs.plan_options,
+    answers.Compared: beliefs.plan_compared,
+    answers.Priority: safety.plan_priority,
+    answers.Comfort: safety.plan_comfort,
+    answers.Closeness: safety.plan_closeness,
+    answers.Comforting: talk.plan_comforting,
+    answers.Declined: talk.plan_declined,
+    answers.Sociable: talk.plan_sociable,
+    answers.Helpful: talk.plan_helpful,
+    answers.Acknowledged: talk.plan_acknowledged,
+    answers.Again: talk.plan_again,
+    answers.Unfamiliar: clarifications.plan_unfamiliar,
+    answers.Posed: quizzes.plan_posed,
+    answers.Judged: quizzes.plan_judged,
+    answers.NothingToAsk: quizzes.plan_nothing_to_ask,
+}

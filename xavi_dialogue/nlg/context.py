@@ -1,0 +1,54 @@
+"""What the realiser is told besides the answer, and what it hands back."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from xavi_dialogue.domain.facts import Look
+
+Style: TypeAlias = Literal["passenger", "paper"]
+Detail: TypeAlias = Literal["less", "usual", "more", "simpler"]
+#: How a vehicle looks at a time: by a function, or by a table for tests and stored turns.
+Looks: TypeAlias = Callable[[int, float], Look | None] | Mapping[tuple[int, float], Look]
+#: Causes that were told: vehicles with what was expected of them.
+Told: TypeAlias = frozenset[tuple[int, tuple[str, ...]]]
+
+
+@dataclass(frozen=True, slots=True)
+class SpeechContext:
+    """The situation in which an answer is given. Two equal contexts give equal words."""
+
+    style: Style = "passenger"
+    now: float = 0.0  # [s] simulation time
+    looks: Looks = field(default_factory=dict)
+    named: frozenset[int] = frozenset()  # vehicles that this conversation has named already
+    detail: Detail = "usual"
+    turn: int = 0  # number of the turn: wording may vary with it
+    repeated: bool = False  # the very same was answered to the very same question before
+    told: Told = frozenset()  # causes that this conversation has been told of
+    suggested: frozenset[str] = frozenset()  # what was said lately that could be asked
+    max_causes: int = 1
+    max_effects: int = 1
+
+    def look(self, vehicle: int, time: float | None = None) -> Look | None:
+        """How a vehicle looks at a time, now where none is given."""
+        at = self.now if time is None else min(time, self.now)
+        if isinstance(self.looks, Mapping):
+            found = self.looks.get((vehicle, at))
+            return found if found is not None else _nearest(self.looks, vehicle, at)
+        return self.looks(vehicle, at)
+
+
+def _nearest(looks: Mapping[tuple[int, float], Look], vehicle: int, at: float) -> Look | None:
+    times = [t for v, t in looks if v == vehicle]
+    return looks[vehicle, min(times, key=lambda t: abs(t - at))] if times else None
+
+
+@dataclass(frozen=True, slots=True)
+class Utterance:
+    """What the car says."""
+
+    text: str
+    mentioned: tuple[int, ...] = ()  # vehicles named in it, in order of first mention
+    choices: tuple[str, ...] = ()  # of a clarification, in the order they are numbered
+    suggestions: tuple[str, ...] = ()  # questions that can be asked next

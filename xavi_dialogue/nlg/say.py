@@ -1,0 +1,101 @@
+"""Say: answers and refusals into English.
+
+Stages: content planning (a planner for each type of answer), expansion of the grammars into
+tokens, morphology, orthography. Wording varies with what is said and with the context, never by
+chance.
+
+Errors: GrammarError, WordingError: a file of the grammars is at fault; no answer raises them.
+"""
+
+from dataclasses import replace
+
+from xavi_dialogue.domain import answers
+from xavi_dialogue.domain.answers import Again, Answer, Refusal
+from xavi_dialogue.nlg.content.causal_tables import CAUSES, REFUSALS
+from xavi_dialogue.nlg.content.plan import Part, Plan, Planner
+from xavi_dialogue.nlg.content.tables import FACTS
+from xavi_dialogue.nlg.context import Detail, SpeechContext, Utterance
+from xavi_dialogue.nlg.paper import mentioned as mentioned_in
+from xavi_dialogue.nlg.paper import paper_text
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.orthography import capitalise
+from xavi_dialogue.nlg.surface.realiser import realised
+from xavi_dialogue.nlg.surface.referring import Speaker
+
+#: The planner of each type of answer and refusal.
+PLANNERS: dict[type, Planner] = {**FACTS, **CAUSES, **REFUSALS}
+DETAILS: dict[str, Detail] = {
+    "repeat": "usual",
+    "simpler": "simpler",
+    "shorter": "less",
+    "longer": "more",
+}
+#: What is not told to be said again: it says something else, or nothing.
+QUIET = (answers.Sociable, answers.Helpful, answers.Acknowledged, answers.Comforting,
+         answers.Declined, answers.Unfamiliar, answers.Posed, answers.Judged,
+         answers.NothingToAsk, answers.WhichOne, Again)  # fmt: skip
+USUAL = 3  # sentences of an answer, unless more is wanted
+
+
+def say(answer: Answer | Refusal, context: SpeechContext) -> Utterance:
+    """Return what the car says: an answer or a refusal in words."""
+    wanted = context
+    if isinstance(answer, Again):
+        wanted = replace(context, detail=DETAILS[answer.how])
+    paper = paper_text(answer, wanted) if wanted.style == "paper" else None
+    if paper is not None:
+        return Utterance(paper, mentioned_in(paper))
+    plan = planned(answer, wanted)
+    said = _picked(answer, plan, wanted)
+    text, named = _told(said, wanted)
+    if isinstance(answer, Again) and answer.how != "repeat" and answer.answer is not None:
+        before, _ = _told(_picked(answer, planned(answer, context), context), context)
+        if text == before:
+            lead = message("NOT_OTHERWISE", how=answer.how, it=said[0])
+            text, named = _told([lead, *said[1:]], wanted)
+    choices = tuple(
+        realised(m, wanted, Speaker(wanted, passenger=True)).removesuffix(".") for m in plan.choices
+    )
+    return Utterance(capitalise(text), named, choices, plan.suggestions)
+
+
+def _told(said: list[Message], context: SpeechContext) -> tuple[str, tuple[int, ...]]:
+    """Return the sentences of messages, and the vehicles that they name."""
+    speaker = Speaker(context)
+    text = " ".join(realised(m, context, speaker) for m in said)
+    return text, tuple(speaker.mentioned)
+
+
+def planned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
+    """The messages of an answer, answers within it planned too."""
+    plan = PLANNERS.get(type(answer), _unplanned)(answer, context)
+    core: list[Message] = []
+    details, more, choices = plan.details, plan.more, plan.choices
+    suggestions = plan.suggestions
+    for part in plan.core:
+        if isinstance(part, Message):
+            core.append(part)
+            continue
+        inner = planned(part, context)
+        core += [one for one in inner.core if isinstance(one, Message)]
+        details, more = (*inner.details, *details), (*inner.more, *more)
+        choices, suggestions = (*choices, *inner.choices), (*suggestions, *inner.suggestions)
+    return Plan(tuple(core), details, more, choices, suggestions)
+
+
+def _picked(answer: Answer | Refusal, plan: Plan, context: SpeechContext) -> list[Message]:
+    """The messages to be said, as much as the passenger wants to hear."""
+    parts: list[Part] = list(plan.core)
+    if context.detail == "more":
+        parts += [*plan.details, *plan.more]
+    elif context.detail == "usual":
+        parts += plan.details[: max(USUAL - len(parts), 0)]
+    said = [part for part in parts if isinstance(part, Message)]
+    if context.repeated and said and not isinstance(answer, QUIET):
+        said[0] = message("AS_SAID", it=said[0])
+    return said
+
+
+def _unplanned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
+    """Say that there are no words for an answer of this type."""
+    return Plan((message("NO_WORDS"),))

@@ -1,0 +1,1 @@
+"""Surface: messages into text by context-free grammars, morphology and orthography."""

@@ -1,0 +1,38 @@
+"""Orthography: words to text. Spacing, punctuation, capitals."""
+
+import re
+
+_BEFORE_STOP = re.compile(r"\s+([,.;:?!])")
+_WITHIN_BRACKETS = re.compile(r"(?<=\()\s+|\s+(?=\))")
+_COMMAS = re.compile(r",(?:\s*,)+")
+_COMMA_STOP = re.compile(r",\s*([.;:?!])")
+_SENTENCE_START = re.compile(r"(^|[.?!]\s+)([a-z])")
+_SENTENCE = re.compile(r"[.?!](?=\s+[A-Z0-9\"]|\s*$)")
+
+
+def join(words: tuple[str, ...]) -> str:
+    """The words as running text, with single spaces, and stops joined to what precedes them."""
+    text = " ".join(" ".join(words).split())
+    text = _WITHIN_BRACKETS.sub("", _BEFORE_STOP.sub(r"\1", text))
+    return _COMMA_STOP.sub(r"\1", _COMMAS.sub(",", text))
+
+
+def capitalise(text: str) -> str:
+    """The text with a capital at the start of every sentence."""
+    return _SENTENCE_START.sub(lambda m: m[1] + m[2].upper(), text)
+
+
+def count_words(text: str) -> int:
+    """Words as a reader counts them: what stands between spaces."""
+    return len(text.split())
+
+
+def count_sentences(text: str) -> int:
+    """Sentences, at least one in any text."""
+    return max(1, len(_SENTENCE.findall(text)))
+
+
+def sentence(text: str) -> str:
+    """The text with a full stop at its end, unless it ends in a stop."""
+    text = text.rstrip(" ,;:")
+    return text if text.endswith((".", "?", "!", '."', '?"', '!"')) else f"{text}."

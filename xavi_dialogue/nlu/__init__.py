@@ -1,0 +1,1 @@
+"""Language understanding: text becomes readings, each a row of typed acts."""

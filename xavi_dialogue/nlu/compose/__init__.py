@@ -1,0 +1,1 @@
+"""Composition: the parse of an utterance becomes typed terms of the domain."""

@@ -1,0 +1,124 @@
+"""Adoption: phrases that belong to a noun of the clause rather than to its verb."""
+
+from dataclasses import replace
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Junction,
+    Measured,
+    Not,
+    Passenger,
+    Proposition,
+    Related,
+    Relative,
+    Thing,
+    Time,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
+
+_OF = frozenset({"for", "of", "about", "into", "over", "with", "from", "between", "on", "in"})
+_COMPARED = {"fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
+             "far": ("distance", "more")}  # fmt: skip
+
+
+def adopt(match: Match) -> None:
+    """Give phrases that the verb has no role for to its object."""
+    for phrase in list(match.left):
+        if phrase.sem is None:
+            continue
+        taken = None if _of_measure(phrase) else adopted(match.object, phrase)
+        if taken is not None:
+            match.object = taken
+        elif not _of_measure(phrase):
+            continue
+        match.left.remove(phrase)
+        match.cost -= LEFT_OTHER
+
+
+def _of_measure(phrase: Complement) -> bool:
+    """Say whether a phrase names units or times to answer in: "in metres", "with timestamps"."""
+    sems = phrase.sem.members if isinstance(phrase.sem, Group) else (phrase.sem,)
+    return phrase.key in ("in", "with") and all(
+        isinstance(s, Moment) or (isinstance(s, Noun) and s.key == "time") for s in sems
+    )
+
+
+def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
+    """Add a phrase to a noun; None where it cannot be."""
+    other = phrase.sem
+    if isinstance(sem, Noun) and phrase.key in _OF and sem.about is None:
+        return replace(sem, about=other)
+    if isinstance(sem, Measure) and other is not None:
+        return _measured(sem, phrase.key, other)
+    if isinstance(sem, Described) and sem.such is None and phrase.key in ("on", "in", "at"):
+        thing = as_thing(other)
+        if thing is not None and not isinstance(thing, Described):
+            return cast(Sem, with_fields(sem, such=Related("on", Wanted(), thing)))
+    if isinstance(sem, Event) and phrase.key in ("for", "with", "of") and sem.object is None:
+        thing = as_thing(other)
+        if thing is not None:
+            return cast(Sem, with_fields(sem, object=thing))
+    return None
+
+
+def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
+    measured = sem.of
+    if isinstance(other, Junction):
+        return replace(sem, of=with_fields(measured, time=Relative("during", other)))
+    if key == "between" and isinstance(other, Group) and len(other.members) == 2:
+        first, second = (as_thing(m) for m in other.members)
+        return replace(sem, of=with_fields(measured, thing=first, to=second))
+    if key in ("during", "before", "after", "since", "until"):
+        anchor = other if isinstance(other, Event) else as_thing(other)
+        if anchor is None:
+            return None
+        return replace(sem, of=with_fields(measured, time=Relative(cast(Any, key), anchor)))
+    if isinstance(other, Event) and key in ("of", "for", "in", "on", "about"):
+        return replace(sem, of=with_fields(measured, event=other))
+    thing = as_thing(other)
+    if thing is None or key not in _OF or isinstance(other, Group):
+        return None
+    if key == "of":
+        return replace(sem, of=with_fields(measured, thing=thing))
+    return replace(sem, of=with_fields(measured, to=thing))
+
+
+def with_fields(value: Any, **fields: Any) -> Any:
+    """Copy a term with other values for some fields."""
+    old = {name: getattr(value, name) for name in value.__struct_fields__}
+    return type(value)(**{**old, **fields})
+
+
+def compared(clause: Clause, event: Event) -> Proposition | None:
+    """Read "he goes faster than us" as a comparison."""
+    if not clause.comparisons or clause.than is None or isinstance(clause.than, Clause):
+        return None
+    key = clause.comparisons[0][0]
+    thing = as_thing(clause.than)
+    if key not in _COMPARED or thing is None or clause.comparisons[0][1] == "as":
+        return None
+    attribute, direction = _COMPARED[key]
+    right: Thing = Ego() if isinstance(thing, Passenger) else thing
+    return Compares(
+        Measured(cast(Any, attribute), event.actor, time=event.time, tense=event.tense),
+        cast(Any, direction), Measured(cast(Any, attribute), right, tense=event.tense),
+    )  # fmt: skip
+
+
+def timed(of: Proposition, time: Time) -> Proposition:
+    """Put a time into an event that has none of its own."""
+    match of:
+        case Happens(event=Event(time=Unsaid()) as event) if not isinstance(time, Unsaid):
+            return Happens(with_fields(event, time=time))
+        case Not(content=content):
+            return Not(timed(content, time))
+    return of

@@ -1,0 +1,191 @@
+"""Clauses as slots: what a clause has of subject, verb, objects and adverbs, in any order."""
+
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import Event, Pronoun, Time, Unsaid
+from xavi_dialogue.domain.vocabulary import Manner
+from xavi_dialogue.nlu.compose.sem import Sem
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+
+@dataclass(slots=True)
+class Complement:
+    """A phrase with a preposition; `sem` is None where the preposition stands alone."""
+
+    key: str  # key of the preposition, "bearing-ahead" and so on
+    sem: Sem | None
+    node: Part
+
+
+@dataclass(slots=True)
+class Clause:
+    """The slots of a clause."""
+
+    subject: Sem | None = None
+    there: bool = False
+    aux: list[str] = field(default_factory=list)  # "be-past", "modal-would", "semi-must"
+    negated: bool = False
+    verb: Leaf | None = None
+    objects: list[tuple[Sem, Part]] = field(default_factory=list)
+    complements: list[Complement] = field(default_factory=list)
+    bearings: list[tuple[str, Part]] = field(default_factory=list)
+    origin: str | None = None
+    particles: list[Leaf] = field(default_factory=list)
+    side: str | None = None
+    manner: list[Manner] = field(default_factory=list)
+    adjectives: list[tuple[str, str]] = field(default_factory=list)  # key, degree
+    feelings: list[str] = field(default_factory=list)
+    comparisons: list[tuple[str, str]] = field(default_factory=list)  # key, words
+    than: "Sem | Clause | None" = None
+    time: Time = field(default_factory=Unsaid)
+    contrast: "Sem | Clause | str | None" = None
+    condition: "Clause | None" = None
+    because: "Sem | Clause | None" = None
+    without: Sem | None = None
+    infinitive: "Clause | None" = None
+    gerund: "Clause | None" = None
+    bare: "Clause | None" = None
+    that: "Clause | None" = None
+    question: Any = None  # an embedded question, composed
+    chained: list[tuple[str, "Clause"]] = field(default_factory=list)
+    gap: Sem | None = None  # what a question word or relative pronoun stands for
+    instead: bool = False
+    else_: bool = False
+    still: bool = False
+    focus: set[str] = field(default_factory=set)
+    skipped: list[Leaf] = field(default_factory=list)
+    inner: Event | None = None  # what the infinitive or gerund is of
+    pairs: list[Sem] = field(default_factory=list)  # between these
+
+    def has(self, kind: str) -> bool:
+        """Say whether an auxiliary of a kind is there: "be", "modal-would"."""
+        return any(a == kind or a.startswith(kind + "-") for a in self.aux)
+
+    @property
+    def modal(self) -> str | None:
+        """Name the modal of the clause, None for plain will."""
+        order = ("would", "could", "should", "must", "might", "can", "want")
+        for name in order:
+            if f"modal-{name}" in self.aux or f"semi-{name}" in self.aux:
+                return name
+        return None
+
+    @property
+    def tense(self) -> str:
+        """Tell the tense by auxiliaries and verb form."""
+        if ("semi-future" in self.aux and "be-past" not in self.aux) or "modal-will" in self.aux:
+            return "future"
+        modal = any(a.startswith("modal-") for a in self.aux)
+        if modal:
+            return "past" if self.has("have") else "present"
+        if self.has("have"):
+            return "past" if "have-past" in self.aux else "perfect"
+        if "do-past" in self.aux or "be-past" in self.aux:
+            return "past"
+        form = self.verb.form if self.verb is not None else ""
+        if form in ("past", "part") and not self.has("be") and not self.has("do"):
+            return "past"
+        return "present"
+
+    @property
+    def passive(self) -> bool:
+        """Say whether the clause is passive: "was overtaken", "got overtaken by"."""
+        if self.verb is None or self.verb.form != "part" or self.aux_last() != "be":
+            return False
+        return self.verb.key not in _RESULTING or any(c.key == "by" for c in self.complements)
+
+    def aux_last(self) -> str:
+        """Name the last auxiliary before the verb."""
+        plain = [a for a in self.aux if not a.startswith("semi")]
+        return plain[-1].split("-")[0] if plain else ""
+
+
+_AUX = {"BE": "be", "DO": "do", "HAVE": "have", "HAD": "have", "MODAL": "modal", "SEMI": "semi"}
+_KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "first": "first"}
+
+
+#: Verbs whose participle after "be" tells a state of the subject: "we are stuck, headed, stopped".
+_RESULTING = frozenset(
+    {"stick", "head", "park", "stop", "go", "finish", "come", "get", "turn", "end"}
+)
+
+
+class Slots:
+    """Fills the slots of a clause from the parts of a parse."""
+
+    def __init__(self, reader: Any) -> None:
+        self.reader = reader
+
+    def fill(self, parts: tuple[Part, ...], clause: Clause | None = None) -> Clause:
+        """Collect the parts of a clause, in whatever order they come."""
+        clause = clause if clause is not None else Clause()
+        for part in parts:
+            if isinstance(part, Leaf):
+                self._leaf(part, clause)
+            else:
+                self._phrase(part, clause)
+        return clause
+
+    def _leaf(self, leaf: Leaf, clause: Clause) -> None:
+        match leaf.category:
+            case "BE" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
+                clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key}")
+            case "NOT":
+                clause.negated = not clause.negated
+            case "V" | "VPAST" | "VED" | "VING":
+                clause.verb = leaf
+            case "PART":
+                clause.particles.append(leaf)
+            case "SIDE":
+                clause.side = leaf.key
+            case "ADV":
+                clause.manner.append(cast(Manner, leaf.key))
+                clause.still |= leaf.key == "still"
+            case "FOCUS":
+                clause.focus.update(leaf.words)
+                clause.still |= "still" in leaf.words
+                if kept := _KEEP.get(leaf.words[0]):
+                    clause.manner.append(cast(Manner, kept))
+            case "INSTEAD":
+                clause.instead = True
+            case "ELSE":
+                clause.else_ = True
+            case _:
+                self._other_leaf(leaf, clause)
+
+    def _other_leaf(self, leaf: Leaf, clause: Clause) -> None:
+        match leaf.category:
+            case "BEARING" | "PLACEADV":
+                sideways = clause.verb is not None and leaf.words[0] == "to"
+                if sideways and leaf.key in ("left", "right"):
+                    clause.side = leaf.key
+                else:
+                    clause.bearings.append((leaf.key, leaf))
+            case "FROM":
+                clause.origin = leaf.key
+            case "THERE":
+                clause.bearings.append(("there", leaf))
+            case "ADJ":
+                clause.adjectives.append((leaf.key, ""))
+            case "I" | "YOU" | "WE" | "PRON":
+                self._subject(Node("pronoun", (leaf,), leaf.start, leaf.end, 0.0), clause)
+            case "SKIP" | "UNK":
+                clause.skipped.append(leaf)
+            case "COMPAR":
+                clause.comparisons.append((leaf.key, " ".join(leaf.words)))
+
+    def _subject(self, pronoun: Node, clause: Clause) -> None:
+        np = Node("np", (pronoun,), pronoun.start, pronoun.end, 0.0)
+        clause.subject = self.reader.nouns.read(np)
+
+    def _phrase(self, part: Node, clause: Clause) -> None:
+        handler = getattr(self.reader, "_on_" + part.name, None)
+        if handler is not None:
+            handler(part, clause)
+
+
+def wanted_pronoun(sem: Sem | None) -> bool:
+    """Say whether a subject is a pronoun that may stand for nothing: "it is ..."."""
+    return isinstance(sem, Pronoun) and sem.form in ("it", "that", "this")

@@ -1,0 +1,180 @@
+"""Events: a verb of motion with what stands with it."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Junction,
+    Lane,
+    Passenger,
+    Pronoun,
+    Related,
+    Relative,
+    Thing,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Manner
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, SideOf, as_thing
+from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
+from xavi_dialogue.nlu.compose.things import relation_of
+from xavi_dialogue.nlu.compose.times import place_time
+
+_SIDED: dict[tuple[str, str], str] = {
+    ("turn", "left"): "exit-left",
+    ("turn", "right"): "exit-right",
+    ("turn", "straight"): "exit-straight",
+    ("change-lane", "left"): "change-left",
+    ("change-lane", "right"): "change-right",
+}
+_LANE_MOVES = frozenset({"change-left", "change-right", "change-lane"})
+_PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "between", "with": "with",
+           "like": "same-as"}  # fmt: skip
+
+
+def actor_of(clause: Clause) -> Thing:
+    """Tell who acts: the subject, or in a passive the one behind "by"."""
+    if clause.passive:
+        for phrase in clause.complements:
+            if phrase.key == "by" and phrase.sem is not None:
+                return as_thing(phrase.sem) or Described(definite=False)
+        if isinstance(clause.gap, Wanted) and any(p.key == "by" for p in clause.complements):
+            return clause.gap
+        return Described(definite=False)
+    actor = as_thing(clause.subject)
+    if actor is None or isinstance(actor, Passenger):
+        return Ego()
+    return actor
+
+
+def event_of(clause: Clause, match: Match) -> Event:
+    """Build the event that a sense says the clause is of."""
+    action = match.sense.head
+    if clause.passive:
+        _agent_named(match)
+    noun = isinstance(match.object, (Noun, Measure, Event))
+    thing = None if noun else as_thing(match.object)
+    side = clause.side
+    if action in ("change-left", "change-right", "change-lane", "exit-left") and not match.sided:
+        action, thing, side = _lane_move(action, thing, side)
+    if isinstance(thing, Lane) and thing.which in ("any", "own") and action.startswith("change"):
+        thing = None
+    if isinstance(thing, Passenger) and action not in ("drop-off", "call"):
+        thing = Ego()
+    if match.sided and action.split("-")[-1] in ("left", "right", "straight"):
+        side = None
+    action = _SIDED.get((action, side or ""), action)
+    if action in ("exit-left", "exit-right", "exit-straight", "change-left", "change-right"):
+        side = None
+    if action == "take-turn":
+        action, side, thing = _taken(match.object, side)
+    elif action == "take-exit":
+        action = "leave"
+    action = _paced(action, clause)
+    manner = list(clause.manner)
+    manner += [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
+    if match.sense.manner:
+        manner.append(cast(Manner, match.sense.manner))
+    return Event(
+        cast(ActionName, action), actor_of(clause), thing, cast(Any, side),
+        tuple(dict.fromkeys(manner)), when(clause, match), cast(Any, clause.tense),
+        cast(Any, clause.modal), None, where(clause, match),
+    )  # fmt: skip
+
+
+_MANNERS: dict[str, Manner] = {
+    "fast": "fast", "slow": "slowly", "close": "close", "sudden": "suddenly", "hard": "hard",
+    "late": "late", "early": "early", "safe": "safely", "far": "far", "dangerous": "fast",
+}  # fmt: skip
+
+
+def _paced(action: str, clause: Clause) -> str:
+    """Read "go slower" as slowing down."""
+    if action not in ("go", "move", "continue", "approach") or not clause.comparisons:
+        return action
+    if clause.than is not None:
+        return action
+    return {"fast": "speed-up", "slow": "slow-down"}.get(clause.comparisons[0][0], action)
+
+
+def _agent_named(match: Match) -> None:
+    """Take the agent of a passive out of what is left over."""
+    for phrase in [p for p in match.left if p.key == "by"]:
+        match.left.remove(phrase)
+        match.cost -= LEFT_OTHER
+
+
+def _lane_move(
+    action: str, thing: Thing | None, side: str | None
+) -> tuple[str, Thing | None, str | None]:
+    """Take the side of a lane change from the lane."""
+    if isinstance(thing, Lane):
+        which = {"leftmost": "left", "rightmost": "right"}.get(thing.which, thing.which)
+        if which in ("left", "right") and thing.of is None:
+            return f"change-{which}", None, None
+        return "change-lane", thing if thing.of or thing.which == "own" else None, side
+    if isinstance(thing, Junction) and action == "exit-left":
+        return "turn", thing, side
+    if action == "exit-left":
+        return "turn", thing, side
+    return "change-lane", thing, side
+
+
+def _taken(sem: Sem | None, side: str | None) -> tuple[str, str | None, Thing | None]:
+    """Read what is taken: "take the left turn", "take the second junction"."""
+    if isinstance(sem, Event):
+        return sem.action, sem.side, sem.object
+    if isinstance(sem, SideOf):
+        return f"exit-{sem.side}", None, None
+    if isinstance(sem, Junction) and side in ("left", "right"):
+        return f"exit-{side}", None, sem
+    return "turn", side, as_thing(sem)
+
+
+def when(clause: Clause, match: Match | None) -> Any:
+    """Find the time: said as such, or by a place that is passed."""
+    if not isinstance(clause.time, Unsaid):
+        return clause.time
+    phrases = match.left if match is not None else list(clause.complements)
+    for phrase in list(phrases):
+        key = phrase.key.removeprefix("bearing-") if phrase.key == "bearing-ahead" else phrase.key
+        key = "before" if key == "ahead" else key
+        found = place_time(key, phrase.sem)
+        if found is None and phrase.key in ("before", "after", "since", "until", "during"):
+            thing = phrase.sem
+            if isinstance(thing, Pronoun):
+                continue
+            anchor = thing if isinstance(thing, Event) else as_thing(thing)
+            if isinstance(thing, Noun) and thing.key == "ride":
+                continue
+            found = Relative(cast(Any, phrase.key), anchor) if anchor is not None else None
+        if found is not None:
+            if match is not None:
+                match.left.remove(phrase)
+                match.cost -= 0.3
+            return found
+    return clause.time
+
+
+def where(clause: Clause, match: Match) -> Related | None:
+    """Say beside what it is done."""
+    for phrase in list(match.left):
+        thing = as_thing(phrase.sem)
+        if thing is None or isinstance(thing, Wanted):
+            continue
+        if phrase.key.startswith("bearing-"):
+            relation = relation_of(phrase.key.removeprefix("bearing-"))
+        elif phrase.key in _PLACED:
+            relation = _PLACED[phrase.key]
+        else:
+            continue
+        match.left.remove(phrase)
+        match.cost -= 0.25
+        return Related(cast(Any, relation), actor_of(clause), thing)
+    for bearing, _ in clause.bearings:
+        if bearing not in ("there", "here", "around"):
+            return Related(cast(Any, relation_of(bearing)), actor_of(clause), Ego())
+    return None

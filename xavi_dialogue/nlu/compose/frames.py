@@ -1,0 +1,133 @@
+"""Frames: the condition a question stands under, and the contrast beside it."""
+
+from typing import Any
+
+from xavi_dialogue.domain.meaning import (
+    HowSure,
+    Question,
+    WhatIf,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Is,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Thing,
+)
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.propositions import Propositions
+from xavi_dialogue.nlu.compose.sem import (
+    as_thing,
+)
+
+
+class Frames:
+    """Reads suppositions and contrasts."""
+
+    propositions: Propositions
+
+    def framed(self, question: Question, clause: Clause, value: Any) -> Question:
+        """Put a question under its condition, and a "why" beside its contrast."""
+        inner = next((c for c in (clause.gerund, clause.infinitive, clause.that) if c), None)
+        if clause.contrast is None and inner is not None and inner.contrast is not None:
+            clause = inner
+        if isinstance(question, Why) and clause.contrast is not None:
+            instead = self.contrast(clause, question.of)
+            if instead is not None:
+                question = Why(question.of, instead, question.suspect)
+        if isinstance(question, HowSure) and clause.contrast is not None:
+            return question
+        supposed = self.supposition(clause)
+        if supposed is None:
+            return question
+        return WhatIf(supposed, question)
+
+    def supposition(self, clause: Clause) -> Proposition | None:
+        """Read what is supposed: "if he had stopped", "without the lorry"."""
+        if clause.without is not None:
+            thing = as_thing(clause.without)
+            if isinstance(clause.without, Event):
+                return Not(Happens(clause.without))
+            return Not(Exists(thing)) if thing is not None else None
+        if clause.condition is None:
+            return None
+        return self.supposed(clause.condition)
+
+    def supposed(self, condition: Clause) -> Proposition | None:
+        """Read a supposition; that a thing is not there is that it does not exist."""
+        found: Proposition | None = self.propositions.plain(condition)
+        if found is None:
+            thing = as_thing(condition.subject)
+            if thing is None:
+                return None
+            plain = Happens(Event("do", thing, Pronoun("that"), tense="past"))
+            return Not(plain) if condition.negated else plain
+        if condition.instead or condition.contrast is not None:
+            return found
+        match found:
+            case Is(state="present", thing=thing) if thing is not None:
+                return Exists(thing)
+            case Not(content=Is(state="present", thing=thing)) if thing is not None:
+                return Not(Exists(thing))
+        return found
+
+    def contrast(self, clause: Clause, of: Proposition) -> Proposition | None:
+        """Read what is set against it: "instead of stopping", "and not the first"."""
+        other = clause.contrast
+        if isinstance(other, Clause):
+            if other.verb is None and other.side is not None:
+                return _with_side(of, other.side)
+            if other.verb is None and not isinstance(clause.subject, type(None)):
+                thing = next((as_thing(s.sem) for s in other.complements), None)
+                return _with_object(of, thing)
+            return self.propositions.plain(other)
+        if isinstance(other, str):
+            return _with_side(of, other) if other in ("left", "right", "straight") else None
+        if isinstance(other, Event):
+            return Happens(other)
+        return _with_object(of, as_thing(other))
+
+
+def _inner_event(of: Proposition) -> Event | None:
+    match of:
+        case Happens(event=event) | Not(content=Happens(event=event)):
+            return event
+    return None
+
+
+def _with_object(of: Proposition, thing: Thing | None) -> Proposition | None:
+    event = _inner_event(of)
+    if event is None or thing is None:
+        return None
+    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
+    if isinstance(thing, (Ego, Passenger, Pronoun)) and event.object is None:
+        return Happens(Event(**{**fields, "actor": thing}))
+    if isinstance(thing, Described) and thing.rank and event.object is not None:
+        rank: dict[str, Any] = {k: getattr(event.object, k) for k in event.object.__struct_fields__}
+        if "rank" in rank:
+            return Happens(
+                Event(**{**fields, "object": type(event.object)(**{**rank, "rank": thing.rank})})
+            )
+    return Happens(Event(**{**fields, "object": thing}))
+
+
+def _with_side(of: Proposition, side: str) -> Proposition | None:
+    event = _inner_event(of)
+    if event is None:
+        return None
+    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
+    stem = event.action.split("-")[0]
+    if stem in ("exit", "change") and event.action.split("-")[-1] in ("left", "right", "straight"):
+        fields["action"] = f"{stem}-{side}" if stem == "exit" or side != "straight" else "continue"
+    elif event.action in ("turn", "go"):
+        fields["action"] = f"exit-{side}"
+    else:
+        fields["side"] = side
+    return Happens(Event(**fields))

@@ -1,0 +1,271 @@
+"""Heads: the head of a noun phrase with its traits becomes a vehicle, place, measure or deed."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Feature,
+    Junction,
+    Lane,
+    Measured,
+    Nobody,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Record,
+    Road,
+    Thing,
+    Unknown,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.sem import (
+    Group,
+    Measure,
+    Moment,
+    Noun,
+    Sem,
+    SideOf,
+    as_thing,
+    is_thing,
+)
+from xavi_dialogue.nlu.compose.tree import (
+    words_of,
+)
+from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+_PLACES: dict[str, Thing] = {
+    "destination": Destination(),
+    "own-lane": Lane("own"),
+    "other-lane": Lane("other"),
+    "left-lane": Lane("leftmost"),
+    "right-lane": Lane("rightmost"),
+    "left-lane-typed": Lane("left"),
+    "right-lane-typed": Lane("right"),
+    "left-exit": Exit(side="left"),
+    "right-exit": Exit(side="right"),
+    "side-road": Road("side"),
+    "here": Unknown("here"),
+    "there": Unknown("there"),
+}
+
+
+class Traits:
+    """What stands before and behind the head of a noun phrase."""
+
+    def __init__(self) -> None:
+        self.fields: dict[str, Any] = {}
+        self.determiner = ""
+        self.owner: Sem | None = None
+        self.side: str | None = None
+        self.ordinal: int | None = None
+        self.following = False  # "next"
+        self.extreme: str | None = None
+        self.adjectives: list[str] = []
+        self.unknown: list[str] = []
+        self.kind: str | None = None
+        self.of: Sem | None = None
+        self.about: list[tuple[str, Sem]] = []
+        self.event: Event | None = None
+        self.other = False
+        self.gerund: Node | None = None
+        self.clause: Proposition | None = None
+
+
+def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
+    """Describe a road user by what is said of it."""
+    fields = {k: v for k, v in traits.fields.items() if k in Described.__struct_fields__}
+    if traits.side and "bearing" not in fields:
+        fields["bearing"] = traits.side
+    if traits.ordinal is not None:
+        fields["rank"] = traits.ordinal
+    if traits.extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+        fields["extreme"] = traits.extreme
+    elif traits.extreme == "smallest":
+        fields["size"] = "small"
+    for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
+        if key in traits.adjectives:
+            fields.setdefault(*value)
+    standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
+    for adjective in traits.adjectives:
+        if adjective in standing:
+            fields.setdefault("doing", Event(cast(Any, standing[adjective]), Wanted()))
+    indefinite = traits.determiner in ("indef", "many", "no", "") and not fields.get("rank")
+    fields["definite"] = not indefinite or (traits.determiner == "" and not plural)
+    if traits.determiner == "indef" and traits.other:
+        fields["definite"] = False
+    return Described(
+        kind=cast(Any, kind), plural=plural or traits.fields.get("number", 1) > 1,
+        other=traits.other, **fields,
+    )  # fmt: skip
+
+
+def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
+    """Read a noun phrase by its head."""
+    if head is None:
+        return _without_head(traits)
+    if isinstance(head, Node):
+        return Unknown(words_of(head))
+    plural = head.form == "plural"
+    match head.category:
+        case "KIND":
+            return _vehicle(head, traits, plural)
+        case "PLACEN":
+            return _place(head, traits)
+        case "MEAS":
+            return _measure(head, traits, plural)
+        case "EVN":
+            return _deed(head, traits)
+        case "RIDE":
+            return Record() if head.key == "record" else Noun("ride", word=head.words[-1])
+        case "UNIT" | "TUNIT" | "TIMES":
+            return Moment(head.key, traits.ordinal)
+        case "SIDE":
+            return SideOf(head.key)
+        case "ABS":
+            return _abstract(head, traits, plural)
+    return Unknown(" ".join([*traits.unknown, *head.words]))
+
+
+def _without_head(traits: Traits) -> Sem:
+    if traits.unknown:
+        return Unknown(" ".join(traits.unknown))
+    if traits.side and not traits.fields:
+        return SideOf(traits.side)
+    return described(traits.kind or "vehicle", traits)
+
+
+def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    own = traits.determiner in ("our", "your") or isinstance(traits.owner, Ego)
+    if own and head.key in ("car", "vehicle", "taxi") and not traits.fields:
+        return Ego()
+    special = [k for k in traits.fields if k not in ("number",)]
+    if (traits.determiner == "every" or (traits.determiner == "def" and "all" in head.words)) and (
+        not special
+    ):
+        return Everyone(cast(Any, head.key))
+    kind = traits.kind if head.key in ("car", "vehicle") and traits.kind else head.key
+    if head.words == ("people",):
+        plural = True
+    found = described(kind, traits, plural=plural)
+    if traits.determiner == "no":
+        return Nobody(found)
+    if head.words == ("one",) and traits.determiner in ("that", "this") and not special:
+        return Pronoun(cast(Any, traits.determiner))
+    if head.words == ("thing",) and traits.determiner in ("that", "this") and not special:
+        return Pronoun(cast(Any, traits.determiner))
+    return found
+
+
+def _place(head: Leaf, traits: Traits) -> Sem:
+    owner = as_thing(traits.owner)
+    if head.key == "destination" and owner is not None and not isinstance(owner, Ego):
+        return Measure(Measured("heading", owner))
+    if head.key in _PLACES and not (head.key.endswith("lane") and traits.owner):
+        return _PLACES[head.key]
+    rank = 1 if traits.following else traits.ordinal
+    if rank is None and traits.determiner == "this":
+        rank = 1
+    side = traits.side if traits.side != "straight" else None
+    match head.key:
+        case "junction" | "roundabout":
+            return Junction(cast(Any, head.key), rank)
+        case "exit":
+            return Exit(rank, cast(Any, side))
+        case "road":
+            return Road(cast(Any, side or "own"))
+        case "lane" | "own-lane" | "left-lane-typed" | "right-lane-typed" | "other-lane":
+            return _lane(head, traits, side, rank)
+    if head.key == "circle-shape":
+        return Junction("roundabout")
+    return Feature(cast(Any, head.key))
+
+
+def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lane:
+    owner = as_thing(traits.owner or traits.of)
+    of = None if isinstance(owner, (Ego, Passenger)) else owner
+    listed = head.key.split("-")[0]
+    which = listed if listed in ("left", "right", "other") else side
+    if which is None and (traits.other or traits.following):
+        which = "other"
+    if which is None:
+        indefinite = head.form == "plural" or traits.determiner in (
+            "indef",
+            "that",
+            "every",
+            "many",
+        )
+        which = "any" if indefinite and not traits.owner else "own"
+    return Lane(cast(Any, which), of)
+
+
+def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    of = traits.of or traits.owner
+    things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
+    to = next((t for t in things if t is not None), None)
+    members = of.members if isinstance(of, Group) else ()
+    if len(members) == 2:
+        of, to = members[0], as_thing(members[1])
+    event = of if isinstance(of, Event) else traits.event
+    thing = of if is_thing(of) and not isinstance(of, Pronoun) else as_thing(of)
+    if head.key == "distance" and isinstance(to, Destination):
+        return Measure(
+            Measured("distance-to-go", cast(Thing, thing) if thing is not None else Ego())
+        )
+    measured = Measured(
+        cast(Any, head.key), cast(Thing, thing) if thing is not None else Ego(), to,
+        event if isinstance(of, Event) else None,
+    )  # fmt: skip
+    highest = {"nearest": "lowest", "fastest": "highest", "slowest": "lowest",
+               "farthest": "highest", "biggest": "highest", "smallest": "lowest"}  # fmt: skip
+    extreme = highest.get(traits.extreme or "", traits.extreme)
+    closest = "lowest" if {"closest", "nearest", "close", "minimum"} & set(head.words) else None
+    extreme = extreme if extreme in ("highest", "lowest", "mean", "total") else closest
+    if "peak" in head.words:
+        extreme = "highest"
+    return Measure(measured, cast(Any, extreme), plural)
+
+
+def _deed(head: Leaf, traits: Traits) -> Sem:
+    actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
+    side = cast(Any, traits.side)
+    action = head.key
+    if action in ("change-lane", "turn") and side in ("left", "right"):
+        action = ("change-" if action == "change-lane" else "exit-") + side
+        side = None
+    known = traits.determiner in ("that", "this") and action == "do"
+    manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in traits.adjectives)
+    manners = tuple("suddenly" if a == "sudden" else a for a in manner)
+    obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
+    if known or (action == "do" and traits.determiner == "def"):
+        return Event("do", actor, Pronoun("that"))
+    return Event(cast(Any, action), actor, obj, side, cast(Any, manners))
+
+
+def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    if head.key == "side" and traits.side:
+        return SideOf(traits.side)
+    about = next((s for k, s in traits.about), None)
+    extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
+    owner = traits.owner
+    if owner is None and head.key == "fault" and traits.kind is not None:
+        fault = described(traits.kind, traits)
+        fields = {k: getattr(fault, k) for k in fault.__struct_fields__}
+        owner = Described(**{**fields, "doing": None, "such": None})
+    return Noun(
+        head.key, traits.of, owner, about, plural, traits.other,
+        traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),
+        traits.clause,
+    )  # fmt: skip
+
+
+def rank_of(leaf: Leaf | None) -> int:
+    """Read an ordinal."""
+    if leaf is None:
+        return 1
+    return 1 if leaf.key == "next" else int(leaf.key)

@@ -1,0 +1,183 @@
+"""Nominal questions: what a noun phrase asks for behind "what is", "list" or "tell me"."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    Fault,
+    HowDecide,
+    HowKnow,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Question,
+    Summarise,
+    WhatWouldChange,
+    When,
+    Where,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Happens,
+    Lane,
+    Measured,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Record,
+    Road,
+    That,
+    Thing,
+    Time,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, SideOf, as_thing
+
+_LISTED = {"option": "options", "event": "events", "prediction": "beliefs",
+           "wrong-prediction": "wrong-predictions", "factor": "causes", "stop": "stops",
+           "decision": "decisions", "capability": "capabilities"}  # fmt: skip
+
+
+def event_in(sem: Sem | None) -> Event | None:
+    """Find the event in "the lorry turning right"."""
+    if isinstance(sem, Event):
+        return sem
+    if not isinstance(sem, Described) or sem.doing is None:
+        return None
+    inner = sem.doing
+    if not isinstance(inner.actor, Wanted):
+        return None
+    fields = {k: getattr(inner, k) for k in inner.__struct_fields__}
+    bare = {k: getattr(sem, k) for k in sem.__struct_fields__}
+    return Event(**{**fields, "actor": Described(**{**bare, "doing": None})})
+
+
+def propose(sem: Sem | None) -> Proposition | None:
+    """Take a noun phrase for a fact: a deed happened, "that" was spoken of."""
+    if isinstance(sem, Event):
+        return Happens(sem)
+    if isinstance(sem, Pronoun):
+        return That()
+    return None
+
+
+def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
+    """Ask for what a noun phrase names; None for what names nothing to ask for."""
+    match sem:
+        case Measure():
+            return _measure(sem, time, tense)
+        case Noun():
+            return _noun(sem, time)
+        case Event():
+            return Summarise(sem, time)
+        case Quantity() | Moment() | SideOf():
+            return None
+        case Group(members=members):
+            return asked_of(members[0], time, tense)
+        case Everyone():
+            return Listing("vehicles", time=time)
+        case Destination():
+            return Where(sem, time)
+        case Record():
+            return Summarise(None, time)
+        case Ego() | Passenger():
+            return Summarise(Ego(), time)
+        case Exit():
+            return HowMuch(Measured("exit-number", time=time))
+        case Lane() | Road():
+            return Where(sem, time)
+        case _:
+            thing = as_thing(sem)
+            if isinstance(thing, Described) and isinstance(thing.such, Caused):
+                return WhatWouldChange(thing.such.effect, most=True)
+            if getattr(thing, "plural", False) and not getattr(thing, "number", None):
+                return Listing("vehicles", thing, time)
+            return Identify(thing) if thing is not None else None
+
+
+def _measure(sem: Measure, time: Time, tense: str) -> Question:
+    measured = sem.of
+    if not isinstance(time, Unsaid) or tense != "present":
+        fields: dict[str, Any] = {k: getattr(measured, k) for k in measured.__struct_fields__}
+        measured = Measured(**{**fields, "time": time, "tense": tense})
+    if measured.attribute == "heading":
+        return Whither(measured.thing, time)
+    if measured.attribute == "probability":
+        return HowSure(
+            measured.about or (Happens(measured.event) if measured.event else None), time
+        )
+    return HowMuch(measured, sem.extreme)
+
+
+def _noun(sem: Noun, time: Time) -> Question | None:
+    about = propose(sem.about) or propose(sem.of) or sem.clause
+    thing = as_thing(sem.about) or as_thing(sem.of) or as_thing(sem.owner)
+    if sem.key in ("reason", "factor") and not sem.plural:
+        if sem.extreme or sem.key == "factor":
+            return WhatWouldChange(about, most=True)
+        return Why(about or That())
+    if sem.key == "reason":
+        return Listing("reasons", thing, time)
+    if sem.key in _LISTED:
+        if sem.key == "decision" and not sem.plural:
+            return HowDecide(about)
+        return Listing(cast(Any, _LISTED[sem.key]), _other_than_ego(thing), time)
+    match sem.key:
+        case "plan":
+            actor = as_thing(sem.owner) or as_thing(sem.of) or Ego()
+            return Doing(actor, time, "future")
+        case "fault":
+            return Fault(about, _other_than_ego(thing))
+        case "order":
+            return Listing("events", _other_than_ego(thing), time)
+        case "evidence":
+            return HowKnow(about)
+        case "summary" | "ride":
+            return Summarise(_other_than_ego(thing), time)
+        case "problem":
+            return Why(That())
+        case "difference":
+            return Summarise(None, time)
+        case "time":
+            return _clock(about, time)
+        case "moment":
+            return When(about or That())
+        case "way":
+            return HowMuch(Measured("route", time=time))
+    return None
+
+
+def _clock(about: Proposition | None, time: Time) -> Question:
+    return When(about) if about is not None else HowMuch(Measured("time", time=time))
+
+
+def _other_than_ego(thing: Thing | None) -> Thing | None:
+    return None if isinstance(thing, (Ego, Passenger)) else thing
+
+
+def counted(sem: Sem) -> Question | None:
+    """Ask how many there are of what a noun phrase names."""
+    match sem:
+        case Event():
+            return HowMany(sem)
+        case Lane():
+            return HowMuch(Measured("lane-count"))
+        case Noun() | Measure() | Moment() | Quantity() | SideOf():
+            return None
+        case Group(members=members):
+            return counted(members[0])
+        case _:
+            thing = as_thing(sem)
+            return HowMany(thing) if thing is not None else None

@@ -1,0 +1,233 @@
+"""Orders: imperatives and polite questions: "tell me why", "could you slow down", "list ..."."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Repair,
+    Request,
+    Summarise,
+)
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Happens,
+    Not,
+    Passenger,
+)
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.telling import Telling
+from xavi_dialogue.nlu.compose.wh import fact
+
+_TELLING = frozenset(
+    {
+        "tell",
+        "describe",
+        "summarise",
+        "list",
+        "justify",
+        "know",
+        "ask",
+        "understand",
+        "report",
+        "compare",
+        "count",
+        "identify",
+        "name",
+        "say",
+        "like",
+        "want",
+        "show",
+    }
+)
+_STYLES = {"simple": "simpler", "short": "shorter", "long": "longer"}
+Found = list[tuple[tuple[Act, ...], float]]
+
+
+class Orders(Telling):
+    """Reads what the passenger asks the car to do or to tell."""
+
+    def __init__(self, composer: Any) -> None:
+        self.composer = composer
+
+    # --- what is asked politely --------------------------------------
+
+    def polite(self, clause: Clause) -> tuple[Act, ...] | None:
+        """Read "can you tell me why", "could you slow down", "do you know how far"."""
+        if not isinstance(clause.subject, (Ego, Passenger)):
+            return None
+        value = self._best(clause)
+        if isinstance(value, Special) and value.name == "mind" and clause.gerund is not None:
+            found = self.order(clause.gerund, negated=False)
+            return found[0][0] if found else None
+        if isinstance(value, Special) and value.name in _TELLING:
+            if clause.question is not None:
+                return self.embedded(clause) or None
+            modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
+            if (
+                value.name
+                in (
+                    "tell",
+                    "describe",
+                    "summarise",
+                    "list",
+                    "justify",
+                    "count",
+                    "compare",
+                    "identify",
+                    "report",
+                    "show",
+                )
+                and modal
+            ):
+                return self.told(clause, value) or None
+            return None
+        return self._requested(clause, value)
+
+    def _requested(self, clause: Clause, value: Any) -> tuple[Act, ...] | None:
+        modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
+        if not modal or clause.has("have") or not isinstance(clause.subject, Ego):
+            return None
+        if clause.still or clause.condition is not None or clause.without is not None:
+            return None
+        of = fact(value) if value is not None else None
+        event = of.event if isinstance(of, Happens) else None
+        if isinstance(of, Not) and isinstance(of.content, Happens):
+            event = of.content.event
+        if event is None or event.action in (
+            "see",
+            "do",
+            "happen",
+            "wait-for",
+            "collide",
+            "arrive",
+        ):
+            return None
+        if clause.has("modal-will") and not clause.negated and "please" not in clause.focus:
+            return None
+        if clause.than is not None:
+            return None
+        return (Request(_bidden(event)),)
+
+    def _best(self, clause: Clause) -> Any:
+        found = self.composer.propositions.readings(clause)
+        return found[0].value if found else None
+
+    def stated(self, clause: Clause) -> tuple[Act, ...] | None:
+        """Read "I want to know why", "I wonder how fast", "I would like you to stop"."""
+        if clause.question is not None and clause.verb is None:
+            return self.embedded(clause) or None
+        if not isinstance(clause.subject, (Passenger, Ego)):
+            return None
+        if clause.question is not None:
+            value = self._best(clause)
+            known = isinstance(value, Special) and value.name in _TELLING | {"want", "decide"}
+            if known and isinstance(clause.subject, Passenger):
+                return self.embedded(clause) or None
+            return None
+        inner = clause.infinitive
+        if not isinstance(clause.subject, Passenger):
+            return None
+        if clause.condition is not None and clause.condition.question is not None:
+            return self.embedded(clause.condition) or None
+        if inner is not None and inner.question is not None:
+            return self.embedded(inner) or None
+        return self._wished(clause)
+
+    def _wished(self, clause: Clause) -> tuple[Act, ...] | None:
+        if clause.verb is None or clause.verb.key not in (
+            "want",
+            "like",
+            "need",
+            "wish",
+            "tell",
+            "know",
+            "understand",
+            "ask",
+        ):
+            return None
+        value = self._best(clause)
+        if not isinstance(value, Special) or clause.negated:
+            return None
+        if isinstance(value.content, Happens) and isinstance(value.object, Ego):
+            return (Request(_bidden(value.content.event)),)
+        if value.name in ("tell", "know", "understand", "ask") and clause.modal == "want":
+            return self.told(clause, value) or None
+        return None
+
+    # --- imperatives -------------------------------------------------
+
+    def order(self, clause: Clause, *, negated: bool) -> Found:
+        """Read an imperative."""
+        style = self._style(clause)
+        if clause.subject is None:
+            clause.subject = Ego()
+        found: Found = []
+        for candidate in self.composer.propositions.readings(clause):
+            acts = self._ordered(clause, candidate.value, negated, style)
+            if acts:
+                found.append((acts, candidate.cost))
+        return found
+
+    def _ordered(
+        self, clause: Clause, value: Any, negated: bool, style: str | None
+    ) -> tuple[Act, ...]:
+        if isinstance(value, Special):
+            if clause.question is not None and value.name == "summarise":
+                return (Ask(Summarise(None, self.asked_time(clause))),)
+            if clause.question is not None and value.name in _TELLING:
+                return self.embedded(clause)
+            if value.name in ("tell", "say", "describe", "repeat") and style:
+                return (Repair(cast(Any, style)),)
+            if value.name == "repeat":
+                return (Repair("repeat"),)
+            if value.name == "quiet" or (value.name == "end" and clause.gerund is not None):
+                return (Repair("cancel"),)
+            told = self.told(clause, value)
+            if told:
+                return told
+            if value.name in _TELLING:
+                return ()
+        of = fact(value)
+        match of:
+            case Happens(event=event):
+                return (self._request(event),)
+            case Not(content=Happens(event=event)):
+                return (self._request(event, negated=True),)
+        return ()
+
+    def _request(self, event: Event, *, negated: bool = False) -> Act:
+        bidden = _bidden(event)
+        if not negated:
+            return Request(bidden)
+        opposite = {
+            "stop": "go",
+            "wait": "go",
+            "go": "stop",
+            "overtake": "keep-lane",
+            "brake": "continue",
+            "speed-up": "slow-down",
+            "slow-down": "continue",
+            "move": "stop",
+            "change-lane": "keep-lane",
+            "change-left": "keep-lane",
+            "change-right": "keep-lane",
+        }.get(bidden.action)
+        if opposite is None:
+            return Request(Event("avoid", Ego(), bidden.object, tense="present"))
+        fields: dict[str, Any] = {k: getattr(bidden, k) for k in bidden.__struct_fields__}
+        return Request(Event(**{**fields, "action": opposite}))
+
+    def _style(self, clause: Clause) -> str | None:
+        words = " ".join(w for _, w in clause.comparisons) + " " + " ".join(clause.focus)
+        for stem, kind in (("simpl", "simpler"), ("short", "shorter"), ("long", "longer")):
+            if stem in words:
+                return kind
+        return "repeat" if "again" in clause.manner else None
+
+
+def _bidden(event: Event) -> Event:
+    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
+    return Event(**{**fields, "tense": "present", "modal": None})

@@ -1,0 +1,295 @@
+"""Phrases of a clause: what each does to the slots."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import Event, Proposition, Unsaid, Wanted
+from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
+from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
+from xavi_dialogue.nlu.compose.things import Nouns
+from xavi_dialogue.nlu.compose.times import relative, time_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+_CLAUSES = ("finite", "finite_short", "finite_topic", "inverted", "inverted_short", "vp",
+            "copular", "state", "gerund", "bare", "infinitive")  # fmt: skip
+
+
+_NOUNS = ("np", "group", "accusative", "accusative_group")
+
+
+class Phrases:
+    """Reads the phrases of a clause; knows of noun phrases and of the clauses inside."""
+
+    def __init__(self, propositions: Any, questions: Any, notes: Notes) -> None:
+        self.propositions = propositions
+        self.questions = questions
+        self.notes = notes
+        self.nouns = Nouns(self)
+        self.slots = Slots(self)
+
+    # --- used by noun phrases ----------------------------------------
+
+    def inner(self, part: Part) -> Sem:
+        """Read what stands behind a preposition: a noun phrase or a gerund."""
+        if isinstance(part, Node) and part.name in _CLAUSES:
+            return cast(Sem, self.propositions.as_deed(self.clause(part)))
+        return self.nouns.read(cast(Node, part))
+
+    def relative_clause(self, node: Node) -> Clause:
+        """Fill the slots of a relative clause; its gap is wanted."""
+        clause = Clause(gap=Wanted())
+        if node.name == "participle" or node_of(node, "subject") is None:
+            named = any(
+                isinstance(p, Leaf) and p.category in ("I", "YOU", "WE", "PRON") for p in node.parts
+            )
+            if not named:
+                clause.subject, clause.gap = Wanted(), None
+        return self.slots.fill(node.parts, clause)
+
+    def relative_proposition(self, node: Node) -> Proposition | None:
+        """Compose a relative clause; what it is about is `Wanted` in it."""
+        return cast("Proposition | None", self.propositions.plain(self.relative_clause(node)))
+
+    def relative(self, node: Node, subject: Wanted) -> Any:
+        """Compose a participle before a noun: "the waiting car"."""
+        clause = self.slots.fill(node.parts, Clause(subject=subject))
+        found = self.propositions.plain(clause)
+        return getattr(found, "event", None)
+
+    def noun_clause(self, node: Node) -> Proposition | None:
+        """Compose the clause that belongs to an abstract noun: "the reason you stopped"."""
+        clause = self.slots.fill(node.parts, Clause())
+        return cast("Proposition | None", self.propositions.plain(clause))
+
+    # --- clauses -----------------------------------------------------
+
+    def clause(self, node: Node, outer: Clause | None = None) -> Clause:
+        """Fill the slots of an embedded clause; a missing subject is that of the outer one."""
+        clause = self.slots.fill(node.parts)
+        if clause.subject is None and not clause.there and outer is not None:
+            clause.subject = outer.subject
+        return clause
+
+    def _on_subject(self, node: Node, clause: Clause) -> None:
+        inner = node.parts[0]
+        if isinstance(inner, Leaf):
+            clause.there = True
+        elif inner.name == "side_subject":
+            side = cast(Leaf, inner.parts[0]).key
+            clause.subject = Event(cast(Any, f"exit-{side}"), tense="present")
+        elif inner.name == "dative":
+            clause.subject = self.nouns.read(cast(Node, inner.parts[0]))
+        elif inner.name == "gerund":
+            clause.subject = self.inner(inner)
+        else:
+            clause.subject = self.nouns.read(inner)
+
+    def _on_vp(self, node: Node, clause: Clause) -> None:
+        self.slots.fill(node.parts, clause)
+
+    _on_copular = _on_vp
+    _on_state = _on_vp
+    _on_verbless = _on_vp
+    _on_short_gerund = _on_vp
+    _on_vp_odd = _on_vp
+    _on_hads = _on_vp
+    _on_finite = _on_vp
+    _on_finite_short = _on_vp
+    _on_inverted = _on_vp
+    _on_pre_to = _on_vp
+
+    def _on_unknown_verb(self, node: Node, clause: Clause) -> None:
+        clause.verb = cast(Leaf, node.parts[0])
+
+    def _on_object(self, node: Node, clause: Clause) -> None:
+        clause.objects.append((self.nouns.read(cast(Node, node.parts[0])), node))
+
+    def _on_pp(self, node: Node, clause: Clause) -> None:
+        leaf = cast(Leaf, node.parts[0])
+        last = node.parts[1]
+        if isinstance(last, Node) and last.name == "wh_np_clause":
+            clause.question = self.questions.embedded(last, clause)
+            return
+        sem = self.inner(last)
+        if isinstance(sem, SideOf):
+            self._sided(leaf.key, sem.side, node, clause)
+            return
+        clause.complements.append(Complement(leaf.key, sem, node))
+
+    def _sided(self, key: str, side: str, node: Node, clause: Clause) -> None:
+        if key == "from":
+            clause.origin = side
+        elif key in ("on", "at") and side in ("left", "right"):
+            clause.bearings.append((side, node))
+        else:
+            clause.side = side
+
+    def _on_side_pp(self, node: Node, clause: Clause) -> None:
+        side = leaf_of(node, "SIDE")
+        key = cast(Leaf, node.parts[0]).key
+        self._sided(key, side.key if side else "left", node, clause)
+
+    def _on_pp_bearing(self, node: Node, clause: Clause) -> None:
+        leaf = cast(Leaf, node.parts[0])
+        sem = self.nouns.read(cast(Node, node.parts[1]))
+        clause.complements.append(Complement("bearing-" + leaf.key, sem, node))
+
+    def _on_between(self, node: Node, clause: Clause) -> None:
+        clause.complements.append(
+            Complement("between", self.nouns.read(cast(Node, node.parts[1])), node)
+        )
+
+    def _on_stranded(self, node: Node, clause: Clause) -> None:
+        leaf = cast(Leaf, node.parts[0])
+        key = "bearing-" + leaf.key if leaf.category == "BEARP" else leaf.key
+        clause.complements.append(Complement(key, None, node))
+
+    # --- qualities ---------------------------------------------------
+
+    def _on_adjective(self, node: Node, clause: Clause) -> None:
+        words = [leaf for leaf in leaves_of(node) if leaf.category in ("DEG", "FOCUS")]
+        degree = "too" if any(leaf.key == "too" for leaf in words) else ""
+        if any(leaf.key == "enough" for leaf in words):
+            degree = "enough"
+        leaf = leaf_of(node, "ADJ")
+        if leaf is not None:
+            clause.adjectives.append((leaf.key, degree))
+
+    def _on_feeling(self, node: Node, clause: Clause) -> None:
+        leaf = leaf_of(node, "FEELADJ")
+        if leaf is not None:
+            clause.feelings.append(leaf.key)
+
+    def _on_comparison(self, node: Node, clause: Clause) -> None:
+        leaf = leaf_of(node, "COMPAR")
+        if leaf is not None:
+            clause.comparisons.append((leaf.key, " ".join(leaf.words)))
+            return
+        for leaf in leaves_of(node):
+            if leaf.category in ("ADJ", "ADV", "FEELADJ"):
+                clause.comparisons.append((leaf.key, "as"))
+
+    def _on_than(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[-1])
+        clause.than = self.clause(inner, clause) if inner.name in _CLAUSES else self.inner(inner)
+
+    # --- adverbial clauses -------------------------------------------
+
+    def _time(self, node: Node, clause: Clause) -> None:
+        if isinstance(clause.time, Unsaid):
+            clause.time = time_of(node)
+
+    _on_time_adverb = _on_time_clock = _on_time_amount = _on_time_ago = _time
+    _on_time_span = _on_time_rank = _on_time_between = _time
+
+    def _on_lead_time(self, node: Node, clause: Clause) -> None:
+        for part in node.parts:
+            if isinstance(part, Node):
+                self._time(part, clause)
+
+    def _on_lead_clause(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[0])
+        if inner.name == "hads":
+            clause.condition = self.clause(inner)
+        else:
+            self.slots.fill(node.parts, clause)
+
+    def _on_when(self, node: Node, clause: Clause) -> None:
+        if len(node.parts) == 1:
+            node = cast(Node, node.parts[0])
+        leaf = cast(Leaf, node.parts[0])
+        inner = cast(Node, node.parts[1])
+        if inner.name in _CLAUSES:
+            event = self.propositions.as_event(self.clause(inner, clause))
+        else:
+            event = self.nouns.read(inner)
+        anchor = self.propositions.anchor(event)
+        if anchor is not None and isinstance(clause.time, Unsaid):
+            clause.time = relative(leaf.key, anchor)
+
+    def _on_when_np(self, node: Node, clause: Clause) -> None:
+        self._on_when(node, clause)
+
+    def _on_if_clause(self, node: Node, clause: Clause) -> None:
+        clause.condition = self.condition(cast(Node, node.parts[1]), clause)
+
+    def condition(self, inner: Node, outer: Clause | None) -> Clause:
+        """Read what is supposed: a clause, or a thing that might be there."""
+        if inner.name == "np_not":
+            sem = self.nouns.read(cast(Node, inner.parts[-1]))
+            negated = leaf_of(inner, "NOT") is not None
+            return Clause(there=True, objects=[(sem, inner)], negated=negated)
+        clause = self.clause(inner)
+        if clause.subject is None and not clause.there and outer is not None:
+            clause.subject = outer.subject
+        return clause
+
+    def _on_because(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[-1])
+        if inner.name in _CLAUSES:
+            clause.because = self.clause(inner, clause)
+        else:
+            clause.because = self.nouns.read(inner)
+
+    def _on_without(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[-1])
+        if inner.name == "gerund":
+            return  # "without looking": how it was done
+        if inner.name in _CLAUSES:
+            clause.condition = self.clause(inner, clause)
+            clause.condition.negated = True
+        else:
+            clause.without = self.nouns.read(inner)
+
+    def _on_contrast(self, node: Node, clause: Clause) -> None:
+        inner = node.parts[-1]
+        if isinstance(inner, Leaf):
+            clause.contrast = inner.key
+        elif inner.name in _CLAUSES:
+            clause.contrast = self.clause(inner, clause)
+        elif inner.name in _NOUNS:
+            sem = self.nouns.read(inner)
+            clause.contrast = sem.side if isinstance(sem, SideOf) else sem
+        else:
+            clause.contrast = self.slots.fill((inner,), Clause(subject=clause.subject))
+
+    # --- complement clauses ------------------------------------------
+
+    def _on_infinitive(self, node: Node, clause: Clause) -> None:
+        clause.infinitive = self.clause(node, clause)
+
+    def _on_gerund(self, node: Node, clause: Clause) -> None:
+        clause.gerund = self.clause(node, clause)
+
+    def _on_bare(self, node: Node, clause: Clause) -> None:
+        clause.bare = self.clause(node, clause)
+
+    def _on_that_clause(self, node: Node, clause: Clause) -> None:
+        bare = node_of(node, "finite_bare")
+        inner = node_of(bare or node, *_CLAUSES)
+        clause.that = self.clause(inner) if inner is not None else self.slots.fill(node.parts)
+
+    def _on_wh_clause(self, node: Node, clause: Clause) -> None:
+        clause.question = self.questions.embedded(node, clause)
+
+    def _on_wh_np_clause(self, node: Node, clause: Clause) -> None:
+        clause.question = self.questions.embedded(node, clause)
+
+    def _on_and_pred(self, node: Node, clause: Clause) -> None:
+        join = "or" if leaf_of(node, "OR") else "and"
+        inner = cast(Node, node.parts[-1])
+        chained = self.clause(inner, clause)
+        chained.negated ^= leaf_of(node, "NOT") is not None
+        if not chained.aux:
+            chained.aux = [a for a in clause.aux if not a.startswith("semi")]
+        clause.chained.append((join, chained))
+
+    def _on_or_state(self, node: Node, clause: Clause) -> None:
+        other = self.slots.fill(node.parts, Clause(subject=clause.subject, aux=list(clause.aux)))
+        clause.chained.append(("or", other))
+
+    def _on_skipped(self, node: Node, clause: Clause) -> None:
+        for leaf in leaves_of(node):
+            if leaf.category in ("SKIP", "UNK"):
+                clause.skipped.append(leaf)

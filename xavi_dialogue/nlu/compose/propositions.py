@@ -1,0 +1,225 @@
+"""Propositions: what a clause says, by the senses of its verb and the types beside it."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Both,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Pronoun,
+    Proposition,
+    Thing,
+    Unknown,
+)
+from xavi_dialogue.nlu.compose.adoption import adopt, compared, with_fields
+from xavi_dialogue.nlu.compose.candidates import Candidate, Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.events import event_of, when
+from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.senses import Match, match, senses
+from xavi_dialogue.nlu.compose.specials import proposition_of
+from xavi_dialogue.nlu.compose.states import state_of
+from xavi_dialogue.nlu.compose.tree import leaves_of
+
+SPREAD = 0.45  # readings that cost this much more than the best are not offered
+NO_PREDICATE = 1.0
+
+
+class Propositions:
+    """Reads clauses."""
+
+    def __init__(self, notes: Notes) -> None:
+        self.notes = notes
+
+    def readings(self, clause: Clause) -> list[Candidate]:
+        """Read a clause in all the ways that its words allow, cheapest first."""
+        _regovern(clause)
+        self._inner(clause)
+        if clause.verb is None:
+            rest = tuple(node for _, node in clause.objects[1:])
+            found = [Candidate(p, cost, rest) for p, cost in state_of(clause)]
+            if not found:
+                return []
+        elif clause.verb.category == "UNK":
+            return [Candidate(self._unknown(clause), 0.0)]
+        else:
+            found = self._verbal(clause)
+        found.sort(key=lambda candidate: candidate.cost)
+        best = found[0].cost if found else 0.0
+        kept = [c for c in found if c.cost <= best + SPREAD][:4]
+        if kept:
+            for part in kept[0].left:
+                self.notes.unknown.extend(leaves_of(part))
+            self.notes.cost += max(0.0, kept[0].cost)
+        return kept
+
+    def _inner(self, clause: Clause) -> None:
+        governed = clause.infinitive or clause.gerund or clause.bare
+        if governed is not None and isinstance(governed.subject, Pronoun):
+            governed.subject = Ego()
+        if governed is not None and clause.verb is None and clause.inner is None:
+            event = self.as_event(governed)
+            clause.inner = event if isinstance(event, Event) else None
+
+    def _verbal(self, clause: Clause) -> list[Candidate]:
+        lemma = cast(Any, clause.verb).key
+        found: list[Candidate] = []
+        matches = [m for sense in senses(lemma) if (m := match(sense, clause)) is not None]
+        if not matches:
+            return [Candidate(self._bare(clause, lemma), 1.0, _objects(clause))]
+        matches.sort(key=lambda m: m.cost)
+        limit = matches[0].cost + SPREAD + 0.6
+        for one in matches:
+            if one.cost > limit or len(found) > 5:
+                break
+            found.append(self._candidate(clause, one))
+        return _distinct(found)
+
+    def _candidate(self, clause: Clause, one: Match) -> Candidate:
+        adopt(one)
+        if one.sense.head.startswith("@"):
+            value: Proposition | Special = self._special(clause, one)
+        else:
+            event = event_of(clause, one)
+            event = self._chain(clause, event)
+            value = compared(clause, event) or Happens(event)
+            if "semi-allowed" in clause.aux:
+                value = Is("allowed", event=event, time=event.time, tense=event.tense)
+            if clause.negated:
+                value = Not(value)
+        left: list[Any] = [phrase.node for phrase in one.left if phrase.sem is not None]
+        left += [node for sem, node in clause.objects if any(sem is o for o in one.left_objects)]
+        return Candidate(value, one.cost, tuple(left))
+
+    def _special(self, clause: Clause, one: Match) -> Special:
+        clause.time = when(clause, one)
+        if one.sense.head == "@beyond":
+            self.notes.unknown.append(cast(Any, clause.verb))
+        governed = clause.that or clause.infinitive or clause.gerund or clause.bare
+        content: Proposition | None = None
+        if one.sense.head == "@make-do" and isinstance(one.second, Event):
+            content = Happens(with_fields(one.second, actor=as_thing(one.object) or Ego()))
+        elif governed is not None:
+            _for_subject(governed, one)
+            if clause.that is None and one.object is not None and one.sense.head != "@tell":
+                governed.subject = one.object
+            content = self.plain(governed)
+        return Special(one.sense.head[1:], clause, one, content)
+
+    def _chain(self, clause: Clause, event: Event) -> Event:
+        """Add what is done next: "change left and then turn right"."""
+        for join, later in reversed(clause.chained):
+            found = self.as_event(later)
+            if join == "and" and isinstance(found, Event):
+                fields = {k: getattr(event, k) for k in event.__struct_fields__}
+                event = Event(**{**fields, "then": found})
+        return event
+
+    def _unknown(self, clause: Clause) -> Proposition:
+        word = cast(Any, clause.verb).words[0]
+        found: Proposition = Happens(
+            Event("do", as_thing(clause.subject) or Ego(), Unknown(word), cast(Any, clause.side),
+                  time=when(clause, None), tense=cast(Any, clause.tense),
+                  modal=cast(Any, clause.modal))
+        )  # fmt: skip
+        return Not(found) if clause.negated else found
+
+    def _bare(self, clause: Clause, lemma: str) -> Proposition:
+        """Read a verb whose senses all want something else as doing what is unknown."""
+        found: Proposition = Happens(
+            Event("do", as_thing(clause.subject) or Ego(), Unknown(lemma),
+                  time=when(clause, None), tense=cast(Any, clause.tense),
+                  modal=cast(Any, clause.modal))
+        )  # fmt: skip
+        return Not(found) if clause.negated else found
+
+    # --- for others --------------------------------------------------
+
+    def plain(self, clause: Clause) -> Proposition | None:
+        """Read a clause in the likeliest way, as a proposition."""
+        found = self.readings(clause)
+        if not found:
+            return None
+        value = found[0].value
+        if isinstance(value, Special):
+            return proposition_of(value)
+        return self.joined(clause, value)
+
+    def joined(self, clause: Clause, value: Proposition) -> Proposition:
+        """Join what the clause says with what is chained to it by "or", or to a state."""
+        chained = [(j, c) for j, c in clause.chained
+                   if j == "or" or not isinstance(value, Happens)]  # fmt: skip
+        if not chained:
+            return value
+        others = [p for _, c in chained if (p := self.plain(c)) is not None]
+        if not others:
+            return value
+        return Both((value, *others), cast(Any, chained[0][0]))
+
+    def as_event(self, clause: Clause) -> Sem | None:
+        """Read a clause as an event, or as what it is about."""
+        found = self.plain(clause)
+        match found:
+            case Happens(event=event):
+                return event
+            case Not(content=Happens(event=event)):
+                return event
+            case None:
+                return None
+            case _:
+                thing = getattr(found, "thing", None) or getattr(found, "to", None)
+                return cast("Sem | None", thing)
+
+    def as_deed(self, clause: Clause) -> Sem:
+        """Read a gerund as an event of our own car unless it says whose."""
+        if clause.subject is None:
+            clause.subject = Ego()
+        found = self.as_event(clause)
+        return found if found is not None else Pronoun("that")
+
+    def anchor(self, sem: Sem | None) -> Event | Thing | None:
+        """Give what a time can be relative to."""
+        if isinstance(sem, Event):
+            return sem
+        if isinstance(sem, (Measure, Noun)):
+            return None
+        return as_thing(sem)
+
+
+def _for_subject(governed: Clause, one: Match) -> None:
+    """Give "for you to go" its subject."""
+    for phrase in list(one.left):
+        if phrase.key == "for" and as_thing(phrase.sem) is not None:
+            governed.subject = phrase.sem
+            one.left.remove(phrase)
+            return
+
+
+_CAUSATIVE = frozenset({"make", "let", "help", "see", "force"})
+
+
+def _regovern(clause: Clause) -> None:
+    """Read "made you switch" as object and bare infinitive, not as a clause of its own."""
+    inner = clause.that
+    if clause.verb is None or clause.verb.key not in _CAUSATIVE or inner is None:
+        return
+    if clause.objects or inner.subject is None or inner.aux:
+        return
+    clause.objects.append((inner.subject, clause.verb))
+    clause.bare, clause.that = inner, None
+
+
+def _objects(clause: Clause) -> tuple[Any, ...]:
+    return tuple(node for _, node in clause.objects)
+
+
+def _distinct(found: list[Candidate]) -> list[Candidate]:
+    kept: list[Candidate] = []
+    for candidate in sorted(found, key=lambda c: c.cost):
+        value = candidate.value
+        if isinstance(value, Special) or all(value != other.value for other in kept):
+            kept.append(candidate)
+    return kept

@@ -1,0 +1,157 @@
+"""Meanings under way: what phrases stand for before they are part of a proposition."""
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Feature,
+    Junction,
+    Lane,
+    Measured,
+    Nobody,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Record,
+    Road,
+    Thing,
+    Time,
+    Unknown,
+    Unsaid,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import Extreme
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+
+@dataclass(frozen=True, slots=True)
+class Noun:
+    """An abstract noun: "reason", "plan", "fault"; `of` is what it is said to be of."""
+
+    key: str
+    of: "Sem | None" = None
+    owner: "Sem | None" = None
+    about: "Sem | None" = None  # "for the lane change", "over vehicle 2"
+    plural: bool = False
+    other: bool = False
+    negative: bool = False
+    extreme: Extreme | None = None
+    word: str = ""
+    clause: Proposition | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SideOf:
+    """A side as a noun: "the left"."""
+
+    side: str
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Several joined by "and" or "or"."""
+
+    members: tuple["Sem", ...]
+    join: str = "and"
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """A measure as a noun, with what was said of it: "the highest speed"."""
+
+    of: Measured
+    extreme: Extreme | None = None
+    several: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A stretch of time as a noun: "seconds", "the first time"."""
+
+    unit: str
+    rank: int | None = None
+    amount: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Specified:
+    """A named thing with a relative clause: "vehicle 1 that made you brake"."""
+
+    thing: Thing
+    clause: Proposition
+
+
+Sem: TypeAlias = Specified | Thing | Event | Quantity | Noun | SideOf | Group | Measure | Moment
+THINGS = (
+    Ego, Vehicle, Vehicles, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
+    Exit, Lane, Road, Feature, Passenger, Record, Unknown,
+)  # fmt: skip
+_NUMBERS = 100  # numbers of vehicles are below
+_OPEN = frozenset({"it", "that", "this", "they"})
+
+
+def is_thing(sem: object) -> bool:
+    """Say whether a meaning is a thing of the domain."""
+    return isinstance(sem, THINGS)
+
+
+_LETTERS: dict[type, str] = {
+    Ego: "ve", Passenger: "mv", Wanted: "vanjlfrpxdtq", Junction: "jp", Exit: "xj", Lane: "l",
+    Road: "dj", Destination: "p", Record: "r", Measure: "n", Quantity: "q", Moment: "q",
+    Noun: "a", SideOf: "s", Unknown: "u",
+}  # fmt: skip
+
+
+def types(sem: Sem) -> str:
+    """Give the type letters of a meaning, the first its own; see nlu_verbs.toml."""
+    match sem:
+        case Pronoun(form=form):
+            return "vantjlfrpxd" if form in _OPEN else "v"
+        case Feature(kind=kind):
+            return "fd" if kind in ("way", "light") else "f"
+        case Event(action=action):
+            return "tb" if action == "brake" else "t"
+        case Group(members=members):
+            return types(members[0])
+        case Specified(thing=thing):
+            return types(thing)
+    return _LETTERS.get(type(sem), "v")
+
+
+@dataclass(slots=True)
+class Notes:
+    """What composition finds out beside meanings: words without a part, and what it costs."""
+
+    unknown: list[Leaf] = field(default_factory=list)
+    cost: float = 0.0
+
+
+def as_thing(sem: "Sem | None") -> Thing | None:
+    """Give the thing that a meaning is, or can be taken for."""
+    if sem is None:
+        return None
+    if isinstance(sem, THINGS):
+        return sem
+    if isinstance(sem, Specified):
+        return sem.thing
+    if isinstance(sem, Group):
+        return as_thing(sem.members[0])
+    if isinstance(sem, Noun):
+        return Pronoun("that") if sem.key == "event" else Unknown(sem.word or sem.key)
+    if isinstance(sem, (Event, Measure)):
+        return Pronoun("that")
+    if isinstance(sem, Quantity) and sem.unit == "count" and sem.value in range(1, _NUMBERS):
+        return Vehicle(int(sem.value))  # "the gap to 2"
+    return None
+
+
+NO_TIME: Time = Unsaid()

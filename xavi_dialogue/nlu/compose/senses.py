@@ -1,0 +1,298 @@
+"""Senses of verbs: patterns of what may stand with a verb, matched against a clause by type."""
+
+from dataclasses import dataclass, field
+from functools import cache
+
+from xavi_dialogue.domain.terms import Wanted
+from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.sem import Sem, is_thing, types
+from xavi_dialogue.nlu.text.tables import load
+
+_NO_BASE = frozenset({"be", "have"})  # auxiliaries that no base form follows
+LEFT_OBJECT = 1.3  # cost of an object without a role
+LEFT_OTHER = 0.35  # of another phrase without a role
+MISSING = 2.0  # of a role that must be filled
+ALMOST = 0.5  # of a thing of another type that might do
+LEFT_PARTICLE = 0.25
+_FLAGS = frozenset(
+    {
+        "inf",
+        "ger",
+        "bare",
+        "that",
+        "wh",
+        "adj",
+        "ved",
+        "because",
+        "bearing",
+        "origin",
+        "until",
+        "go",
+        "q",
+        "close",
+        "out",
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """One thing that stands with a verb: its kind, the types it takes, whether it may miss."""
+
+    kind: str  # "o", "o2", "s", a preposition, "+up", "side", or a flag such as "inf"
+    types: str = "*"
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Sense:
+    """One sense of a verb."""
+
+    head: str  # an action, or "@" and a predicate
+    roles: tuple[Role, ...] = ()
+    manner: str | None = None
+    cost: float = 0.0
+
+
+@dataclass(slots=True)
+class Match:
+    """A sense as it fits a clause: what fills its roles, what is left over, what that costs."""
+
+    sense: Sense
+    cost: float
+    object: Sem | None = None
+    second: Sem | None = None
+    phrases: dict[str, Sem] = field(default_factory=dict)
+    left: list[Complement] = field(default_factory=list)
+    left_objects: list[Sem] = field(default_factory=list)
+    gap_used: bool = False
+    sided: bool = False
+
+
+@cache
+def senses(lemma: str) -> tuple[Sense, ...]:
+    """Read the senses of a verb."""
+    return tuple(_sense(text) for text in load("nlu_verbs.toml")["senses"][lemma])
+
+
+def _sense(text: str) -> Sense:
+    head, *rest = text.split()
+    roles: list[Role] = []
+    manner: str | None = None
+    cost = 0.0
+    for item in rest:
+        if "$" in item:
+            item, _, price = item.partition("$")
+            cost = float(price)
+            if not item:
+                continue
+        if item.startswith("="):
+            manner = item[1:] or None
+            continue
+        optional = item.endswith("?") or "?:" in item
+        kind, _, kinds = item.replace("?", "").partition(":")
+        roles.append(Role(kind, kinds or "*", optional))
+    return Sense(head, tuple(roles), manner, cost)
+
+
+def fits(sem: Sem, wanted: str) -> float | None:
+    """Say at what cost a meaning fits the types of a role; None where it does not."""
+    if "*" in wanted:
+        return 0.0
+    own = types(sem)
+    if own[0] in wanted:
+        return 0.0
+    if any(letter in wanted for letter in own[1:]):
+        return 0.05
+    return ALMOST if own == "u" and "v" in wanted else None
+
+
+def match(sense: Sense, clause: Clause) -> Match | None:
+    """Fit a sense to a clause; None where a role that must be filled cannot be."""
+    found = Match(sense, sense.cost)
+    objects = [sem for sem, _ in clause.objects]
+    phrases = list(clause.complements)
+    particles = [leaf.key for leaf in clause.particles]
+    filled = 0
+    for role in sense.roles:
+        cost = _fill(role, found, clause, objects, phrases, particles)
+        if cost is None:
+            if not role.optional:
+                return None
+            continue
+        filled += 1
+        found.cost += cost
+    found.cost -= 0.12 * filled + 0.01 * sum(role.types != "*" for role in sense.roles)
+    if clause.side is not None and not found.sided:
+        found.cost += 0.15
+    if clause.verb is not None and clause.verb.form == "base" and clause.aux_last() in _NO_BASE:
+        found.cost += 0.0 if clause.has("semi") else 0.4
+    found.cost += _ungoverned(sense, clause)
+    found.left_objects = objects
+    found.left = phrases
+    found.cost += LEFT_OBJECT * len(objects) + LEFT_OTHER * len(phrases)
+    found.cost += LEFT_PARTICLE * len(particles)
+    if clause.gap is not None and not found.gap_used:
+        found.cost += 0.6 if isinstance(clause.gap, Wanted) else 0.1
+    return found
+
+
+def _ungoverned(sense: Sense, clause: Clause) -> float:
+    """Say what the clauses inside cost for which the sense has no role."""
+    kinds = {role.kind for role in sense.roles}
+    cost = 0.0
+    for kind, inner, price in (("that", clause.that, 0.9), ("wh", clause.question, 1.2),
+                               ("bare", clause.bare, 0.8), ("ger", clause.gerund, 0.3),
+                               ("inf", clause.infinitive, 0.1)):  # fmt: skip
+        if inner is not None and kind not in kinds and not (kind == "bare" and "go" in kinds):
+            cost += price
+    return cost
+
+
+def _fill(
+    role: Role, found: Match, clause: Clause, objects: list[Sem], phrases: list[Complement],
+    particles: list[str],
+) -> float | None:  # fmt: skip
+    if role.kind in ("o", "o2"):
+        return _fill_object(role, found, clause, objects)
+    if role.kind == "s":
+        return fits(clause.subject, role.types) if clause.subject is not None else None
+    if role.kind.startswith("+"):
+        return _fill_particle(role.kind[1:], found, clause, particles, phrases, objects)
+    if role.kind == "side":
+        wanted = role.types
+        if clause.side is None or (wanted != "*" and clause.side != wanted):
+            return None
+        found.sided = True
+        return 0.0
+    if role.kind in _FLAGS:
+        return 0.0 if _flag(role.kind, role.types, clause) else None
+    return _fill_phrase(role, found, clause, phrases)
+
+
+def _fill_object(role: Role, found: Match, clause: Clause, objects: list[Sem]) -> float | None:
+    for index, sem in enumerate(objects):
+        cost = fits(sem, role.types)
+        if cost is not None:
+            del objects[index]
+            _take(role, found, sem)
+            return cost
+    if clause.passive and role.kind == "o" and clause.subject is not None:
+        cost = fits(clause.subject, role.types)
+        if cost is not None:
+            _take(role, found, clause.subject)
+        return cost
+    if clause.gap is not None and not found.gap_used and not _stranded(clause):
+        if types(clause.gap) == "n" and fits(clause.gap, role.types) is None:
+            return None
+        found.gap_used = True
+        _take(role, found, clause.gap)
+        return 0.0
+    return None
+
+
+def _take(role: Role, found: Match, sem: Sem) -> None:
+    if role.kind == "o":
+        found.object = sem
+    else:
+        found.second = sem
+
+
+def _stranded(clause: Clause) -> bool:
+    return any(phrase.sem is None for phrase in clause.complements)
+
+
+def _fill_particle(
+    word: str, found: Match, clause: Clause, particles: list[str], phrases: list[Complement],
+    objects: list[Sem],
+) -> float | None:  # fmt: skip
+    if word in particles:
+        particles.remove(word)
+        return 0.0
+    stranded = {"past": "over", "around": "bearing-around", "in": "in", "on": "on", "off": "from",
+                "through": "over", "over": "over", "out": "from", "up": "over", "by": "by",
+                "along": "over", "down": "over", "back": "bearing-behind"}  # fmt: skip
+    for index, phrase in enumerate(phrases):
+        if phrase.sem is None and phrase.key == stranded.get(word) and clause.gap is None:
+            del phrases[index]
+            return 0.02
+        takes = any(role.kind == "o" for role in found.sense.roles) and not objects
+        if phrase.sem is not None and takes and phrase.key == stranded.get(word):
+            objects.append(phrase.sem)
+            del phrases[index]
+            return 0.02
+    if word in ("first", "there", "still", "put", "going", "moving", "faster", "waiting"):
+        return 0.0 if _worded(word, clause) else None
+    if word in ("back",) and "back" in [b for b, _ in clause.bearings]:
+        return 0.0
+    return None
+
+
+def _worded(word: str, clause: Clause) -> bool:
+    if word == "first":
+        return "first" in clause.manner
+    if word == "there":
+        return any(bearing == "there" for bearing, _ in clause.bearings)
+    if word == "still":
+        return clause.still or any(key == "stationary" for key, _ in clause.adjectives)
+    if word == "put":
+        return any(leaf.key == "put" for leaf in clause.skipped)
+    inner = clause.gerund.verb if clause.gerund is not None else None
+    return inner is not None and word in inner.words
+
+
+def _fill_phrase(
+    role: Role, found: Match, clause: Clause, phrases: list[Complement]
+) -> float | None:
+    for index, phrase in enumerate(phrases):
+        if phrase.key != role.kind:
+            continue
+        if phrase.sem is None:
+            if clause.gap is None or found.gap_used:
+                continue
+            sem: Sem = clause.gap
+            found.gap_used = True
+        else:
+            sem = phrase.sem
+        cost = fits(sem, role.types)
+        if cost is None:
+            continue
+        del phrases[index]
+        found.phrases[role.kind] = sem
+        if (
+            found.object is None and (is_thing(sem) or isinstance(sem, Wanted))
+        ) or found.object is None:
+            found.object = sem
+        return cost
+    return None
+
+
+def _flag(kind: str, wanted: str, clause: Clause) -> bool:
+    match kind:
+        case "inf":
+            return clause.infinitive is not None
+        case "ger":
+            return clause.gerund is not None
+        case "bare":
+            return clause.bare is not None
+        case "that":
+            return clause.that is not None
+        case "wh":
+            return clause.question is not None
+        case "adj":
+            listed = bool(clause.adjectives or clause.feelings or clause.comparisons)
+            return listed and (wanted == "*" or any(k == wanted for k, _ in clause.adjectives)
+                               or wanted in clause.manner)  # fmt: skip
+        case "bearing":
+            return bool(clause.bearings)
+        case "origin":
+            return clause.origin is not None
+        case "because":
+            return clause.because is not None
+        case "go":
+            inner = clause.bare.verb if clause.bare is not None else None
+            return inner is not None and inner.key == "go"
+        case "close":
+            return "close" in clause.manner
+        case _:
+            return False

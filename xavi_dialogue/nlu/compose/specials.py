@@ -1,0 +1,288 @@
+"""Special predicates as propositions: what "know", "have", "cost", "make" and others say."""
+
+from collections.abc import Callable
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Caused,
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Related,
+    That,
+    Thing,
+    Unknown,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.events import when
+from xavi_dialogue.nlu.compose.nominal import event_in
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+
+_BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
+                     "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
+_DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
+
+
+def proposition_of(special: Special) -> Proposition:
+    """Turn a special predicate into a proposition; negation is kept."""
+    found = _positive(special)
+    return Not(found) if special.clause.negated else found
+
+
+def _positive(special: Special) -> Proposition:
+    name = special.name
+    if name == "assign":
+        return _rated(special)
+    if name in _BELIEF:
+        return Believed(special.content or _about(special), _when(special), _tense(special))
+    if name in _DECISION:
+        return _decided(special)
+    rule = _RULES.get(name)
+    if rule is not None:
+        return rule(special)
+    if name.startswith("feel"):
+        return Is("comfortable", as_thing(special.object) or Passenger())
+    verb = cast(Any, special.clause.verb).key
+    thing = as_thing(special.object)
+    return Happens(_event(special, "do", thing or Unknown(verb)))
+
+
+def _when(special: Special) -> Any:
+    return when(special.clause, special.match)
+
+
+def _tense(special: Special) -> Any:
+    return special.clause.tense
+
+
+def _event(special: Special, action: str, thing: Thing | None, **more: Any) -> Event:
+    return Event(
+        cast(Any, action), special.subject, thing, cast(Any, special.clause.side),
+        tuple(special.clause.manner), _when(special), _tense(special),
+        cast(Any, special.clause.modal), **more,
+    )  # fmt: skip
+
+
+def _rated(special: Special) -> Proposition:
+    """Read "you rated the lorry turning right at 91 percent"."""
+    about = special.content or _about(special)
+    for sem in special.match.phrases.values():
+        if isinstance(sem, Quantity) and not isinstance(about, That):
+            measured = Measured(
+                "probability", about=about, time=_when(special), tense=_tense(special)
+            )
+            return Compares(measured, "same", sem)
+        event = event_in(sem)
+        if event is not None:
+            about = Happens(event)
+    return Believed(about, _when(special), _tense(special))
+
+
+def _about(special: Special) -> Proposition:
+    """Make a proposition of the object of a belief: "it" and "that" stand for one."""
+    sem = special.object
+    event = event_in(sem)
+    if event is not None:
+        return Happens(event)
+    if sem is None or isinstance(sem, (Pronoun, Noun, Wanted)):
+        return That()
+    thing = as_thing(sem)
+    return Exists(thing) if thing is not None and not isinstance(sem, Measure) else That()
+
+
+def _decided(special: Special) -> Proposition:
+    content = special.content
+    if isinstance(content, Happens):
+        event = content.event
+        fields = {k: getattr(event, k) for k in event.__struct_fields__}
+        if special.name in ("want", "plan"):
+            fields["modal"] = "want"
+        fields["actor"] = special.subject
+        fields["tense"] = _tense(special)
+        if isinstance(fields["time"], Unsaid):
+            fields["time"] = _when(special)
+        return Happens(Event(**fields))
+    if isinstance(content, Not):
+        return content
+    sem = special.object
+    if isinstance(sem, Event):
+        return Happens(sem)
+    thing = as_thing(sem)
+    if special.name == "want":
+        return Happens(_event(special, "do", thing or Pronoun("that")))
+    return Happens(_event(special, "do", thing if isinstance(thing, Pronoun) else Pronoun("that")))
+
+
+def _see(special: Special) -> Proposition:
+    if special.content is not None and special.clause.that is not None:
+        return Believed(special.content, _when(special), _tense(special))
+    if special.content is not None and isinstance(special.content, Happens):
+        return Believed(special.content, _when(special), _tense(special))
+    thing = as_thing(special.object) or as_thing(special.clause.gap) or Pronoun("it")
+    return Related("can-see", special.subject, thing, _when(special), _tense(special))
+
+
+def _have(special: Special) -> Proposition:
+    sem = special.object
+    over = next((as_thing(s) for k, s in special.match.phrases.items() if k in
+                 ("over", "bearing-ahead", "with")), None)  # fmt: skip
+    if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
+        other = over or sem.of.to or Described(definite=False)
+        time = _when(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
+        return Related("has-priority-over", special.subject, other, time, _tense(special))
+    if isinstance(sem, Measure):
+        return Compares(Measured(sem.of.attribute, special.subject), "same", None)
+    if isinstance(sem, Feature):
+        return Exists(sem, _when(special), _tense(special))
+    if isinstance(sem, Noun):
+        return _have_noun(special, sem)
+    thing = as_thing(sem) or Pronoun("that")
+    if isinstance(sem, Event):
+        return Happens(Event(sem.action, special.subject, sem.object, sem.side, sem.manner,
+                             _when(special), _tense(special)))  # fmt: skip
+    if special.content is not None:
+        return special.content
+    return Related("with", special.subject, thing, _when(special), _tense(special))
+
+
+def _have_noun(special: Special, sem: Noun) -> Proposition:
+    if sem.key == "problem":
+        return Is("wrong", special.subject, time=_when(special), tense=_tense(special))
+    if sem.key in ("option", "plan", "reason"):
+        found: Proposition = Is("possible", time=_when(special), tense=_tense(special))
+        return Not(found) if sem.negative else found
+    return Related("with", special.subject, Unknown(sem.word), _when(special), _tense(special))
+
+
+def _make_do(special: Special) -> Proposition:
+    effect = special.content
+    if effect is None:
+        thing = as_thing(special.object) or Ego()
+        effect = Happens(Event("do", thing, Pronoun("that"), tense=_tense(special)))
+    return Caused(special.subject, effect)
+
+
+def _cause(special: Special) -> Proposition:
+    sem = special.object
+    effect: Proposition | None = Happens(sem) if isinstance(sem, Event) else None
+    return Caused(special.subject, effect)
+
+
+def _cost(special: Special) -> Proposition:
+    quantity = special.match.second if isinstance(special.match.second, Quantity) else None
+    if quantity is None and isinstance(special.object, Quantity):
+        quantity = special.object
+    attribute: Any = "duration" if special.name in ("take-time", "last") else "delay"
+    measured = Measured(attribute, special.subject, time=_when(special), tense=_tense(special))
+    if quantity is None:
+        return Compares(measured, "too-much" if "too" in special.clause.focus else "more", None)
+    return Compares(measured, "same", quantity)
+
+
+def _deed(special: Special) -> Proposition:
+    sem = special.object
+    if isinstance(sem, Event):
+        return Happens(_event(special, sem.action, sem.object))
+    return Happens(_event(special, "do", as_thing(sem)))
+
+
+def _happen(special: Special) -> Proposition:
+    about = next((as_thing(s) for s in special.match.phrases.values()), None)
+    if special.content is not None:
+        return special.content
+    return Happens(Event("happen", about or special.subject, time=_when(special),
+                         tense=_tense(special)))  # fmt: skip
+
+
+def _do(special: Special) -> Proposition:
+    sem = special.object
+    if isinstance(sem, Event):
+        return Happens(sem)
+    thing = as_thing(sem)
+    if isinstance(sem, Quantity):
+        return Compares(Measured("speed", special.subject, tense=_tense(special)), "same", sem)
+    return Happens(_event(special, "do", thing))
+
+
+def _is(
+    state: str, *, positive: bool = True, of_object: bool = False
+) -> Callable[[Special], Proposition]:
+    def rule(special: Special) -> Proposition:
+        event = special.object if isinstance(special.object, Event) else None
+        if isinstance(special.content, Happens):
+            event = special.content.event
+        thing = as_thing(special.object) if of_object else special.subject
+        found: Proposition = Is(cast(Any, state), None if event else thing, event,
+                                time=_when(special), tense=_tense(special))  # fmt: skip
+        return found if positive else Not(found)
+
+    return rule
+
+
+def _exceed(special: Special) -> Proposition:
+    speed = Measured("speed", special.subject, time=_when(special), tense=_tense(special))
+    limit = Measured("limit", special.subject)
+    if isinstance(special.object, Quantity):
+        return Compares(speed, "more", special.object)
+    return Compares(speed, "more", limit)
+
+
+def _seem(special: Special) -> Proposition:
+    if special.content is not None:
+        return special.content
+    if special.clause.adjectives:
+        return Is(cast(Any, "dangerous" if special.clause.adjectives[0][0] == "dangerous" else
+                       "right"), special.subject, time=_when(special))  # fmt: skip
+    return Related("same-as", special.subject, as_thing(special.object) or Pronoun("that"))
+
+
+def _priority(special: Special) -> Proposition:
+    thing = as_thing(special.match.phrases.get("into")) or as_thing(special.object)
+    return Happens(_event(special, "give-way", thing))
+
+
+def _signal(special: Special) -> Proposition:
+    return Happens(_event(special, "signal", None))
+
+
+_RULES: dict[str, Callable[[Special], Proposition]] = {
+    "see": _see, "look": _see, "have": _have, "make-do": _make_do, "cause": _cause,
+    "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
+    "last": _cost, "save": _cost, "deed": _deed, "happen": _happen, "do": _do,
+    "happen-wrong": _is("wrong"), "exist": lambda s: Exists(s.subject, _when(s), _tense(s)),
+    "break": _is("faulty"), "late": _is("late"), "obey": _is("allowed"),
+    "violate": _is("allowed", positive=False), "exceed": _exceed,
+    "need": _is("necessary", of_object=True), "end": _is("over"),
+    "free-up": _is("free"), "seem": _seem, "give-priority": _priority, "switch": _signal,
+    "become": lambda s: Is("stuck" if "stuck" in [k for k, _ in s.clause.adjectives] else "right",
+                           s.subject, time=_when(s), tense=_tense(s)),
+    "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
+    "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
+    "leave-space": lambda s: Happens(_event(s, "keep-distance", as_thing(s.object))),
+    "begin": lambda s: s.content or Happens(_event(s, "go", None)),
+    "lose-sight": lambda s: Happens(_event(s, "see", as_thing(s.object))),
+    "weather": lambda s: Has("weather", "rain"),
+    "prevent": lambda s: Happens(_event(s, "avoid", as_thing(s.object))),
+    "change-o": lambda s: Happens(_event(s, "change-plan", None)),
+    "overlook": lambda s: Not(Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
+                                      _when(s), _tense(s))),
+    "belong": lambda s: Related("on", s.subject, as_thing(s.object) or Pronoun("that")),
+    "pick-up": lambda s: Happens(_event(s, "drop-off", as_thing(s.object))),
+    "beyond": lambda s: Happens(_event(s, "do", Unknown(cast(Any, s.clause.verb).key))),
+    "drop": lambda s: Happens(_event(s, "drop-off", None)),
+}  # fmt: skip

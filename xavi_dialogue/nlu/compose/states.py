@@ -1,0 +1,272 @@
+"""States: clauses with "be" and no other verb."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Lane,
+    Measured,
+    Nobody,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Related,
+    That,
+    Thing,
+    Unknown,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.events import when
+from xavi_dialogue.nlu.compose.predicates import against, arrived, lights, nominal, tense_of
+from xavi_dialogue.nlu.compose.sem import (
+    Measure,
+    Noun,
+    as_thing,
+    is_thing,
+)
+from xavi_dialogue.nlu.compose.things import relation_of
+
+_NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
+            "occupied": "free", "unsure": "sure", "absent": "present", "early": "late"}  # fmt: skip
+_STATES = frozenset(
+    [
+        "safe",
+        "dangerous",
+        "comfortable",
+        "uncomfortable",
+        "allowed",
+        "necessary",
+        "possible",
+        "free",
+        "visible",
+        "hidden",
+        "stationary",
+        "moving",
+        "fast",
+        "slow",
+        "close",
+        "far",
+        "sure",
+        "over",
+        "late",
+        "wrong",
+        "right",
+        "present",
+        "lost",
+        "stuck",
+        "at-fault",
+        "dirty",
+        "big",
+        "normal",
+        "worth-it",
+        "better",
+        "faulty",
+        "awake",
+        "autonomous",
+        "busy",
+    ]
+)
+_SPECIAL = frozenset({"likely", "unlikely", "raining"})
+_COMPARED: dict[str, tuple[str, str]] = {
+    "fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
+    "far": ("distance", "more"), "big": ("size", "more"), "small": ("size", "less"),
+    "high": ("value", "more"), "low": ("value", "less"), "long": ("duration", "more"),
+    "soon": ("arrival-time", "less"), "late": ("arrival-time", "more"),
+    "safe": ("value", "more"), "better": ("value", "more"), "likely": ("probability", "more"),
+}  # fmt: skip
+Found = tuple[Proposition, float]
+
+
+def state_of(clause: Clause) -> list[Found]:
+    """Compose a clause without a verb; several readings at their costs."""
+    extra = ungoverned(clause) - 0.12
+    return [(Not(p) if clause.negated else p, cost + extra) for p, cost in _found(clause)]
+
+
+def ungoverned(clause: Clause) -> float:
+    """Say what the clauses inside cost that a clause without a verb cannot govern."""
+    prices = ((clause.question, 1.2), (clause.bare, 0.9), (clause.that, 0.5), (clause.gerund, 0.3))
+    objects = 0.9 * max(0, len(clause.objects) - 1)
+    return sum(price for inner, price in prices if inner is not None) + objects
+
+
+def _found(clause: Clause) -> list[Found]:
+    if clause.there:
+        return _exists(clause)
+    subject = clause.subject
+    for key, degree in clause.adjectives:
+        if key in _STATES or key in _NEGATED:
+            return [(_is(clause, key, degree == "too"), 0.0)]
+    if clause.comparisons and clause.comparisons[0][1] != "as":
+        compared = _compares(clause)
+        if compared is not None:
+            return [(compared, 0.0)]
+    if "first" in clause.manner and is_thing(subject):
+        return [(Is("first", as_thing(subject), time=clause.time, tense=tense_of(clause)), 0.0)]
+    for manner, state in (("fast", "fast"), ("slowly", "slow"), ("safely", "safe"),
+                          ("close", "close"), ("late", "late"), ("far", "far")):  # fmt: skip
+        if manner in clause.manner and not clause.objects:
+            return [(_is(clause, state, "too" in clause.focus), 0.05)]
+    if isinstance(subject, Measure) and subject.of.attribute in ("brake-lights", "indicator"):
+        return lights(clause, subject)
+    if clause.objects:
+        return nominal(clause, clause.objects[0][0])
+    if clause.because is not None and isinstance(subject, Pronoun):
+        cause = None if isinstance(clause.because, Clause) else as_thing(clause.because)
+        return [(Caused(cause) if cause is not None else That(), 0.0)]
+    return _placed(clause)
+
+
+def subject_event(clause: Clause) -> Event | None:
+    """Find the event that is said to be so: the subject, or "to swerve"."""
+    if isinstance(clause.subject, Event):
+        return clause.subject
+    return None
+
+
+def _is(clause: Clause, key: str, too: bool) -> Proposition:
+    state = _NEGATED.get(key, key)
+    event = subject_event(clause)
+    inner = clause.inner
+    thing = as_thing(clause.subject) if event is None else None
+    if isinstance(clause.subject, Measure):
+        thing = clause.subject.of.thing
+    if inner is not None and isinstance(thing, Pronoun):
+        thing = None
+    bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
+    found: Proposition = Is(
+        cast(Any, state), thing, event or inner, too, when(clause, None), tense_of(clause)
+    )
+    if bearing is not None and state in ("close", "stuck", "stationary"):
+        to = as_thing(bearing.sem) or Ego()
+        side = relation_of(bearing.key.removeprefix("bearing-"))
+        if state == "stuck" and side == "behind" and thing is not None:
+            return Happens(Event("follow", thing, to, time=clause.time, tense=tense_of(clause)))
+        if state != "close":
+            return Related(cast(Any, side), cast(Thing, thing), to, clause.time, tense_of(clause))
+    return Not(found) if key in _NEGATED else found
+
+
+def _compares(clause: Clause) -> Proposition | None:
+    key, words = clause.comparisons[0]
+    if key not in _COMPARED or not is_thing(clause.subject):
+        return None
+    attribute, direction = _COMPARED[key]
+    left = Measured(cast(Any, attribute), cast(Thing, clause.subject), time=clause.time,
+                    tense=tense_of(clause))  # fmt: skip
+    right: Any = None
+    if isinstance(clause.than, Quantity):
+        right = clause.than
+    elif clause.than is not None and not isinstance(clause.than, Clause):
+        thing = as_thing(clause.than)
+        if isinstance(clause.than, Measure):
+            right = clause.than.of
+        elif thing is not None:
+            right = Measured(cast(Any, attribute), thing, time=clause.time, tense=tense_of(clause))
+    if words.startswith(("less", "worse")):
+        direction = {"more": "less", "less": "more"}[direction]
+    return Compares(left, cast(Any, direction), right)
+
+
+def _exists(clause: Clause) -> list[Found]:
+    if not clause.objects:
+        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.6)]
+    sem = clause.objects[0][0]
+    thing = as_thing(sem)
+    if isinstance(sem, Noun):
+        thing = Unknown(sem.word)
+        if sem.key == "problem":
+            state: Proposition = Is(
+                "wrong", Pronoun("that"), time=clause.time, tense=tense_of(clause)
+            )
+            return [(Not(state) if sem.negative else state, 0.1)]
+    if thing is None:
+        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
+    thing = _where(thing, clause)
+    if isinstance(thing, Nobody):
+        described = thing.described or Described(definite=False)
+        return [
+            (
+                Not(Exists(_where(described, clause), clause.time, tense_of(clause))),
+                0.0,
+            )
+        ]
+    return [(Exists(thing, clause.time, tense_of(clause)), 0.0)]
+
+
+def _where(thing: Thing, clause: Clause) -> Thing:
+    """Add to a description where it is said to be."""
+    if not isinstance(thing, (Described, Nobody)):
+        return thing
+    described = thing.described or Described(definite=False) if isinstance(thing, Nobody) else thing
+    bearing: Any = next((b for b, _ in clause.bearings if b not in ("there", "here")), None)
+    of: Thing | None = None
+    for phrase in clause.complements:
+        if phrase.key.startswith("bearing-") and bearing is None:
+            bearing = phrase.key.removeprefix("bearing-")
+            of = as_thing(phrase.sem)
+        elif phrase.key in ("in", "on", "at") and described.such is None:
+            place = as_thing(phrase.sem)
+            if place is not None:
+                described = with_fields(described, such=Related("on", Wanted(), place))
+    if bearing is None or described.bearing is not None:
+        return Nobody(described) if isinstance(thing, Nobody) else described
+    fields: dict[str, Any] = {k: getattr(described, k) for k in described.__struct_fields__}
+    fields.update(bearing=bearing, of=None if isinstance(of, (Ego, Passenger)) else of)
+    described = Described(**fields)
+    return Nobody(described) if isinstance(thing, Nobody) else described
+
+
+def _placed(clause: Clause) -> list[Found]:
+    """Compose "it is behind us", "he is in our lane"."""
+    thing = as_thing(clause.subject) or Pronoun("it")
+    time, tense = clause.time, tense_of(clause)
+    for phrase in clause.complements:
+        to = as_thing(phrase.sem)
+        if phrase.key.startswith("bearing-"):
+            relation: Any = relation_of(phrase.key.removeprefix("bearing-"))
+            return [
+                (Related(relation, thing, to or as_thing(clause.gap) or Ego(), time, tense), 0.0)
+            ]
+        if isinstance(phrase.sem, Measure) and phrase.key in ("over", "in"):
+            return [(against(clause, thing, phrase), 0.0)]
+        if to is None:
+            continue
+        if phrase.key == "from":
+            return [(Related("from", thing, to, time, tense), 0.1)]
+        if phrase.key in ("in", "on", "at", "into"):
+            if isinstance(to, Unknown) and phrase.key != "on":
+                return [(Related("on", thing, to, time, tense), 0.5)]
+            relation = "on" if not isinstance(to, Described) else "near"
+            return [(Related(relation, thing, to, time, tense), 0.0)]
+        if phrase.key == "with":
+            return [(Related("with", thing, to, time, tense), 0.1)]
+    if clause.origin is not None:
+        return [(Has("origin", clause.origin, thing, time, tense), 0.0)]
+    for bearing, _ in clause.bearings:
+        if bearing in ("there", "here"):
+            if isinstance(thing, Ego):
+                return [(arrived(clause), 0.0)]
+            return [(Is("present", thing, time=time, tense=tense), 0.05)]
+        return [(Related(cast(Any, relation_of(bearing)), thing, Ego(), time, tense), 0.0)]
+    if isinstance(clause.subject, Lane):
+        return [(Is("free", thing, time=time, tense=tense), 1.0)]
+    gap = as_thing(clause.gap)
+    if gap is not None:
+        return [(Related("same-as", thing, gap, time, tense), 0.4)]
+    if not isinstance(time, Unsaid):
+        return [(Is("present", thing, time=time, tense=tense), 0.5)]
+    return []

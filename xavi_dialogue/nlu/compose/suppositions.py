@@ -1,0 +1,138 @@
+"""Suppositions by themselves, and "what about": "what if he had", "if he hadn't?"."""
+
+from typing import Any
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    WhatIf,
+)
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Proposition,
+)
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.tree import leaf_of, node_of
+from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+Found = list[tuple[tuple[Act, ...], float]]
+
+
+class Suppositions:
+    """Reads units that suppose something."""
+
+    composer: Any
+    phrases: Any
+
+    def noun_asked(self, sem: Sem | None, clause: Clause) -> Found | None:
+        """Read a noun phrase as a question for it."""
+        raise NotImplementedError
+
+    def elliptic(self, unit: Node, clause: Clause) -> Found:
+        """Read what takes its frame from the turn before."""
+        raise NotImplementedError
+
+    def about(self, unit: Node) -> Found:
+        """Read "what about the bus", "how about slowing down"."""
+        clause = self.phrases.slots.fill(unit.parts)
+        for part in unit.parts:
+            if isinstance(part, Node) and part.name in (
+                "np",
+                "group",
+                "accusative",
+                "accusative_group",
+            ):
+                clause.objects.insert(0, (self.phrases.nouns.read(part), part))
+        sem: Sem | None = clause.objects[0][0] if clause.objects else None
+        if isinstance(sem, (Measure, Noun)):
+            found = self.noun_asked(sem, clause)
+            if found is not None:
+                return found
+        supposed = self.composer.questions.supposition(clause)
+        if supposed is not None:
+            return [((suppose(supposed),), 0.0)]
+        if clause.subject is not None and clause.verb is not None:
+            value = self.composer.propositions.plain(clause)
+            if value is not None:
+                return [((Ask(WhatIf(value)),), 0.1)]
+        return self.elliptic(unit, clause)
+
+    def supposed(self, unit: Node) -> Found:
+        """Read "what if he had stopped", "if he hadn't?", "suppose X. Would Y?"."""
+        inner = node_of(
+            unit,
+            "finite",
+            "finite_short",
+            "finite_topic",
+            "inverted",
+            "inverted_short",
+            "gerund",
+            "np_not",
+            "vp",
+            "copular",
+            "state",
+        )
+        then = node_of(unit, "then")
+        outer = Clause(subject=Ego())
+        if inner is not None:
+            outer.condition = self.phrases.condition(inner, outer)
+        else:
+            self.phrases.slots.fill(unit.parts, outer)
+        question = self._then(then) if then is not None else None
+        condition = outer.condition
+        if condition is not None and self._is_short(condition):
+            thing = as_thing(condition.subject)
+            act = Elliptic(thing, negated=condition.negated, form="what-if")
+            return [((act,), 0.0)]
+        supposed = self.composer.questions.supposition(outer)
+        if supposed is None:
+            return []
+        if leaf_of(unit, "WHATIF") is None and question is None:
+            return [((Ask(WhatIf(supposed)),), 0.1)]
+        return [((Ask(WhatIf(supposed, question)),), 0.0)]
+
+    def _is_short(self, condition: Clause) -> bool:
+        auxiliary = condition.verb is None or condition.verb.key in ("have", "do")
+        return (
+            auxiliary and bool(condition.aux or condition.verb) and not condition.there
+            and condition.subject is not None and not condition.has("be")
+            and not (condition.objects or condition.complements or condition.adjectives
+                     or condition.bearings or condition.side or condition.comparisons)
+        )  # fmt: skip
+
+    def _then(self, node: Node) -> Any:
+        wh_node, parts = self.composer.split(node)
+        if wh_node is not None:
+            wh = self.composer.questions.wh_of(wh_node)
+            rest = [p for p in parts if not isinstance(p, Leaf) or p.category not in ("SO",)]
+            if not rest:
+                return None
+            found = self.composer.questions.asked(wh, rest, Clause())
+        else:
+            clause = self.phrases.slots.fill(tuple(parts))
+            if clause.verb is None and _bare_subject(clause):
+                return None
+            found = self.composer.questions.whether(clause)
+        return found[0][0] if found else None
+
+    def had(self, unit: Node) -> Found:
+        """Read "had he stopped" by itself."""
+        hads = node_of(unit, "hads")
+        if hads is None:
+            return []
+        condition = self.phrases.clause(hads)
+        supposed = self.composer.questions.supposed(condition)
+        return [((suppose(supposed),), 0.3)] if supposed is not None else []
+
+
+def _bare_subject(clause: Clause) -> bool:
+    return not (clause.objects or clause.adjectives or clause.comparisons or clause.complements
+                or clause.bearings or clause.manner)  # fmt: skip
+
+
+def suppose(supposed: Proposition) -> Act:
+    """Ask what follows from a supposition."""
+    return Ask(WhatIf(supposed))

@@ -1,0 +1,140 @@
+"""Talk: acts that need no clause, and statements of how the passenger feels."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    AskHelp,
+    Beyond,
+    Feel,
+    Quizzing,
+    Repair,
+    Social,
+)
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Happens,
+    Passenger,
+    Pronoun,
+    Proposition,
+    That,
+    Thing,
+)
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Sem, as_thing
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+_FEELINGS = {
+    "startle": "startled",
+    "like": "liking",
+    "dislike": "disliking",
+    "trust": "distrustful",
+    "fear": "afraid",
+    "mind": "disliking",
+}
+
+
+def talk_act(leaf: Leaf) -> Act | None:
+    """Read a social move, a repair, a wish for help or a quiz."""
+    match leaf.category:
+        case "TALK":
+            return Social(cast(Any, leaf.key))
+        case "REPAIR":
+            return Repair(cast(Any, leaf.key))
+        case "HELP":
+            return AskHelp()
+        case "QUIZ":
+            return Quizzing(stop=leaf.key == "stop")
+        case "OFFTOPIC":
+            return Beyond(cast(Any, leaf.key), " ".join(leaf.words))
+        case "YES":
+            return Social("agree")
+        case "NO":
+            return Social("disagree")
+    return None
+
+
+def feeling_of(clause: Clause, value: Any) -> Act | None:
+    """Read "I am nervous", "that scared me", "I don't like it when you go so fast"."""
+    subject = clause.subject
+    if clause.feelings and isinstance(subject, (Passenger, Ego)) and _own(clause):
+        if clause.negated:
+            return Feel(cast(Any, _opposite(clause.feelings[0])), _about(clause))
+        return Feel(cast(Any, clause.feelings[0]), _about(clause))
+    if not isinstance(value, Special):
+        return None
+    return _special_feeling(clause, value)
+
+
+def _own(clause: Clause) -> bool:
+    """Say whether it is the passenger who feels: "we are nervous", and not "you are"."""
+    return isinstance(clause.subject, Passenger) or "us" in clause.focus or clause.verb is None
+
+
+def _opposite(feeling: str) -> str:
+    return {"happy": "annoyed", "afraid": "relieved", "nervous": "relieved"}.get(feeling, feeling)
+
+
+def _special_feeling(clause: Clause, value: Special) -> Act | None:
+    name = value.name
+    if name in ("startle", "collide-hurt") or name.startswith("feel:"):
+        sufferer = value.object
+        feeling = name.removeprefix("feel:") if ":" in name else "startled"
+        if isinstance(clause.subject, Passenger):
+            return Feel(cast(Any, feeling), _about(clause))
+        if sufferer is None or isinstance(sufferer, (Passenger, Ego)):
+            return Feel(cast(Any, feeling), as_thing(clause.subject))
+        return None
+    if name in ("make-feel", "feel-adj", "get", "become", "startle") and clause.feelings:
+        passenger = isinstance(clause.subject, Passenger) or isinstance(
+            value.object, (Passenger, Ego)
+        )
+        if passenger:
+            about = None if isinstance(clause.subject, Passenger) else as_thing(clause.subject)
+            return Feel(cast(Any, clause.feelings[0]), about)
+        return None
+    if name == "feel-adj" and isinstance(clause.subject, (Passenger, Pronoun)):
+        state = clause.adjectives[0][0] if clause.adjectives else ""
+        feeling = {"safe": "relieved", "dangerous": "afraid", "comfortable": "happy",
+                   "uncomfortable": "nervous", "fast": "nervous"}.get(state, "nervous")  # fmt: skip
+        if clause.negated:
+            feeling = "nervous"
+        return Feel(cast(Any, feeling), None)
+    if name in _FEELINGS and isinstance(clause.subject, Passenger):
+        feeling = _FEELINGS[name]
+        if name == "like":
+            feeling = "disliking" if clause.negated else "liking"
+        if name == "trust" and not clause.negated:
+            feeling = "liking"
+        if clause.modal == "would":
+            return None
+        return Feel(cast(Any, feeling), _object(clause, value))
+    return None
+
+
+def _object(clause: Clause, value: Special) -> Proposition | Thing | None:
+    time = clause.time
+    anchor = getattr(time, "anchor", None)
+    if isinstance(anchor, Event):
+        return Happens(anchor)
+    if value.content is not None:
+        return value.content
+    sem: Sem | None = value.object
+    if isinstance(sem, Event):
+        return Happens(sem)
+    return as_thing(sem)
+
+
+def _about(clause: Clause) -> Proposition | Thing | None:
+    anchor = getattr(clause.time, "anchor", None)
+    if isinstance(anchor, Event):
+        return Happens(anchor)
+    for phrase in clause.complements:
+        if phrase.key in ("about", "of", "by", "at", "with"):
+            thing = phrase.sem
+            return Happens(thing) if isinstance(thing, Event) else as_thing(thing)
+    if clause.that is not None:
+        return That()
+    return None

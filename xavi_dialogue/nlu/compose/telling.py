@@ -1,0 +1,162 @@
+"""Telling: what an order or a polite question to tell, list or explain something asks."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Compare,
+    HowMany,
+    HowSure,
+    Identify,
+    Listing,
+    Question,
+    Repair,
+    Summarise,
+    Whether,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Happens,
+    Passenger,
+    Pronoun,
+    That,
+    Thing,
+    Unknown,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.adoption import timed
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.nominal import asked_of, counted, propose
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.wh import Wh
+
+
+_SHOWING = frozenset({"give", "show", "describe", "report", "provide", "present"})
+
+
+class Telling:
+    """Turns orders to tell into questions."""
+
+    composer: Any
+
+    def embedded(self, clause: Clause) -> tuple[Act, ...]:
+        """Give the acts of the embedded question of a clause."""
+        wh, questions = cast("tuple[Wh | None, list[Question]]", clause.question)
+        if questions:
+            framed = self.composer.questions.framed(questions[0], clause, None)
+            return (Ask(framed),)
+        if wh is not None and wh.kind == "why":
+            return (Repair("why"),)
+        return ()
+
+    def asked_time(self, clause: Clause) -> Any:
+        """Tell the time that an embedded question is about."""
+        _, questions = cast("tuple[Wh | None, list[Question]]", clause.question)
+        return getattr(questions[0], "time", clause.time) if questions else clause.time
+
+    def told(self, clause: Clause, value: Special) -> tuple[Act, ...]:
+        """Give the question that an order to tell something amounts to."""
+        sem = self._told_of(clause, value)
+        name = value.name
+        if name == "justify":
+            content = value.content or propose(sem)
+            why = Why(timed(content or That(), clause.time))
+            return (Ask(self.composer.questions.framed(why, clause, None)),)
+        if name == "compare":
+            return self._compared(clause, sem)
+        if name == "count" and sem is not None:
+            question = counted(sem)
+            return (Ask(question or HowMany(Described(plural=True))),)
+        if name == "summarise":
+            return (Ask(Summarise(_summary(sem), clause.time)),)
+        if name == "list":
+            return (Ask(_listing(sem, clause)),)
+        if name == "describe":
+            return (Ask(_description(sem, clause)),)
+        if name not in (
+            "tell",
+            "report",
+            "show",
+            "identify",
+            "name",
+            "say",
+            "know",
+            "understand",
+            "ask",
+        ):
+            return ()
+        return self._told(clause, value, sem)
+
+    def _told(self, clause: Clause, value: Special, sem: Sem | None) -> tuple[Act, ...]:
+        if value.content is not None and clause.that is not None:
+            return (Ask(Whether(value.content)),)
+        if sem is None or isinstance(sem, (Passenger, Pronoun)):
+            return (Repair("longer" if value.name == "tell" else "repeat"),)
+        if isinstance(sem, Event):
+            if clause.verb is not None and clause.verb.key in _SHOWING:
+                return (Ask(Summarise(sem, clause.time)),)
+            return (Ask(Why(timed(Happens(sem), clause.time))),)
+        if isinstance(sem, (Moment, Unknown)):
+            return (Ask(Identify(sem)),) if isinstance(sem, Unknown) else ()
+        thing = as_thing(sem)
+        if isinstance(thing, (Described, Vehicle)) and any(
+            p.key == "about" for p in clause.complements
+        ):
+            return (Ask(Summarise(thing, clause.time)),)
+        question = asked_of(sem, clause.time, clause.tense)
+        if isinstance(question, Why):
+            question = Why(timed(question.of, clause.time))
+        return (Ask(question),) if question is not None else ()
+
+    def _told_of(self, clause: Clause, value: Special) -> Sem | None:
+        for sem in (value.match.second, value.object, *value.match.phrases.values()):
+            if sem is not None and not isinstance(sem, Passenger):
+                return sem
+        left = [sem for sem, _ in clause.objects if not isinstance(sem, Passenger)]
+        return left[0] if left else None
+
+    def _compared(self, clause: Clause, sem: Sem | None) -> tuple[Act, ...]:
+        members: list[Sem | None] = list(sem.members) if isinstance(sem, Group) else [sem]
+        members += [p.sem for p in clause.complements if p.key in ("with", "into")]
+        options = tuple(
+            Happens(m) if isinstance(m, Event) else as_thing(m) for m in members if m is not None
+        )
+        return (Ask(Compare(cast(Any, tuple(o for o in options if o is not None)), "best")),)
+
+
+def _summary(sem: Sem | None) -> Thing | Event | None:
+    if sem is None or isinstance(sem, (Noun, Measure, Moment)):
+        return None
+    if isinstance(sem, Event):
+        return sem
+    thing = as_thing(sem)
+    from_ride = getattr(thing, "form", "") in ("it", "that", "this")
+    return None if from_ride else thing
+
+
+def _listing(sem: Sem | None, clause: Clause) -> Question:
+    if sem is None:
+        return Listing("events", time=clause.time)
+    if isinstance(sem, Event):
+        kinds: Any = {"stop": "stops"}.get(sem.action, "events")
+        return Listing(kinds, time=clause.time)
+    found = asked_of(sem, clause.time)
+    if isinstance(found, (Listing, HowSure)):
+        return found
+    thing = as_thing(sem)
+    if isinstance(thing, Described):
+        return Listing("vehicles", thing, clause.time)
+    return found or Listing("events", time=clause.time)
+
+
+def _description(sem: Sem | None, clause: Clause) -> Question:
+    thing = as_thing(sem)
+    if isinstance(thing, Described):
+        return Identify(thing)
+    if isinstance(sem, Event):
+        return Summarise(sem, clause.time)
+    return Summarise(None, clause.time)

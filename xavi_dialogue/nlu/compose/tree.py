@@ -1,0 +1,55 @@
+"""Trees: small looks at a parse."""
+
+from collections.abc import Iterator
+
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+from xavi_dialogue.nlu.text.tables import load
+
+MOST = 1e9  # numbers are cut off there
+
+
+def leaves_of(part: Part) -> Iterator[Leaf]:
+    """Go through all leaves, in order."""
+    if isinstance(part, Leaf):
+        yield part
+    else:
+        for inner in part.parts:
+            yield from leaves_of(inner)
+
+
+def leaf_of(node: Node, category: str) -> Leaf | None:
+    """Find the first direct leaf of a word class."""
+    for part in node.parts:
+        if isinstance(part, Leaf) and part.category == category:
+            return part
+    return None
+
+
+def nodes_of(node: Node, *names: str) -> list[Node]:
+    """List the direct phrases of some names."""
+    return [part for part in node.parts if isinstance(part, Node) and part.name in names]
+
+
+def node_of(node: Node, *names: str) -> Node | None:
+    """Find the first direct phrase of some names."""
+    found = nodes_of(node, *names)
+    return found[0] if found else None
+
+
+def words_of(part: Part) -> str:
+    """Join the words of a stretch."""
+    return " ".join(word for leaf in leaves_of(part) for word in leaf.words)
+
+
+def number_of(node: Node) -> float:
+    """Read a number: digits, or words such as "forty two"."""
+    names = load("nlu_text.toml")["numbers"]
+    total = 0.0
+    for leaf in leaves_of(node):
+        if leaf.category != "NUM":
+            continue
+        word = leaf.key.replace(",", ".")
+        value = float(names[word]) if word in names else float(word)
+        total = total * value if value == 100 and total else total + value
+    return min(total, MOST)

@@ -1,0 +1,245 @@
+"""What and who: questions for a thing, an event or a person."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    Fault,
+    HowAvoid,
+    HowKnow,
+    Identify,
+    Listing,
+    Question,
+    Summarise,
+    WhatWouldChange,
+    Which,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Is,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    That,
+    Thing,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.adoption import adopted, with_fields
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.grades import measured
+from xavi_dialogue.nlu.compose.nominal import asked_of, propose
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.wh import (
+    Wh,
+    fact,
+    prevented,
+)
+
+
+class What:
+    """Builds questions that "what" and "who" ask."""
+
+    def what(self, wh: Wh, clause: Clause, value: Any) -> Question:
+        """Ask what or who it is of which the clause holds."""
+        named = isinstance(clause.subject, Measure) or (
+            isinstance(clause.subject, Noun) and clause.verb is None
+        )
+        if named and wh.kind == "what":
+            return self._what_is(wh, clause)
+        if isinstance(value, Special):
+            found = self._what_special(wh, clause, value)
+            if found is not None:
+                return found
+            value = fact(value)
+        if value is None or _empty(clause) or _named(clause):
+            return self._what_is(wh, clause)
+        return self._what_holds(wh, clause, value)
+
+    def _what_is(self, wh: Wh, clause: Clause) -> Question:
+        subject = clause.subject
+        if isinstance(subject, Wanted) or subject is None:
+            subject = clause.objects[0][0] if clause.objects else Pronoun("that")
+        for phrase in clause.complements:
+            if phrase.sem is not None:
+                subject = adopted(subject, phrase) or subject
+        found = asked_of(subject, clause.time, clause.tense)
+        return found or Identify(as_thing(subject) or Pronoun("that"))
+
+    def _what_special(self, wh: Wh, clause: Clause, value: Special) -> Question | None:
+        name, subject = value.name, value.subject
+        time = clause.time
+        match name:
+            case "do":
+                return self._doing(wh, clause, value)
+            case "happen" | "happen-wrong":
+                return self._happened(clause, value)
+            case "make-do" | "cause":
+                effect = fact(value)
+                inner = effect.effect if isinstance(effect, Caused) else None
+                return Why(inner or That())
+            case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
+                return Listing("vehicles", time=time)
+            case "plan" | "want" if isinstance(value.object, Wanted) or value.object is None:
+                return Doing(subject, time, "future")
+            case "plan" | "want" | "decide" if isinstance(value.content, Happens):
+                then = value.content.event.time if isinstance(time, Unsaid) else time
+                return Doing(subject, then, "future" if name != "decide" else "past")
+        return _of_reasons(clause, value)
+
+    def _doing(self, wh: Wh, clause: Clause, value: Special) -> Question:
+        if clause.modal == "should" and isinstance(clause.subject, Ego):
+            content = value.content
+            return HowAvoid(content.content if isinstance(content, Not) else content)
+        actor = as_thing(clause.subject) or Ego()
+        if isinstance(clause.subject, Wanted):
+            actor = Ego()
+        if isinstance(actor, Passenger):
+            actor = Ego()
+        tense = clause.tense
+        if clause.modal in ("would", "could", "should", "might") and tense != "past":
+            tense = "future"
+        besides = That() if wh.besides or clause.else_ else None
+        return Doing(
+            actor, clause.time, cast(Any, "past" if tense == "perfect" else tense), besides
+        )
+
+    def _happened(self, clause: Clause, value: Special) -> Question:
+        about = next((as_thing(s) for s in value.match.phrases.values()), None)
+        if about is not None and not isinstance(about, Pronoun):
+            return Summarise(about, clause.time)
+        tense = clause.tense if clause.tense != "perfect" else "past"
+        thing: Thing | None = about
+        if thing is None and isinstance(clause.subject, Described):
+            thing = clause.subject
+        return Doing(thing, clause.time, cast(Any, tense))
+
+    def _what_holds(self, wh: Wh, clause: Clause, value: Proposition) -> Question:
+        wanted = _wanted(wh)
+        match value:
+            case Is(state="at-fault"):
+                return Fault()
+            case Happens(
+                event=Event(action="change-plan", actor=Wanted(), modal="would" | "could")
+            ):
+                return WhatWouldChange()
+            case Is(state="wrong", thing=Wanted()):
+                return Doing(None, clause.time, "present")
+            case Related(relation="same-as", thing=Wanted(), to=to):
+                return asked_of(to, clause.time, clause.tense) or Identify(to)
+            case Caused(cause=Wanted(), effect=effect):
+                return Why(effect or That())
+            case Exists():
+                return Listing("vehicles", time=clause.time)
+            case Related(relation=relation, thing=thing, to=to) if not _open(thing, to):
+                return Identify(_placed(relation, thing, to))
+        if isinstance(value, Happens) and _complete(value.event):
+            actor = value.event.actor
+            if isinstance(actor, Described) and actor.doing is None:
+                event = with_fields(value.event, actor=Wanted())
+                return Identify(cast(Thing, with_fields(actor, doing=event)))
+            if wh.kind == "who" and isinstance(actor, Pronoun):
+                return Which(wanted, Happens(with_fields(value.event, actor=Wanted())))
+        if wh.kind == "what" and _does_something(value):
+            value = cast(Happens, value)
+            return Doing(value.event.actor, clause.time, cast(Any, clause.tense))
+        return Which(wanted, value)
+
+
+def _of_reasons(clause: Clause, value: Special) -> Question | None:
+    """Ask what was considered, believed, decisive, preventive."""
+    name, subject, time = value.name, value.subject, clause.time
+    match name:
+        case "consider" | "score":
+            return Listing("options", time=time)
+        case "know" | "believe" | "conclude":
+            about = getattr(value.content, "event", None)
+            thing = about.actor if about is not None else None
+            return Listing("beliefs", None if isinstance(thing, Ego) else thing, time)
+        case "matter" | "influence" | "depend":
+            return WhatWouldChange(None, most=True)
+        case "decide" | "choose":
+            return Listing("decisions", time=time)
+        case "achieve":
+            by = value.match.phrases.get("by")
+            return Why(Happens(by) if isinstance(by, Event) else That())
+        case "require" | "change" | "need":
+            return WhatWouldChange(value.content)
+        case "prevent" if (denied := prevented(value)) is not None:
+            return Why(Not(denied))
+        case "take-time" if clause.infinitive is not None and clause.modal == "would":
+            return WhatWouldChange(value.content)
+        case "make-know":
+            return HowKnow(value.content)
+        case "prevent" | "help" | "improve":
+            return HowAvoid(value.content or propose(value.object))
+        case "tell" | "say" | "report":
+            return HowKnow(None)
+        case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
+            return measured("delay", clause, as_thing(subject))
+    return None
+
+
+def _wanted(wh: Wh) -> Thing:
+    if isinstance(wh.sem, Described):
+        return wh.sem
+    return Wanted()
+
+
+_SOUGHT = frozenset({"wait", "look", "head", "stand", "give way", "yield", "check", "aim", "use"})
+
+
+def purpose(clause: Clause) -> bool:
+    """Say whether "what ... for" asks for the reason: "what did you brake for"."""
+    alone = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
+    return alone and (clause.verb is None or clause.verb.key not in _SOUGHT)
+
+
+def _does_something(value: Proposition) -> bool:
+    """Say whether it is asked what somebody does."""
+    if not isinstance(value, Happens) or value.event.action != "do":
+        return False
+    return value.event.object is None or isinstance(value.event.object, (Wanted, Pronoun))
+
+
+def _complete(event: Event) -> bool:
+    """Say whether nothing is left open in an event."""
+    return event.action not in ("do", "happen") and not _open(event.actor, event.object or Ego())
+
+
+def _named(clause: Clause) -> bool:
+    """Say whether "what is X" names X after the verb."""
+    return clause.verb is None and isinstance(clause.subject, Wanted) and bool(clause.objects)
+
+
+def _open(*things: Thing) -> bool:
+    return any(isinstance(thing, Wanted) for thing in things)
+
+
+def _placed(relation: str, thing: Thing, to: Thing) -> Thing:
+    """Add to a description where the thing is."""
+    bearings: dict[str, Any] = {
+        "ahead-of": "ahead", "behind": "behind", "left-of": "left", "right-of": "right",
+        "beside": "beside", "oncoming-to": "oncoming", "near": "around",
+    }  # fmt: skip
+    of = None if isinstance(to, (Ego, Passenger)) else to
+    if isinstance(thing, Described) and thing.bearing is None and relation in bearings:
+        return cast(Thing, with_fields(thing, bearing=bearings[relation], of=of))
+    return thing
+
+
+def _empty(clause: Clause) -> bool:
+    """Say whether nothing is said of the subject of "what is"."""
+    return clause.verb is None and not (
+        clause.objects or clause.complements or clause.bearings or clause.adjectives
+        or clause.comparisons or clause.manner or clause.feelings
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Acts: times, events, propositions, questions and acts, grounded part by part."""

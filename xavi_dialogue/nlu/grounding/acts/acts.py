@@ -1,0 +1,70 @@
+"""Acts: one act of a turn, completed where it is a fragment, and grounded."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, Repair, Request
+from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Unsaid
+from xavi_dialogue.nlu.grounding.acts.questions import question
+from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
+from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
+from xavi_dialogue.nlu.grounding.context import Grounder
+
+LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
+INCOMPLETE: Final = 1.0  # cost of a fragment that nothing completes
+
+
+def completed(spoken: Act, g: Grounder) -> Act | None:
+    """Complete a fragment or repair; others are complete. None: there is nothing to complete it."""
+    match spoken:
+        case Elliptic():
+            found = repairs.answers_clarification(spoken, g) or ellipsis.complete(spoken, g)
+            g.notes.leaned = True
+            if found is None:
+                g.notes.cost += INCOMPLETE
+            return found
+        case Repair():
+            repaired = repairs.complete(spoken, g)
+            g.notes.leaned = g.notes.leaned or repaired is not spoken
+            return repaired
+    return spoken
+
+
+def act(spoken: Act, g: Grounder) -> Act:
+    """Ground an act that is complete."""
+    match spoken:
+        case Ask(question=asked):
+            return Ask(question(asked, g))
+        case Claim(that=that):
+            return replace(spoken, that=g.proposition(that, "asked"))
+        case Request(event=event):
+            return Request(_requested(event, g))
+        case Feel(about=about):
+            return replace(spoken, about=_about(about, g))
+    return spoken
+
+
+def _requested(event: Event, g: Grounder) -> Event:
+    """Ground what is asked for; that nobody does it yet is no objection."""
+    target = event.object
+    if isinstance(target, Described) and not target.definite:
+        event = replace(event, object=replace(target, definite=True))
+    return g.event(event, "supposed")
+
+
+def _about(about: Proposition | Thing | None, g: Grounder) -> Proposition | Thing | None:
+    now = g.context.now
+    if about is None:
+        focus = g.context.discourse.episode
+        asked = g.context.discourse.asked_at
+        if focus is not None and asked is not None and now - asked <= LATELY:
+            g.notes.spans(Span(begin=focus[0], end=focus[1]))
+        else:
+            g.notes.spans(Span(begin=max(g.context.begin, now - LATELY), end=now))
+        return None
+    if isinstance(about, PROPOSITIONS):
+        return g.proposition(about, "asked")
+    g.notes.spans(Span(begin=max(g.context.begin, now - LATELY), end=now))
+    return g.thing(about, g.window(Unsaid(), "present"))

@@ -1,0 +1,236 @@
+"""Events: who did what, and when: matched with the episodes of the record."""
+
+from collections.abc import Callable
+from typing import Final
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import (
+    Between,
+    Described,
+    Ego,
+    Event,
+    Junction,
+    Nobody,
+    Passenger,
+    Pronoun,
+    Related,
+    Thing,
+    Unsaid,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.grounding.completion.discussion import discussed
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.kin import like
+
+UNMET: Final = 0.5  # cost of taking for granted what never happened
+NEARLY: Final = 0.2  # ... where something like it did
+ELSEWHEN: Final = 0.3  # ... where it happened, but at another time
+UNSEEN: Final = 0.05  # cost of asking after what did not happen
+LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
+DENIED: Final = 0.2  # cost of taking for granted that something did not happen that did
+BEFORE: Final = 4.0  # [s] for which who has left a roundabout was still on it before
+FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
+
+
+def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
+    """Ground an event: its actor, its object and its time."""
+    spoken = completed(spoken, g)
+    window = _window(spoken, mode, g, outer)
+    real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
+    actor = _somebody(spoken.actor, g, window, real, _acting(spoken, g, window))
+    if spoken.where is not None and spoken.where.thing == spoken.actor:
+        spoken = replace(spoken, where=replace(spoken.where, thing=actor))
+    spoken = replace(spoken, actor=actor)
+    target = spoken.object
+    if target is not None:
+        target = _somebody(target, g, window, real, _undergoing(spoken, g, window))
+    elif spoken.action == "leave":
+        target = _left(actor, g, window)
+    found = replace(spoken, object=target, where=_where(spoken, g, window))
+    if spoken.then is not None:
+        found = replace(found, then=event(spoken.then, "supposed", g, window))
+    if not real:
+        if (outer is None and (window.said or window.ahead) and mode != "supposed") or (
+            outer is None and window.said
+        ):
+            g.notes.spans(window.span)
+        return replace(found, time=window.term)
+    return _placed(found, mode, g, window, outer is not None and not outer.said)
+
+
+def completed(spoken: Event, g: Grounder) -> Event:
+    """Put the event under discussion in the place of "do", "do that"."""
+    vague = spoken.object is None or isinstance(spoken.object, Pronoun)
+    if spoken.action != "do" or not vague:
+        return spoken
+    actor = spoken.actor
+    if isinstance(actor, Pronoun):
+        actor = g.thing(actor, g.window(spoken.time, spoken.tense))
+    known = discussed(g.context, actor) or discussed(g.context)
+    if known is None:
+        return spoken
+    g.notes.leaned = True
+    time = known.time if isinstance(spoken.time, Unsaid) else spoken.time
+    return replace(
+        known, actor=actor, time=time, tense=spoken.tense, modal=spoken.modal,
+        manner=spoken.manner or known.manner,
+    )  # fmt: skip
+
+
+def _window(spoken: Event, mode: Mode, g: Grounder, outer: Window | None) -> Window:
+    if outer is not None and outer.said and isinstance(spoken.time, Unsaid):
+        return outer
+    granted = mode in ("presupposed", "denied")
+    tense = "past" if spoken.tense == "perfect" and granted else spoken.tense
+    return g.window(spoken.time, tense)
+
+
+def _somebody(thing: Thing, g: Grounder, window: Window, real: bool, fits: Fits) -> Thing:
+    if not real and isinstance(thing, Described) and not thing.definite:
+        return Nobody(described=thing)
+    if isinstance(thing, Described | Pronoun):
+        return g.thing(thing, window, fits if real else None)
+    return g.thing(thing, window)
+
+
+def _left(actor: Thing, g: Grounder, window: Window) -> Junction | None:
+    """Give the roundabout that somebody is on, or was just before: it is what "leave" leaves."""
+    number = actor.number if isinstance(actor, Vehicle) else EGO if isinstance(actor, Ego) else None
+    moment = min(window.begin if window.said else window.end, g.context.now)
+    for time in (moment, moment - BEFORE, g.context.now, g.context.now - BEFORE):
+        road = None if number is None or time < g.context.begin else g.context.world.road(time)
+        place = None if road is None else road.places.get(number)  # type: ignore[arg-type]
+        if place is not None and place.roundabout:
+            return Junction("roundabout")
+    return None
+
+
+def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
+    where = spoken.where
+    if where is None:
+        return None
+    thing = where.thing if isinstance(where.thing, Wanted) else g.thing(where.thing, window)
+    return replace(where, thing=thing, to=g.thing(where.to, window), time=window.term)
+
+
+def _acting(spoken: Event, g: Grounder, window: Window) -> Fits:
+    target = spoken.object
+    if isinstance(target, Passenger):
+        target = Ego()
+    elif isinstance(target, Described | Pronoun):
+        target = None
+    return _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target))
+
+
+def _undergoing(spoken: Event, g: Grounder, window: Window) -> Fits:
+    return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)))
+
+
+def _fitting(g: Grounder, window: Window, filled: Callable[[int], Event]) -> Fits:
+    def fits(vehicle: int) -> Episode | None:
+        found = g.context.holds(filled(vehicle), *_searched(g, window))
+        if not found:
+            found = like(g.context, filled(vehicle), *_searched(g, window))
+            found = tuple(e for e in found if Vehicle(vehicle) in (e.actor, e.object))
+        return found[-1] if found else None
+
+    return fits
+
+
+def _searched(g: Grounder, window: Window) -> tuple[float, float]:
+    begin, end = window.search
+    if not window.said and window.end - window.begin < 0.1:  # the present
+        return end - LATELY, end
+    return begin, end
+
+
+def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) -> Event:
+    """Find the episode that an event is, and note whether what is taken for granted holds."""
+    held = g.context.holds(found, *window.search)
+    if mode == "denied":
+        return _denied(found, g, window)
+    if held:
+        return _at(found, _pick(held, window, g), g, window, inner)
+    granted = mode == "presupposed"
+    if not window.said and window.term != Unsaid() and _is_present(window):
+        late = g.context.holds(found, *_searched(g, window))
+        if late and granted:
+            return _at(found, late[-1], g, window, inner)
+    if not inner:
+        g.notes.spans(window.span) if window.said or _is_present(window) else None
+    if not granted:
+        g.notes.cost += UNSEEN
+        return replace(found, time=window.term)
+    g.notes.presupposed = False
+    if window.said and g.context.holds(found, g.context.begin, g.context.now):
+        g.notes.cost += ELSEWHEN
+        return replace(found, time=window.term)
+    near = like(g.context, found, *_searched(g, window))
+    if not near:
+        g.notes.cost += UNMET
+        return replace(found, time=window.term)
+    g.notes.cost += NEARLY
+    return _at(found, _pick(near, window, g), g, window, inner)
+
+
+def _is_present(window: Window) -> bool:
+    return not window.ahead and window.end - window.begin < 0.1
+
+
+def _at(found: Event, episode: Episode, g: Grounder, window: Window, inner: bool) -> Event:
+    end = g.context.now if episode.end is None else episode.end
+    if not inner:
+        g.notes.spans(Span(begin=episode.begin, end=end, said=window.said))
+    if window.whole and window.rank is None:
+        return replace(found, time=window.term)
+    under_way = episode.end is None or episode.end >= g.context.now - 0.5
+    if _is_present(window) and under_way:
+        return replace(found, time=window.term)
+    return replace(found, time=Between(episode.begin, end))
+
+
+def _pick(found: tuple[Episode, ...], window: Window, g: Grounder) -> Episode:
+    """Choose the episode that is meant: by rank, by time, in focus, else the last one."""
+    if window.rank is not None:
+        index = window.rank - 1 if window.rank > 0 else len(found) + window.rank
+        return found[min(max(index, 0), len(found) - 1)]
+    if window.prefer == "nearest":
+        return min(found, key=lambda e: (_off(e, window.begin, g.context.now), -e.begin))
+    if window.prefer == "first":
+        inside = [e for e in found if e.begin >= window.search[0]]
+        return (inside or list(found))[0]
+    focus = g.context.discourse.episode
+    if window.said or focus is None:
+        return found[-1]
+    asked = g.context.discourse.asked_at
+    if asked is not None and found[-1].begin > asked:
+        return found[-1]
+    near = [e for e in found if e.begin <= focus[1] and (e.end or g.context.now) >= focus[0]]
+    return (near or list(found))[-1]
+
+
+def _off(episode: Episode, time: float, now: float) -> float:
+    end = now if episode.end is None else episode.end
+    return max(episode.begin - time, time - end, 0.0)
+
+
+def _denied(found: Event, g: Grounder, window: Window) -> Event:
+    """Note where something did happen that is said not to have."""
+    focus = g.context.discourse.episode
+    if window.said:
+        search = window.search
+    else:
+        search = focus if focus is not None else (g.context.now - FRESH, g.context.now)
+        if focus is not None and not _is_present(window):
+            g.notes.spans(Span(begin=focus[0], end=focus[1]))
+    if g.context.holds(found, *search):
+        g.notes.cost += DENIED
+        g.notes.presupposed = False
+    if window.said:
+        g.notes.spans(window.span)
+    return replace(found, time=window.term)

@@ -1,0 +1,294 @@
+"""Questions: what each sort of question takes for granted, and what it leaves open."""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import (
+    Compare,
+    Doing,
+    Fault,
+    HowAvoid,
+    HowDecide,
+    HowKnow,
+    HowLong,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Question,
+    Summarise,
+    WhatIf,
+    WhatWouldChange,
+    When,
+    Where,
+    Whether,
+    Which,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Now,
+    Proposition,
+    Unsaid,
+    WholeRide,
+)
+from xavi_dialogue.nlu.grounding.acts.propositions import inferred, measured, suspect, timed
+from xavi_dialogue.nlu.grounding.acts.recasting import recast
+from xavi_dialogue.nlu.grounding.completion.discussion import (
+    PROPOSITIONS,
+    affirmed,
+    asserted,
+    hindrance,
+    interval,
+    questioned,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.rewriting import first
+
+
+def question(spoken: Question, g: Grounder) -> Question:
+    """Ground a question."""
+    meant = recast(spoken, g)
+    found: Question = _HANDLERS[type(meant)](meant, g)
+    return found
+
+
+def _why(spoken: Why, g: Grounder) -> Why:
+    of = g.proposition(spoken.of, "presupposed")
+    instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
+    event = first(of, Event)
+    blamed = spoken.suspect
+    if blamed is not None:
+        blamed = suspect(blamed, event, g, _during(event, g))
+    return replace(spoken, of=of, instead=instead, suspect=blamed)
+
+
+def _during(event: Event | None, g: Grounder) -> Window:
+    when = None if event is None else interval(event)
+    return g.window(Now(), "present") if when is None else inferred(when, g)
+
+
+def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
+    supposed = g.proposition(spoken.supposed, "supposed")
+    then = spoken.then
+    if then is not None:
+        then = _supposed_question(then, g)
+    focus = g.context.discourse.episode
+    if g.notes.span is None and focus is not None:
+        g.notes.spans(inferred(focus, g).span)
+    return replace(spoken, supposed=supposed, then=then)
+
+
+def _supposed_question(spoken: Question, g: Grounder) -> Question:
+    match spoken:
+        case Whether(that=that):
+            return replace(spoken, that=g.proposition(that, "supposed"))
+        case When(of=of) | Why(of=of):
+            return replace(spoken, of=g.proposition(of, "supposed"))
+    return question(spoken, g)
+
+
+def _whether(spoken: Whether, g: Grounder) -> Whether:
+    return replace(spoken, that=g.proposition(spoken.that, "asked"))
+
+
+def _which(spoken: Which, g: Grounder) -> Which:
+    such = spoken.such
+    if such is not None:
+        such = g.proposition(such, "asked")
+    thing = spoken.thing
+    event = first(such, Event)
+    if isinstance(thing, Described) and such is not None:
+        thing = replace(thing, plural=True)
+    return replace(spoken, thing=g.thing(thing, _during(event, g)), such=such)
+
+
+def _identify(spoken: Identify, g: Grounder) -> Identify:
+    return replace(spoken, thing=g.thing(spoken.thing, g.window(Unsaid(), "present")))
+
+
+def _how_much(spoken: HowMuch, g: Grounder) -> HowMuch:
+    of = spoken.of
+    if spoken.extreme is not None and isinstance(of.time, Unsaid) and of.tense != "present":
+        of = replace(of, time=WholeRide())
+    return replace(spoken, of=measured(of, g))
+
+
+def _how_many(spoken: HowMany, g: Grounder) -> HowMany:
+    of = spoken.of
+    if isinstance(of, Event):
+        if isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
+            of = replace(of, time=WholeRide())
+        return replace(spoken, of=g.event(of, "asked"))
+    if isinstance(of, Described):
+        of = replace(of, plural=True, definite=False)
+    return replace(spoken, of=g.thing(of, g.window(Unsaid(), "present")))
+
+
+def _when(spoken: When, g: Grounder) -> When:
+    return replace(spoken, of=g.proposition(spoken.of, "presupposed"))
+
+
+def _how_long(spoken: HowLong, g: Grounder) -> HowLong:
+    return replace(spoken, of=g.event(spoken.of, "presupposed"))
+
+
+def _where(spoken: Where, g: Grounder) -> Where:
+    of = spoken.of
+    if isinstance(of, Event):
+        if isinstance(of.time, Unsaid):
+            of = replace(of, time=spoken.time)
+        return replace(spoken, of=g.event(of, "presupposed"), time=Unsaid())
+    window = timed(spoken.time, "present", g, None)
+    return replace(spoken, of=g.thing(of, window), time=window.term)
+
+
+def _whither(spoken: Whither, g: Grounder) -> Whither:
+    window = g.window(spoken.time, "present")
+    if window.said:
+        g.notes.spans(window.span)
+    time = spoken.time if isinstance(spoken.time, Unsaid) else window.term
+    return replace(spoken, actor=g.thing(spoken.actor, window), time=time)
+
+
+def _doing(spoken: Doing, g: Grounder) -> Doing:
+    window = timed(spoken.time, spoken.tense, g, None)
+    actor = None if spoken.actor is None else g.thing(spoken.actor, window)
+    besides = spoken.besides
+    if besides is not None:
+        besides = g.proposition(besides, "asked")
+    return replace(spoken, actor=actor, besides=besides, time=window.term)
+
+
+def _compare(spoken: Compare, g: Grounder) -> Compare:
+    now = g.window(Unsaid(), "present")
+    options = tuple(
+        g.proposition(one, "supposed") if isinstance(one, PROPOSITIONS) else g.thing(one, now)
+        for one in spoken.options
+    )
+    return replace(spoken, options=options)
+
+
+def _listing(spoken: Listing, g: Grounder) -> Listing:
+    window = _over(spoken.time, g)
+    about = None if spoken.about is None else g.thing(spoken.about, window)
+    return replace(spoken, about=about, time=window.term)
+
+
+def _summarise(spoken: Summarise, g: Grounder) -> Summarise:
+    about = spoken.about
+    if isinstance(about, Event):
+        about = g.event(about, "presupposed")
+        when = interval(about)
+        window = _over(spoken.time, g) if when is None else inferred(when, g)
+        return replace(spoken, about=about, time=window.term)
+    window = _over(spoken.time, g)
+    return replace(
+        spoken, about=None if about is None else g.thing(about, window), time=window.term
+    )
+
+
+def _over(time: Any, g: Grounder) -> Window:
+    if isinstance(time, Unsaid):
+        window = g.window(Unsaid(), "perfect")
+    else:
+        window = g.window(time, "past")
+    g.notes.spans(window.span)
+    return window
+
+
+def _how_know(spoken: HowKnow, g: Grounder) -> HowKnow:
+    return replace(spoken, of=_about(spoken.of, "asked", g))
+
+
+def _how_sure(spoken: HowSure, g: Grounder) -> HowSure:
+    of = _about(spoken.of, "asked", g)
+    if isinstance(spoken.time, Unsaid):
+        return replace(spoken, of=of)
+    window = timed(spoken.time, "past", g, None)
+    return replace(spoken, of=of, time=window.term)
+
+
+def _how_decide(spoken: HowDecide, g: Grounder) -> HowDecide:
+    of = None if spoken.of is None else g.proposition(spoken.of, "presupposed")
+    return replace(spoken, of=of)
+
+
+def _deed(spoken: Any, g: Grounder) -> Any:
+    of = spoken.of
+    if of is not None:
+        return replace(spoken, of=g.proposition(of, "presupposed"))
+    known = questioned(g.context)
+    if known is None:
+        return spoken
+    g.notes.leaned = True
+    _span_of(known, g)
+    return replace(spoken, of=affirmed(known))
+
+
+def _about(of: Proposition | None, mode: Mode, g: Grounder) -> Proposition | None:
+    if of is not None:
+        return g.proposition(of, mode)
+    known = asserted(g.context)
+    if known is None or not (g.context.discourse.propositions or g.context.discourse.question):
+        return None
+    g.notes.leaned = True
+    _span_of(known, g)
+    return known
+
+
+def _span_of(known: Proposition, g: Grounder) -> None:
+    event = first(known, Event)
+    when = None if event is None else interval(event)
+    if when is not None:
+        g.notes.spans(inferred(when, g).span)
+
+
+def _fault(spoken: Fault, g: Grounder) -> Fault:
+    of = spoken.of
+    if of is not None:
+        of = g.proposition(of, "presupposed")
+    elif g.context.discourse.question is not None or g.context.discourse.episode is not None:
+        hindered = hindrance(g.context)
+        of = questioned(g.context) if hindered is None else Happens(hindered)
+        g.notes.leaned = of is not None or g.notes.leaned
+        if of is not None:
+            _span_of(of, g)
+    event = first(of, Event)
+    blamed = spoken.suspect
+    if blamed is not None:
+        helper = event or Event("happen", actor=Ego())
+        blamed = suspect(blamed, helper, g, _during(event, g))
+    return replace(spoken, of=of, suspect=blamed)
+
+
+_HANDLERS: Final[dict[type, Callable[[Any, Grounder], Any]]] = {
+    Why: _why,
+    WhatIf: _what_if,
+    Whether: _whether,
+    Which: _which,
+    Identify: _identify,
+    HowMuch: _how_much,
+    HowMany: _how_many,
+    When: _when,
+    HowLong: _how_long,
+    Where: _where,
+    Whither: _whither,
+    Doing: _doing,
+    Compare: _compare,
+    Listing: _listing,
+    Summarise: _summarise,
+    HowKnow: _how_know,
+    HowSure: _how_sure,
+    HowDecide: _how_decide,
+    WhatWouldChange: _deed,
+    HowAvoid: _deed,
+    Fault: _fault,
+}

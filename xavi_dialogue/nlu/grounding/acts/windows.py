@@ -1,0 +1,236 @@
+"""Windows: the part of the ride that a time names, by tense and discourse where none was said."""
+
+from dataclasses import replace
+from typing import Final
+
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import (
+    Ago,
+    At,
+    Back,
+    Between,
+    Destination,
+    Ego,
+    Event,
+    Exit,
+    Junction,
+    Next,
+    Now,
+    Rank,
+    Relative,
+    Start,
+    Tense,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+    WholeRide,
+    Within,
+)
+from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
+from xavi_dialogue.nlu.grounding.kin import like
+from xavi_dialogue.nlu.grounding.things.places import Visit, presence, visit_of, visits
+
+SLACK: Final = 2.5  # [s] by which a time that was said may be off
+JUST_NOW: Final = 5.0  # [s] that "just now" reaches back
+RECENT: Final = 3.0  # [s] within which what is over still counts as present
+SOON: Final = 15.0  # [s] that "soon" and "next" reach ahead
+OPENING: Final = 8.0  # [s] that the beginning of the ride lasts
+BESIDE: Final = 8.0  # [s] before or after an event
+APPROACH: Final = 6.0  # [s] before a junction that belong to it
+STALE: Final = 6.0  # [s] after which what was spoken of is no longer what "back there" means
+TOGETHER: Final = 1.5  # [s] between deeds that belong together
+LONGEST: Final = 15.0  # [s] that deeds which belong together last at most
+UNFOUND: Final = 0.6  # cost of a time that hangs on what did not happen
+
+Interval = tuple[float, float]
+
+
+def window(time: Time, tense: Tense, g: Grounder) -> Window:
+    """Find the part of the ride that a time names."""
+    context = g.context
+    now, begin = context.now, context.begin
+    match time:
+        case Now():
+            return Window(now, now, Now(), (now - RECENT, now), said=True)
+        case Unsaid():
+            return unsaid(tense, context)
+        case At(at=at):
+            return _at(at, now)
+        case Ago(seconds=None):
+            return _between(max(begin, now - JUST_NOW), now, now)
+        case Ago(seconds=float() as back):
+            return _at(now - back, now)
+        case Within(seconds=after):
+            return _coming(context, SOON if after is None else after, said=True)
+        case Between(begin=first, end=last):
+            return replace(_between(min(first, last), max(first, last), now), whole=True)
+        case Relative():
+            return _relative(time, tense, g)
+        case Back(relation=relation):
+            return _back(relation, g)
+        case Rank(rank=rank):
+            return Window(begin, now, WholeRide(), (begin, now), said=True, rank=rank)
+        case Start():
+            end = min(now, begin + OPENING)
+            return Window(begin, end, Between(begin, end), (begin, end), True, prefer="first")
+        case WholeRide():
+            return Window(begin, now, WholeRide(), (begin, now), said=True, whole=True)
+        case Next():
+            return _coming(context, SOON, said=True)
+    return unsaid(tense, context)
+
+
+def unsaid(tense: Tense, context: Context) -> Window:
+    """Take the part of the ride that a tense alone names."""
+    now, begin = context.now, context.begin
+    match tense:
+        case "present":
+            return Window(now, now, Now(), (now - RECENT, now))
+        case "future":
+            return _coming(context, SOON, said=False)
+        case "perfect":
+            return Window(begin, now, WholeRide(), (begin, now))
+    return Window(begin, now, Unsaid(), (begin, now))
+
+
+def focus(discourse: Discourse) -> Interval | None:
+    """Give the episode that "then" and "that" reach back to."""
+    return discourse.episode
+
+
+def _at(at: float, now: float) -> Window:
+    search = (at - SLACK, at + SLACK)
+    return Window(at, at, At(at), search, True, ahead=at > now + 0.5, prefer="nearest")
+
+
+def _between(begin: float, end: float, now: float) -> Window:
+    return Window(begin, end, Between(begin, end), (begin, end), True, ahead=begin > now)
+
+
+def _coming(context: Context, seconds: float, said: bool) -> Window:
+    now = context.now
+    return Window(now, now + seconds, Next(), (now, now + seconds), said, ahead=True)
+
+
+def _back(relation: str, g: Grounder) -> Window:
+    context = g.context
+    g.notes.leaned = True
+    interval = focus(context.discourse)
+    if interval is None or _is_stale(context):
+        interval = notable(context) or interval
+    if interval is None:
+        return unsaid("past", context)
+    return _beside(relation, interval, context)
+
+
+def _is_stale(context: Context) -> bool:
+    """Tell whether it is long since anything was asked, so that more has happened."""
+    asked = context.discourse.asked_at
+    return asked is not None and context.now - asked > STALE
+
+
+def notable(context: Context) -> Interval | None:
+    """Give the latest thing of note in which we had a part, with what belongs to it."""
+    deeds = context.deeds(None, context.begin, context.now)
+    ours = [e for e in deeds if e.action in NOTABLE and Ego() in (e.actor, e.object)]
+    if not ours:
+        return None
+    begin, end = _interval(ours[-1], context)
+    for episode in reversed(ours[:-1]):
+        first, last = _interval(episode, context)
+        if last >= begin - TOGETHER and end - first <= LONGEST:
+            begin, end = min(begin, first), max(end, last)
+    return begin, end
+
+
+#: What people call something that happened.
+NOTABLE: Final = frozenset(
+    (
+        *("brake", "stop", "wait", "give-way", "swerve", "cut-in", "collide", "nearly-collide"),
+        *("change-left", "change-right", "exit-left", "exit-right", "turn", "overtake", "merge"),
+        *("stand", "slow-down", "let-go", "pull-out", "avoid", "enter", "leave", "change-lane"),
+        *("exit-straight", "continue-next-exit", "u-turn"),
+    )
+)
+
+
+def _interval(episode: Episode, context: Context) -> Interval:
+    return episode.begin, context.now if episode.end is None else episode.end
+
+
+def _beside(relation: str, interval: Interval, context: Context, approach: float = 0.0) -> Window:
+    """Take what lies before, in or after an interval."""
+    (first, last), now, begin = interval, context.now, context.begin
+    match relation:
+        case "before":
+            start = max(begin, first - BESIDE)
+            end = max(begin, first)
+            return Window(start, end, Between(start, end), (begin, end - 0.05), True)
+        case "after":
+            end = min(now, last + BESIDE)
+            start = min(last, end)
+            between = Between(start, end)
+            return Window(start, end, between, (start + 0.05, now), True, prefer="first")
+        case "until":
+            return Window(begin, first, Between(begin, first), (begin, first), True)
+        case "since":
+            return Window(last, now, Between(last, now), (last, now), True)
+    search = (first - max(approach, SLACK), last + SLACK)
+    return Window(first, last, Between(first, last), search, True)
+
+
+def _relative(time: Relative, tense: Tense, g: Grounder) -> Window:
+    context = g.context
+    found = _anchored(time, tense, g)
+    if found is None:
+        return _coming(context, SOON, said=True)
+    if not found:
+        g.notes.cost += UNFOUND
+        g.notes.presupposed = False
+        return unsaid(tense, context)
+    rank = time.rank if time.rank is not None else -1
+    index = rank - 1 if rank > 0 else max(len(found) + rank, 0)
+    approach = APPROACH if isinstance(time.anchor, Junction | Exit) else 0.0
+    return _beside(time.relation, found[min(index, len(found) - 1)], context, approach)
+
+
+def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...] | None:
+    """Find when the anchor was; () never, None: it is yet to come."""
+    whole = unsaid("past", g.context)
+    match time.anchor:
+        case Event() as event:
+            return _of_event(event, tense, g)
+        case Junction() as spoken:
+            place = g.thing(spoken, unsaid(tense, g.context))
+            visit = visit_of(g.context, place) if isinstance(place, Junction) else None
+            return _of_visits((visit,) if visit else (), ahead=tense != "past")
+        case Exit():
+            return _of_visits(visits(g.context, "roundabout"), ahead=tense != "past")
+        case Destination():
+            return None
+        case thing:
+            return _of_thing(g.thing(thing, whole), g.context)
+
+
+def _of_event(event: Event, tense: Tense, g: Grounder) -> tuple[Interval, ...] | None:
+    context = g.context
+    inner = window(event.time, event.tense, g)
+    grounded = g.event(event, "asked", inner)
+    search = inner.search if inner.said else (context.begin, context.now)
+    episodes = context.holds(grounded, *search) or like(context, grounded, *search)
+    if not episodes and (tense == "future" or event.tense in ("future", "present", "perfect")):
+        return None
+    return tuple(_interval(episode, context) for episode in episodes)
+
+
+def _of_visits(found: tuple[Visit, ...], ahead: bool) -> tuple[Interval, ...] | None:
+    if not found:
+        return None if ahead else ()
+    return tuple((visit.begin, visit.end) for visit in found)
+
+
+def _of_thing(thing: Thing, context: Context) -> tuple[Interval, ...]:
+    present = presence(context, thing) if isinstance(thing, Vehicle) else None
+    return () if present is None else (present,)

@@ -1,0 +1,1 @@
+"""Completion: turns that take a part of their meaning from the turns before."""

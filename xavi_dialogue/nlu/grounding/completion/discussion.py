@@ -1,0 +1,175 @@
+"""Discussion: what "that", "it" and an omitted clause stand for."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    Claim,
+    Compare,
+    Doing,
+    HowLong,
+    HowMany,
+    Question,
+    Request,
+    Where,
+)
+from xavi_dialogue.domain.terms import (
+    At,
+    Believed,
+    Between,
+    Both,
+    Caused,
+    Compares,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Not,
+    Proposition,
+    Related,
+    That,
+    Thing,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.acts.windows import NOTABLE
+from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.rewriting import first, parts
+
+PROPOSITIONS: Final = (
+    Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
+)  # fmt: skip
+
+
+def proposition_of(question: Question | None) -> Proposition | None:
+    """Give the proposition that a question is about."""
+    match question:
+        case None | HowMany() | Compare():
+            return None
+        case HowLong(of=event):
+            return Happens(event)
+        case Where(of=Event() as event):
+            return Happens(event)
+        case Doing(besides=proposition):
+            return proposition
+    for name in ("of", "that", "supposed", "such"):
+        found = getattr(question, name, None)
+        if isinstance(found, PROPOSITIONS) and not isinstance(found, That):
+            return found
+    return None
+
+
+def asserted(context: Context) -> Proposition | None:
+    """Give what was said last, by either side: what "that" and a bare "why?" are about."""
+    discourse = context.discourse
+    for proposition in discourse.propositions:
+        if not isinstance(proposition, That):
+            return proposition
+    return questioned(context)
+
+
+def questioned(context: Context) -> Proposition | None:
+    """Give what the question under discussion is about; else what we did last."""
+    found = proposition_of(context.discourse.question)
+    if found is not None:
+        return found
+    for proposition in context.discourse.propositions:
+        if not isinstance(proposition, That):
+            return proposition
+    event = last_deed(context)
+    return None if event is None else Happens(event)
+
+
+def affirmed(proposition: Proposition) -> Proposition:
+    """Strip a negation."""
+    return proposition.content if isinstance(proposition, Not) else proposition
+
+
+def events(discourse: Discourse) -> Iterator[Event]:
+    """Yield the events spoken of, those of the question under discussion first."""
+    for source in (discourse.question, discourse.propositions):
+        yield from parts(source, Event)
+    for act in discourse.last_acts:
+        if isinstance(act, Ask | Claim | Request):
+            yield from parts(act, Event)
+
+
+def discussed(context: Context, actor: Thing | None = None) -> Event | None:
+    """Give the event under discussion, of an actor where one is given."""
+    for event in events(context.discourse):
+        if actor is None or event.actor == actor:
+            return event
+    if isinstance(actor, Vehicle):
+        return _last_of(context, actor)
+    if actor is None or isinstance(actor, Ego):
+        return last_deed(context)
+    return None
+
+
+def last_deed(context: Context) -> Event | None:
+    """Give what we did last that people would speak of."""
+    return _last_of(context, Ego())
+
+
+#: What we do because somebody or something hinders us.
+_HINDERED: Final = frozenset(
+    ("brake", "slow-down", "stop", "stand", "wait", "give-way", "let-go", "follow", "swerve",
+     "avoid", "keep-distance", "collide", "nearly-collide")
+)  # fmt: skip
+
+
+def hindrance(context: Context) -> Event | None:
+    """Give what we did, or do, because we were hindered: spoken of, else in focus or the last."""
+    for event in events(context.discourse):
+        if event.action in _HINDERED and event.actor == Ego() and event.time != Unsaid():
+            return event
+    deeds = context.deeds(Ego(), context.begin, context.now)
+    hindered = [e for e in deeds if e.action in _HINDERED]
+    focus = context.discourse.episode
+    if focus is not None:
+        near = [e for e in hindered if e.begin <= focus[1] and (e.end or context.now) >= focus[0]]
+        hindered = near or hindered
+    return None if not hindered else event_of(hindered[-1], context.now)
+
+
+def _last_of(context: Context, actor: Ego | Vehicle) -> Event | None:
+    deeds = context.deeds(actor, context.begin, context.now)
+    focus = context.discourse.episode
+    notable = [e for e in deeds if e.action in NOTABLE]
+    if focus is not None:
+        near = [e for e in notable if e.begin <= focus[1] and (e.end or context.now) >= focus[0]]
+        notable = near or notable
+    return None if not notable else event_of(notable[-1], context.now)
+
+
+def event_of(episode: Episode, now: float) -> Event:
+    """Turn an episode of the record into an event that is spoken of."""
+    end = now if episode.end is None else episode.end
+    return Event(
+        action=episode.action,
+        actor=episode.actor,
+        object=episode.object,
+        side=episode.side,
+        time=Between(episode.begin, end),
+        tense="past",
+    )
+
+
+def interval(event: Event) -> tuple[float, float] | None:
+    """Give the part of the ride that a grounded event names."""
+    match event.time:
+        case Between(begin=begin, end=end):
+            return begin, end
+        case At(at=at):
+            return at, at
+    return None
+
+
+def main_event(question: Question | None) -> Event | None:
+    """Give the first event in a question."""
+    return first(question, Event)

@@ -1,0 +1,281 @@
+"""Ellipsis: fragments take their frame from the question under discussion.
+
+What a fragment says replaces the part of the same sort in that question: "and the bus?",
+"and before that?", "why not the first one?", "and if he hadn't?".
+"""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    Doing,
+    Elliptic,
+    HowDecide,
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Question,
+    Request,
+    WhatIf,
+    When,
+    Where,
+    Whether,
+    Which,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Back,
+    Between,
+    Described,
+    Ego,
+    Event,
+    Exit,
+    Happens,
+    Junction,
+    Next,
+    Not,
+    Pronoun,
+    Related,
+    Relative,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+    Wanted,
+    Within,
+)
+from xavi_dialogue.nlu.grounding.completion.discussion import (
+    affirmed,
+    asserted,
+    interval,
+    main_event,
+    proposition_of,
+    questioned,
+)
+from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
+from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.rewriting import first
+
+FRAMELESS: Final = 0.6  # cost of a fragment that has nothing to complete
+
+
+def complete(spoken: Elliptic, g: Grounder) -> Act | None:
+    """Complete a fragment to the act that it is short for; None where nothing completes it."""
+    question = under_discussion(g)
+    spoken = replace(spoken, thing=_typed(spoken.thing, question))
+    match spoken.form:
+        case "why" | "why-not":
+            return _why(spoken, question, g)
+        case "what-if":
+            return what_if(spoken, question, g)
+        case "same":
+            return _same(spoken, question, g)
+    return _asked(spoken, question, g)
+
+
+def under_discussion(g: Grounder) -> Question | None:
+    """Give the question under discussion; else that of a claim or request just made."""
+    discourse = g.context.discourse
+    if discourse.question is not None:
+        return discourse.question
+    for act in discourse.last_acts:
+        match act:
+            case Ask(question=question):
+                return question
+            case Claim(that=that):
+                return Whether(that)
+            case Request(event=event):
+                return Whether(Happens(event))
+    return None
+
+
+def _typed(thing: Thing | None, question: Question | None) -> Thing | None:
+    """Read "the first one" as an exit, junction or lane where that is what was spoken of."""
+    if not isinstance(thing, Described) or thing.rank is None:
+        return thing
+    if thing != Described(kind=thing.kind, rank=thing.rank, definite=thing.definite):
+        return thing
+    place = first(question, PLACES)
+    if isinstance(place, Exit) or _about_exits(question):
+        return Exit(rank=thing.rank)
+    if isinstance(place, Junction):
+        return Junction(form=place.form, rank=thing.rank)
+    return thing
+
+
+def _about_exits(question: Question | None) -> bool:
+    return isinstance(question, HowMuch) and question.of.attribute == "exit-number"
+
+
+def _why(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
+    of = asserted(g.context) if _bare(spoken) else questioned(g.context)
+    if _bare(spoken) and spoken.negated and _is_suspicion(question):
+        return Ask(question)  # type: ignore[arg-type]
+    if isinstance(spoken.thing, PLACES):
+        of = through(spoken.thing, of)
+    elif spoken.thing is not None and of is not None:
+        of = with_thing(of, spoken.thing, g.context)
+    if spoken.event is not None:
+        of = with_event(of, spoken.event)
+    if of is None:
+        return None
+    if not isinstance(spoken.time, Unsaid):
+        of = with_time(of, spoken.time)
+    if spoken.form == "why-not" or spoken.negated:
+        return Ask(Why(Not(affirmed(of))))
+    if isinstance(question, Why) and question.of == of:
+        g.notes.cost += 0.05
+    return Ask(Why(of))
+
+
+def _is_suspicion(question: Question | None) -> bool:
+    """Tell whether somebody was taken for the cause, so that "why not" means why not because."""
+    return isinstance(question, Why) and question.suspect is not None
+
+
+def _bare(spoken: Elliptic) -> bool:
+    plain = spoken.thing is None and spoken.event is None
+    return plain and isinstance(spoken.time, Unsaid)
+
+
+def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
+    if spoken.besides:
+        return Ask(_besides(question, g))
+    if question is None:
+        return _frameless(spoken, g)
+    new: Question = question
+    if spoken.thing is None and spoken.event is None and _is_later(spoken.time):
+        later = _then(question)
+        if later is not None:
+            return Ask(later)
+    if spoken.event is not None:
+        new = with_event(new, spoken.event)
+    if spoken.thing is not None:
+        new = _about_thing(new, spoken.thing, g)
+    if not isinstance(spoken.time, Unsaid):
+        new = with_time(new, _from(spoken.time, question))
+    if spoken.negated:
+        new = _negated(new)
+    return Ask(new)
+
+
+def _is_later(time: Time) -> bool:
+    return isinstance(time, Next | Within) or (
+        isinstance(time, Relative) and time.relation == "after"
+    )
+
+
+def _then(question: Question) -> Question | None:
+    """Ask whether what is not done now will be done later; None where nothing is."""
+    match question:
+        case Why(of=Not(content=Happens(event=Event(tense="present") as event))):
+            return Whether(Happens(replace(event, tense="future", modal="will", time=Unsaid())))
+    return None
+
+
+def _from(time: Time, question: Question) -> Time:
+    """Count "before that" from the part of the ride that the question was about."""
+    event = main_event(question)
+    when = None if event is None else interval(event)
+    if not isinstance(time, Back) or when is None:
+        return time
+    match time.relation:
+        case "before":
+            return Between(max(when[0] - 8.0, 0.0), max(when[0] - 0.05, 0.0))
+        case "after":
+            return Between(when[1] + 0.05, when[1] + 8.0)
+    return Between(*when)
+
+
+def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
+    """Ask the same of another thing; of what we did, ask whether that is why."""
+    if isinstance(question, Why) and not isinstance(thing, PLACES):
+        event = main_event(question)
+        if event is not None and event.actor == Ego() and not isinstance(thing, Ego):
+            found = g.thing(thing, g.window(Unsaid(), "present"))
+            did = isinstance(found, Vehicle) and g.context.holds(
+                replace(event, actor=found), g.context.begin, g.context.now
+            )
+            if event.object is None and not did:
+                return replace(question, suspect=found)
+            if event.object is None:
+                return with_thing(question, found, g.context)
+            return replace(question, of=with_event(question.of, replace(event, object=found)))
+    return with_thing(question, thing, g.context)
+
+
+def _negated(question: Question) -> Question:
+    match question:
+        case WhatIf(supposed=Not(content=content)):
+            return replace(question, supposed=content)
+        case WhatIf(supposed=supposed):
+            return replace(question, supposed=Not(supposed))
+        case Why(of=of):
+            return replace(question, of=Not(affirmed(of)))
+        case Whether(that=that):
+            return replace(question, that=Not(affirmed(that)))
+    return question
+
+
+def _besides(question: Question | None, g: Grounder) -> Question:
+    match question:
+        case Why():
+            return Listing(of="reasons")
+        case Listing():
+            return question
+        case Which(such=Related(relation="can-see")):
+            return Listing(of="vehicles")
+        case Doing():
+            return replace(question, besides=asserted(g.context))
+    return Doing(besides=proposition_of(question))
+
+
+def _frameless(spoken: Elliptic, g: Grounder) -> Act | None:
+    """Read a fragment that follows on nothing: what is it, or what does it do."""
+    g.notes.cost += FRAMELESS
+    if spoken.event is not None:
+        return Ask(Whether(Happens(spoken.event)))
+    if spoken.thing is None:
+        return None
+    if isinstance(spoken.thing, Described | Pronoun | Vehicle):
+        return Ask(Identify(spoken.thing))
+    return Ask(Where(spoken.thing))
+
+
+def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
+    """Put another question word to what was spoken of: "when?", "which one?", "how sure?"."""
+    thing = spoken.thing
+    if spoken.form == "which":
+        if thing is None and isinstance(question, Which):
+            return Ask(question)
+        return Ask(Identify(thing or Pronoun("it")))
+    if spoken.form == "where" and (thing is not None or main_event(question) is None):
+        told = isinstance(question, HowMuch) and question.extreme is not None
+        if thing is None and question is not None and (told or isinstance(question, Whither)):
+            return Ask(question)  # its answer tells where
+        return Ask(Where(thing or first(question, Vehicle) or Pronoun("it"), spoken.time))
+    of = questioned(g.context) if spoken.form != "sure" else asserted(g.context)
+    if spoken.event is not None:
+        of = with_event(of, spoken.event)
+    if thing is not None and of is not None:
+        of = with_thing(of, thing, g.context)
+    if of is None:
+        return None
+    event = first(of, Event)
+    match spoken.form:
+        case "when":
+            return Ask(When(of if first(of, Wanted) is None else affirmed(of)))
+        case "where" if event is not None:
+            return Ask(Where(event))
+        case "how":
+            return Ask(HowDecide(of))
+        case "sure":
+            return Ask(HowSure(of, time=spoken.time))
+    return None

@@ -1,0 +1,69 @@
+"""Supposing: "and if he had not?", "what if without it?", completed by what was spoken of."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, Question, WhatIf
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Exit,
+    Happens,
+    Junction,
+    Lane,
+    Not,
+    Pronoun,
+    Proposition,
+    Thing,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questioned
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.rewriting import first
+
+PLACES: Final = (Exit, Junction, Lane)
+
+
+def what_if(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
+    """Complete a fragment that supposes something; None where nothing completes it."""
+    thing = spoken.thing
+    actor: Thing | None = None
+    if isinstance(thing, Pronoun | Described | Vehicle):
+        actor = g.thing(thing, g.window(Unsaid(), "present"))
+    elif thing is not None:
+        actor = thing
+    if spoken.event is not None and spoken.event.action != "do":
+        event = spoken.event if actor is None else replace(spoken.event, actor=actor)
+        supposed: Proposition = Happens(event)
+        return supposing(Not(supposed) if spoken.negated else supposed, question)
+    if isinstance(actor, PLACES):
+        return supposing(through(actor, questioned(g.context)), question)
+    known = discussed(g.context, actor) if actor is not None else discussed(g.context)
+    if known is None:
+        if not isinstance(actor, Vehicle):
+            return None
+        return supposing(Not(Exists(actor)), question)
+    supposed = Happens(replace(known, modal=None))
+    earlier = question.supposed if isinstance(question, WhatIf) else None
+    if spoken.negated or (actor is None and earlier is None):
+        supposed = Not(supposed)
+    return supposing(supposed, question)
+
+
+def supposing(supposed: Proposition, question: Question | None) -> Act:
+    """Ask of a supposition what was asked of the one before."""
+    if isinstance(question, WhatIf):
+        return Ask(replace(question, supposed=supposed))
+    return Ask(WhatIf(supposed))
+
+
+def through(place: Thing, of: Proposition | None) -> Proposition:
+    """Say that we take an exit, as was said of another, or leave by it."""
+    event = first(of, Event)
+    if event is not None and isinstance(event.object, type(place)):
+        return Happens(replace(event, object=place, actor=Ego()))
+    return Happens(Event("leave" if isinstance(place, Exit) else "enter", object=place))

@@ -1,0 +1,178 @@
+"""Ground: readings, world and discourse to the acts that are meant.
+
+Each reading costs what its words cost, and what speaks against it in the world: references that
+fit nobody, events that it takes for granted and that never happened. The cheapest is taken; the
+car asks back where two are as cheap and lead to different answers that are sensible both, or
+where a reference stays open; else it takes the better one.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct
+from xavi_dialogue.domain.meaning import Act, Beyond, Reading, Social
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlu.grounding import clarify, doubts
+from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
+from xavi_dialogue.nlu.grounding.acts.acts import completed
+from xavi_dialogue.nlu.grounding.context import Context, Notes
+from xavi_dialogue.nlu.grounding.grounder import TermGrounder
+from xavi_dialogue.nlu.grounding.result import Failure, Grounding
+from xavi_dialogue.nlu.grounding.rewriting import substitute
+from xavi_dialogue.nlu.grounding.salience import after
+from xavi_dialogue.nlu.grounding.world import World
+
+READINGS: Final = 8  # looked at, at most
+DEAF: Final = 1.0  # cost of an act of which the main word is unknown
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One act of a reading, grounded as far as it could be."""
+
+    act: GroundedAct
+    complete: Act  # as read, a fragment completed
+    notes: Notes
+    context: Context  # in which it was grounded
+    failure: Failure | None = None
+
+    @property
+    def answerable(self) -> bool:
+        """Whether it can be answered, be it about a vehicle that was described wrongly."""
+        if self.notes.unclear:
+            return False
+        failure = self.failure
+        return failure is None or (
+            isinstance(failure, NoSuchVehicle) and failure.misdescribed is not None
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """A reading, grounded."""
+
+    reading: Reading
+    parts: tuple[Part, ...]
+    cost: float
+
+    @property
+    def acts(self) -> tuple[Act, ...]:
+        """The acts as grounded."""
+        return tuple(part.act.act for part in self.parts)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every word was understood, and all that is taken for granted is so."""
+        return not self.reading.unknown and all(
+            part.answerable and part.notes.presupposed for part in self.parts
+        )
+
+
+def ground(readings: tuple[Reading, ...], world: World, discourse: Discourse) -> Grounding:
+    """Choose among readings by words and world, and ground the acts of the one chosen."""
+    context = Context(world, discourse)
+    trials: list[Trial] = []
+    for reading in readings[:READINGS]:
+        best = min((trial.cost for trial in trials), default=None)
+        if best is not None and reading.cost > best + clarify.CLOSE:
+            continue
+        trials.append(_try(reading, context))
+    if not trials:
+        return Grounding(refusal=NotUnderstood())
+    trials.sort(key=lambda trial: trial.cost)
+    return _decided(trials, context)
+
+
+def _try(reading: Reading, context: Context) -> Trial:
+    judged = doubts.judge(reading)
+    parts: list[Part] = []
+    cost = reading.cost
+    for index, spoken in enumerate(reading.acts):
+        fatal = judged.kills(index, len(reading.acts))
+        part = _part(spoken, context, fatal, judged.leaves(index, len(reading.acts)), reading)
+        parts.append(part)
+        cost += part.notes.cost
+        context = context.within(after(context.discourse, part.act))
+    return Trial(reading, tuple(parts), cost)
+
+
+def _part(
+    spoken: Act,
+    context: Context,
+    fatal: tuple[str, ...],
+    left: tuple[str, ...],
+    reading: Reading,
+) -> Part:
+    g = TermGrounder(context)
+    complete = completed(spoken, g)
+    grounded = spoken if complete is None else ground_act(complete, g)
+    notes = g.notes
+    failure: Failure | None = notes.missing[0] if notes.missing else None
+    unknown = (*fatal, *notes.unknown)
+    if complete is None or (unknown and not isinstance(spoken, Beyond | Social)):
+        failure = NotUnderstood(words=(*unknown, *left), about=doubts.glosses(reading))
+        notes.cost += DEAF
+    done = GroundedAct(
+        act=grounded,
+        span=notes.span,
+        leaned=notes.leaned,
+        doubts=left,
+        presupposed=notes.presupposed,
+    )
+    return Part(done, complete or spoken, notes, context, failure)
+
+
+def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
+    best = trials[0]
+    if not best.parts:
+        words = best.reading.unknown
+        return Grounding(reading=best.reading, refusal=NotUnderstood(words=words))
+    asked = _unclear(best) or _torn(trials)
+    acts = tuple(part.act for part in best.parts if part.answerable)
+    failures = [part.failure for part in best.parts if part.failure is not None]
+    refusal = failures[0] if failures else None
+    if asked is None:
+        return Grounding(acts=acts, reading=best.reading, refusal=refusal)
+    found, pending = asked
+    if found.which.between == "meanings":
+        acts = tuple(a for a in acts if a.act not in found.offers)
+    return Grounding(
+        acts=acts,
+        clarify=found.which,
+        reading=best.reading,
+        refusal=refusal,
+        offers=found.offers,
+        offered_things=found.things,
+        pending=pending,
+    )
+
+
+def _unclear(trial: Trial) -> tuple[clarify.Clarification, Act] | None:
+    """Ask which vehicle is meant, in the first act where that stays open."""
+    for part in trial.parts:
+        if part.notes.unclear and part.failure is None:
+            unclear = part.notes.unclear[0]
+            offers = []
+            for number in unclear.options:
+                chosen = substitute(part.complete, unclear.thing, Vehicle(number))
+                offers.append(ground_act(chosen, TermGrounder(part.context)))
+            if len({*clarify.essence(offers)}) < 2:
+                continue
+            return clarify.between_vehicles(unclear, offers, part.context), part.complete
+    return None
+
+
+def _torn(trials: Sequence[Trial]) -> tuple[clarify.Clarification, Act] | None:
+    """Ask which reading is meant, where two are complete, as good, and lead to other answers."""
+    best = trials[0]
+    for other in trials[1:]:
+        if other.cost - best.cost > clarify.LEVEL:
+            break
+        if not (best.complete and other.complete and clarify.apart(best.acts, other.acts)):
+            continue
+        found = clarify.between_meanings(best.acts, other.acts)
+        if found is not None:
+            return found, found.offers[0]
+    return None

@@ -1,0 +1,57 @@
+"""Kin: actions that one may stand for when people speak of what happened."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Event, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.grounding.context import Context
+
+_SLOWING: Final[tuple[ActionName, ...]] = ("brake", "slow-down")
+_HALTING: Final[tuple[ActionName, ...]] = ("stand", "stop", "wait", "give-way")
+_SHIFTING: Final[tuple[ActionName, ...]] = ("change-lane", "change-left", "change-right")
+
+#: What somebody may have done who is said to have done the first, nearest first.
+KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
+    "stop": ("stand", "wait", "give-way", *_SLOWING),
+    "stand": ("stop", "wait", *_SLOWING),
+    "wait": ("give-way", "let-go", "stand", "stop", *_SLOWING),
+    "give-way": ("let-go", "wait", "stop", "stand", *_SLOWING),
+    "let-go": ("give-way", "wait", *_SLOWING),
+    "brake": ("slow-down", "stop", "give-way"),
+    "slow-down": ("brake", "stop", "give-way"),
+    "swerve": (*_SHIFTING, "avoid"),
+    "avoid": ("swerve", "give-way", *_SLOWING),
+    "overtake": ("pass", *_SHIFTING),
+    "pass": ("overtake",),
+    "merge": ("change-lane", "enter", "cut-in"),
+    "cut-in": ("merge", "change-lane", "pull-out"),
+    "pull-out": ("enter", "cut-in", "go", *_SHIFTING),
+    "change-lane": ("merge", "overtake"),
+    "leave": ("exit-left", "exit-right", "exit-straight", "turn"),
+    "enter": ("merge", "turn", "go"),
+    "go": ("speed-up", "enter"),
+    "move": ("go", "continue"),
+    "cross": ("pass", "continue", "exit-straight"),
+    "turn": ("leave",),
+    "appear": ("approach", "come"),
+    "come": ("approach", "appear"),
+    "block": ("stand",),
+}
+
+
+def like(context: Context, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
+    """Find the episodes that people may call so, though they are another action.
+
+    Those of the nearest action that there is; its object is left out where there is none with it.
+    """
+    for action in KIN.get(event.action, ()):
+        kin = replace(event, action=action)
+        found = context.holds(kin, begin, end)
+        if found:
+            return found
+    if event.object is not None and not isinstance(event.actor, Vehicle):
+        return context.holds(replace(event, object=None), begin, end)
+    return ()

@@ -1,0 +1,98 @@
+"""Salience: how present the things that were spoken of are."""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Mention
+from xavi_dialogue.domain.meaning import Ask, Claim
+from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Vehicles
+from xavi_dialogue.nlu.grounding.rewriting import parts
+
+DECAY: Final = 0.6  # of salience with each turn
+FADED: Final = 0.05  # below which a thing is no longer spoken of
+ROLES: Final = {"subject": 1.0, "cause": 0.95, "object": 0.85, "other": 0.7}
+
+
+def salience(role: str | None) -> float:
+    """Weigh a thing by the part that it has in what was just said."""
+    return ROLES.get(role or "other", ROLES["other"])
+
+
+def mention(thing: Thing, turn: int, role: str | None, by_car: bool = False) -> Mention:
+    """Make the mention of a thing in this turn."""
+    return Mention(thing=thing, turn=turn, by_car=by_car, salience=salience(role), role=role)
+
+
+def ordered(mentions: Iterable[Mention]) -> tuple[Mention, ...]:
+    """Sort mentions: most salient first, of equals the later one, then by role."""
+    return tuple(sorted(mentions, key=lambda m: (-m.salience, -m.turn, -salience(m.role))))
+
+
+def decayed(mentions: Iterable[Mention]) -> tuple[Mention, ...]:
+    """Let mentions fade by one turn, and drop what has faded away."""
+    later = (replace(m, salience=m.salience * DECAY) for m in mentions)
+    return ordered(m for m in later if m.salience >= FADED)
+
+
+def renewed(mentions: Sequence[Mention], new: Iterable[Mention]) -> tuple[Mention, ...]:
+    """Add mentions; each thing is kept once, as salient as it ever was among them."""
+    found: dict[Thing, Mention] = {}
+    for one in (*mentions, *new):
+        known = found.get(one.thing)
+        if known is None or one.salience >= known.salience:
+            found[one.thing] = one
+    return ordered(found.values())
+
+
+def mentions_of(act: object, turn: int, by_car: bool = False) -> tuple[Mention, ...]:
+    """List the vehicles in a grounded act or answer by the part that they have in it."""
+    roles: dict[Thing, str] = {}
+    for event in parts(act, Event):
+        if isinstance(event.actor, Vehicle | Vehicles):
+            roles.setdefault(event.actor, "subject")
+        if isinstance(event.object, Vehicle | Vehicles):
+            roles.setdefault(event.object, "object")
+    for one in parts(act, Vehicle):
+        roles.setdefault(one, "subject")
+    for several in parts(act, Vehicles):
+        roles.setdefault(several, "subject")
+    return tuple(mention(thing, turn, role, by_car) for thing, role in roles.items())
+
+
+def vehicles_of(mentions: Iterable[Mention]) -> tuple[tuple[int, float], ...]:
+    """List the vehicles spoken of with their salience; those of a group have less of it."""
+    found: dict[int, float] = {}
+    for one in mentions:
+        if isinstance(one.thing, Vehicle):
+            found[one.thing.number] = max(found.get(one.thing.number, 0.0), one.salience)
+        elif isinstance(one.thing, Vehicles):
+            for number in one.thing.numbers:
+                found.setdefault(number, 0.8 * one.salience)
+    return tuple(sorted(found.items(), key=lambda pair: -pair[1]))
+
+
+def group(mentions: Iterable[Mention]) -> tuple[int, ...]:
+    """Give the group of vehicles that was spoken of last, if any."""
+    groups = (m.thing for m in mentions if isinstance(m.thing, Vehicles))
+    return next((g.numbers for g in groups if len(g.numbers) > 1), ())
+
+
+def after(discourse: Discourse, done: GroundedAct) -> Discourse:
+    """Give the discourse within a turn after one of its acts, for the acts that follow it."""
+    new = mentions_of(done.act, discourse.turn)
+    found = replace(discourse, mentions=renewed(discourse.mentions, new))
+    if done.span is not None and not done.span.ahead and done.span.end - done.span.begin < 60.0:
+        found = replace(found, episode=(done.span.begin, done.span.end))
+    match done.act:
+        case Ask(question=question):
+            return replace(found, question=question)
+        case Claim(that=that):
+            return replace(found, propositions=(that, *found.propositions))
+    return found
+
+
+def is_spoken_of(discourse: Discourse, thing: Thing) -> bool:
+    """Tell whether a thing was mentioned lately."""
+    return isinstance(thing, Ego) or any(m.thing == thing for m in discourse.mentions)

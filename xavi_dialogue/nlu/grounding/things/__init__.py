@@ -1,0 +1,1 @@
+"""Things: descriptions, pronouns and places, resolved against the world."""

@@ -1,0 +1,249 @@
+"""Descriptions: the vehicle or vehicles that fit what is said of them.
+
+Each constraint that a vehicle does not meet has its cost; who meets them all beats a near miss.
+Those in view at the time spoken of come first, then those in view now, seen lately, seen ever.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import NoSuchVehicle
+from xavi_dialogue.domain.facts import Episode, Look
+from xavi_dialogue.domain.terms import Described, Nobody, Thing, Vehicle, Vehicles
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
+from xavi_dialogue.nlu.grounding.things import looks, scene
+from xavi_dialogue.nlu.grounding.things.choosing import choose, several
+from xavi_dialogue.nlu.grounding.things.match import Match
+from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
+from xavi_dialogue.nlu.grounding.things.such import Condition, condition_of
+
+ACCEPT: Final = 0.55  # cost up to which a description fits
+GOOD: Final = 0.3  # cost, with all that speaks against it, up to which nobody else is looked for
+MISFIT: Final = 0.35  # cost of not having done what the sentence says
+RECENT: Final = 10.0  # [s] for which somebody who is gone is still spoken of
+MISSING: Final = 0.8  # cost of a reading that speaks of somebody who is not there
+MISDESCRIBED: Final = 0.4  # cost of a reading that describes somebody wrongly
+BLANK: Final = 0.4  # cost of a description that says nothing: rather a word of it was missed
+STAGES: Final = (0.0, 0.05, 0.1, 0.2)
+KNOWN: Final = 3  # vehicles offered where none fits
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """What is looked for, and when."""
+
+    described: Described
+    grounder: Grounder
+    moment: float  # [s]
+    clause: Clause | None
+    fits: Fits | None
+    reference: Thing | None  # from which the bearing is seen; None: from us
+    condition: Condition | None = None
+
+    @property
+    def present_only(self) -> bool:
+        """Whether nothing is said that could be true of somebody who is not in view."""
+        return self.clause is None and self.condition is None and self.fits is None
+
+    def match(self, vehicle: int, stage: float) -> Match | None:
+        """Weigh a vehicle; None where it was never seen."""
+        context, wanted = self.grounder.context, self.described
+        look = context.look(vehicle, self.moment) or context.look(vehicle, context.now)
+        if look is None:
+            return None
+        misses: dict[str, float] = {
+            "kind": looks.kind_cost(wanted.kind, look),
+            "colour": looks.colour_cost(wanted.colour, look),
+            "size": looks.size_cost(wanted.size, look),
+        }
+        if sum(misses.values()) > 2.0 * ACCEPT:
+            return Match(vehicle, look, misses, stage)
+        done = None if self.clause is None else self.clause.episode(vehicle)
+        if self.clause is not None:
+            misses["doing"] = 1.0 if done is None else self.clause.cost(vehicle)
+        if self.condition is not None:
+            misses["such"] = self.condition.cost(vehicle)
+        deed = None if self.fits is None else self.fits(vehicle)
+        misses["bearing"] = self._bearing(vehicle, look, deed or done)
+        if wanted.origin is not None:
+            misses["origin"] = looks.origin_cost(wanted.origin, self._earlier(vehicle))
+        against = stage + (MISFIT if self.fits is not None and deed is None else 0.0)
+        return Match(vehicle, look, misses, against, done, deed)
+
+    def _bearing(self, vehicle: int, look: Look, deed: Episode | None) -> float:
+        bearing = self.described.bearing
+        if bearing is None:
+            return 0.0
+        context = self.grounder.context
+        if self.reference is not None:
+            return _seen_from(self, vehicle)
+        found = [looks.bearing_cost(bearing, look)]
+        if not look.in_view:
+            found[0] = max(found[0], 0.4)
+        for time in (context.now, *(() if deed is None else (deed.begin, deed.end))):
+            then = None if time is None or time == look.time else context.look(vehicle, time)
+            if then is not None and then.in_view:
+                found.append(0.05 + looks.bearing_cost(bearing, then))
+        best = min(found)
+        restricted = self.described.colour is not None or self.described.kind not in _ANY
+        return 0.5 * best if restricted and best > ACCEPT else best
+
+    def _earlier(self, vehicle: int) -> tuple[Look, ...]:
+        context = self.grounder.context
+        times = [self.moment - back for back in (0.0, 2.0, 4.0, 8.0, 12.0)]
+        found = (context.look(vehicle, t) for t in times if t >= context.begin)
+        return tuple(look for look in found if look is not None)
+
+
+_ANY: Final = ("vehicle", "car")
+
+
+def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) -> Thing:
+    """Resolve a description."""
+    if thing == Described():
+        g.notes.cost += BLANK
+    moment = min(window.end, g.context.now) if not window.ahead else g.context.now
+    clause = None if thing.doing is None else clause_of(thing.doing, g, window)
+    reference = None if thing.of is None else g.thing(thing.of, window)
+    if not isinstance(reference, Vehicle):
+        reference = None
+    such = None if thing.such is None else condition_of(thing.such, g, window, moment)
+    search = Search(thing, g, moment, clause, fits, reference, such)
+    found = _candidates(search)
+    good = [m for m in found if m.cost < ACCEPT]
+    if not thing.definite and not thing.plural and fits is not None:
+        good = [m for m in good if m.deed is not None]
+    if good:
+        return _resolved(search, good)
+    if not thing.definite:
+        return Nobody(described=thing)
+    return _near_miss(search, found)
+
+
+def _candidates(search: Search) -> list[Match]:
+    found: dict[int, Match] = {}
+    for stage, vehicles in _pools(search):
+        for vehicle in vehicles:
+            if vehicle not in found and (match := search.match(vehicle, stage)) is not None:
+                found[vehicle] = match
+        if any(m.total < GOOD for m in found.values()):
+            break
+    return sorted(found.values(), key=lambda m: (round(m.total, 3), m.vehicle))
+
+
+def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
+    context, moment = search.grounder.context, search.moment
+    yield STAGES[0], context.in_view(moment)
+    if moment < context.now - 0.5:
+        yield STAGES[1], context.in_view(context.now)
+    if not search.described.definite and search.present_only:
+        return
+    seen = [(v, context.look(v, moment)) for v in context.world.vehicles]
+    recent = [
+        v for v, look in seen
+        if look is not None and moment - (look.seen if look.seen is not None else moment) <= RECENT
+    ]  # fmt: skip
+    yield STAGES[2], tuple(recent)
+    yield STAGES[3], context.world.vehicles
+
+
+def _resolved(search: Search, good: list[Match]) -> Thing:
+    g, thing = search.grounder, search.described
+    others = [m for m in good if m.vehicle not in _spoken_of(search)] if thing.other else good
+    if not others:
+        return Nobody(described=thing) if not thing.definite else _missing(search, None)
+    if thing.plural or (thing.number or 1) > 1:
+        chosen = several(g.context, thing, others, search.moment)
+        return Vehicle(chosen[0]) if len(chosen) == 1 else Vehicles(chosen)
+    options = choose(g.context, thing, others, search.moment, search.reference)
+    chosen_match = next(m for m in others if m.vehicle == options[0])
+    g.notes.cost += chosen_match.cost
+    if len(options) > 1 and thing.definite:
+        g.notes.unclear.append(Unclear(thing, options, search.moment))
+    return Vehicle(options[0])
+
+
+def _spoken_of(search: Search) -> tuple[int, ...]:
+    """Give whom "the other one" is not: the vehicle, or the group, that is most salient."""
+    for mention in search.grounder.context.discourse.mentions:
+        if isinstance(mention.thing, Vehicle):
+            return (mention.thing.number,)
+    return ()
+
+
+def _near_miss(search: Search, found: list[Match]) -> Thing:
+    """Take the one vehicle of which a single word is wrong; else there is none."""
+    near = [m for m in found if m.wrong in (("colour",), ("kind",)) and m.stage < STAGES[3]]
+    near.sort(key=_unlikely)
+    best = [m for m in near if _unlikely(m) <= _unlikely(near[0]) + 0.15]
+    if len(best) > 1 and search.fits is not None:
+        best = [m for m in best if m.deed is not None]
+    if len(best) != 1 or not _telling(search, best[0], found):
+        return _missing(search, None)
+    return _missing(search, best[0])
+
+
+def _unlikely(match: Match) -> float:
+    """Weigh a wrong word: who speaks of a lorry rather mistakes its colour than its kind."""
+    return match.total + (0.3 if "kind" in match.wrong else 0.0)
+
+
+def _telling(search: Search, match: Match, found: list[Match]) -> bool:
+    """Tell whether what is right of a description is enough to tell whom it means."""
+    thing = search.described
+    told: list[object] = [
+        thing.size,
+        thing.bearing,
+        thing.origin,
+        thing.doing,
+        thing.extreme,
+        thing.rank,
+    ]
+    if "kind" not in match.wrong and thing.kind not in _ANY:
+        told.append("kind")
+    if "colour" not in match.wrong:
+        told.append(thing.colour)
+    visible = [m for m in found if m.look.in_view]
+    alone = len(visible) == 1 and match in visible
+    return any(part is not None for part in told) or alone
+
+
+def _missing(search: Search, match: Match | None) -> Thing:
+    g = search.grounder
+    near = scene.nearest(g.context, g.context.in_view(search.moment), search.moment)
+    g.notes.missing.append(
+        NoSuchVehicle(
+            thing=search.described,
+            time=search.moment,
+            known=near[:KNOWN],
+            misdescribed=None if match is None else match.look,
+        )
+    )
+    g.notes.cost += MISSING if match is None else MISDESCRIBED
+    return search.described if match is None else Vehicle(match.vehicle)
+
+
+_FROM: Final[dict[str, str]] = {
+    "ahead": "ahead-of", "behind": "behind", "left": "left-of", "right": "right-of",
+    "beside": "beside", "beside-left": "left-of", "beside-right": "right-of", "here": "near",
+}  # fmt: skip
+
+
+def _seen_from(search: Search, vehicle: int) -> float:
+    """Weigh where a vehicle is, seen from another one."""
+    context, of = search.grounder.context, search.reference
+    if not isinstance(of, Vehicle) or of.number == vehicle:
+        return 1.0
+    mine, theirs = (context.look(n, search.moment) for n in (vehicle, of.number))
+    if mine is None or theirs is None:
+        return 1.0
+    relation = _FROM.get(search.described.bearing or "", "near")
+    held = context.world.relation(relation, Vehicle(vehicle), of, search.moment)  # type: ignore[arg-type]
+    if held is not None:
+        return 0.0 if held else 1.0
+    moved = replace(mine, bearing="around", ahead=mine.ahead - theirs.ahead,
+                    left=mine.left - theirs.left, oncoming=False)  # fmt: skip
+    return looks.bearing_cost(search.described.bearing, moved)

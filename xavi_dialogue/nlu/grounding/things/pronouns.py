@@ -1,0 +1,70 @@
+"""Pronouns: "it", "he", "they", "that one", by what was spoken of, else by the scene."""
+
+from typing import Final
+
+from xavi_dialogue.domain.answers import NoSuchVehicle
+from xavi_dialogue.domain.terms import Everyone, Pronoun, Thing, Vehicle, Vehicles
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
+from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
+from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
+from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
+
+LOST: Final = 0.1  # salience below which a pronoun does not reach back
+MISFIT: Final = 0.45  # share of its salience that is left to who did not do what is said
+LEVEL: Final = 0.98  # ratio of two saliences that do not differ
+FROM_SCENE: Final = 0.1  # cost of a pronoun for which only the scene has a vehicle
+
+
+def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> Thing:
+    """Resolve a pronoun that stands for vehicles."""
+    mentions = g.context.discourse.mentions
+    together = group(mentions)
+    if thing.form == "them-all":
+        return Vehicles(together) if together else Everyone()
+    if thing.form == "they" and together and _group_leads(g):
+        return Vehicles(together)
+    weighed = _weighed(g, fits)
+    moment = g.context.now if window.ahead else min(window.end, g.context.now)
+    if weighed:
+        return _salient(thing, g, weighed, moment)
+    found = interacting(g.context, moment, fits)
+    if found is None:
+        found = interacting(g.context, g.context.now, fits)
+    if found is None:
+        g.notes.missing.append(NoSuchVehicle(thing=thing, time=moment))
+        g.notes.cost += MISSING
+        return thing
+    g.notes.cost += FROM_SCENE
+    return Vehicle(found)
+
+
+def _group_leads(g: Grounder) -> bool:
+    """Tell whether a group was spoken of at least as clearly as any single vehicle."""
+    for mention in g.context.discourse.mentions:
+        if isinstance(mention.thing, Vehicles) and len(mention.thing.numbers) > 1:
+            return True
+        if isinstance(mention.thing, Vehicle) and mention.salience > 0.9:
+            return False
+    return False
+
+
+def _weighed(g: Grounder, fits: Fits | None) -> list[tuple[float, int]]:
+    known = set(g.context.world.vehicles)
+    found = []
+    for vehicle, salience in vehicles_of(g.context.discourse.mentions):
+        if vehicle not in known or salience < LOST:
+            continue
+        share = MISFIT if fits is not None and fits(vehicle) is None else 1.0
+        found.append((salience * share, vehicle))
+    return sorted(found, key=lambda pair: (-pair[0], pair[1]))
+
+
+def _salient(thing: Pronoun, g: Grounder, weighed: list[tuple[float, int]], moment: float) -> Thing:
+    best = weighed[0][0]
+    level = [vehicle for salience, vehicle in weighed if salience >= LEVEL * best]
+    if len(level) == 1:
+        return Vehicle(level[0])
+    order, clear = most_prominent(g.context, level, moment)
+    if not clear:
+        g.notes.unclear.append(Unclear(thing, order[:4], moment))
+    return Vehicle(order[0])

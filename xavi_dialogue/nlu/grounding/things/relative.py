@@ -1,0 +1,99 @@
+"""Relative clauses: vehicles told by what they did: "that cut in", "the one we waited for"."""
+
+from dataclasses import dataclass, field
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Described, Ego, Event, Pronoun, Thing, Vehicle, Wanted
+from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
+from xavi_dialogue.nlu.grounding.kin import like
+
+JUST_NOW: Final = 1.5  # [s] for which what is under way counts as still going on
+KIN_COST: Final = 0.3
+_GAP: Final = -1  # number that stands for the vehicle looked for
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """A relative clause, its gap not filled."""
+
+    context: Context
+    event: Event  # with Vehicle(_GAP) where the vehicle belongs
+    begin: float  # [s]
+    end: float  # [s]
+    found: dict[int, tuple[Episode | None, float]] = field(default_factory=dict)
+
+    def episode(self, vehicle: int) -> Episode | None:
+        """Find the last time that a vehicle did so."""
+        return self._search(vehicle)[0]
+
+    def cost(self, vehicle: int) -> float:
+        """Weigh how well what it did is what was said."""
+        return self._search(vehicle)[1]
+
+    def _search(self, vehicle: int) -> tuple[Episode | None, float]:
+        if vehicle not in self.found:
+            filled = fill(self.event, vehicle)
+            exact = self.context.holds(filled, self.begin, self.end)
+            near = exact or like(self.context, filled, self.begin, self.end)
+            near = tuple(e for e in near if _concerns(e, vehicle))
+            cost = 0.0 if exact else KIN_COST if near else 1.0
+            self.found[vehicle] = (near[-1] if near else None, cost)
+        return self.found[vehicle]
+
+
+def _concerns(episode: Episode, vehicle: int) -> bool:
+    return Vehicle(vehicle) in (episode.actor, episode.object)
+
+
+def fill(event: Event, vehicle: int) -> Event:
+    """Put a vehicle where the clause has its gap."""
+    gap, filler = Vehicle(_GAP), Vehicle(vehicle)
+    return replace(
+        event,
+        actor=filler if event.actor == gap else event.actor,
+        object=filler if event.object == gap else event.object,
+    )
+
+
+def clause_of(event: Event, g: Grounder, window: Window) -> Clause:
+    """Ground a relative clause but for its gap."""
+    gap: Thing = Vehicle(_GAP)
+    actor, target = event.actor, event.object
+    if _is_gap(actor):
+        actor = gap
+    elif _is_gap(target) or (isinstance(actor, Ego) and target is None and event.action in _OF_US):
+        target = gap
+    else:
+        actor = gap
+    actor = actor if actor == gap else g.thing(actor, window)
+    target = target if target is None or target == gap else g.thing(target, window)
+    begin, end = _when(event, g, window)
+    return Clause(g.context, replace(event, actor=actor, object=target), begin, end)
+
+
+#: What "we" do to the vehicle meant where the clause names no actor but us: "the one we passed".
+_OF_US: Final = frozenset(("wait", "give-way", "let-go", "follow", "overtake", "avoid", "see"))
+
+
+def _is_gap(thing: Thing | None) -> bool:
+    match thing:
+        case Wanted() | Pronoun(form="who"):
+            return True
+        case Described(definite=False, doing=None, colour=None, kind="vehicle"):
+            return True
+    return False
+
+
+def _when(event: Event, g: Grounder, window: Window) -> tuple[float, float]:
+    inner = g.window(event.time, event.tense)
+    if inner.said:
+        return inner.search
+    moment = min(window.end, g.context.now)
+    if event.tense == "present":
+        return moment - JUST_NOW, moment
+    if event.tense == "future":
+        return moment, g.context.now
+    return g.context.begin, g.context.now

@@ -1,0 +1,62 @@
+"""Resolve: one thing as spoken to one thing as grounded, by its sort."""
+
+from typing import Final
+
+from xavi_dialogue.domain.answers import NoSuchVehicle
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Junction,
+    Lane,
+    Passenger,
+    Pronoun,
+    Thing,
+    Unknown,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Window
+from xavi_dialogue.nlu.grounding.things import places
+from xavi_dialogue.nlu.grounding.things.descriptions import KNOWN, MISSING, described
+from xavi_dialogue.nlu.grounding.things.pronouns import pronoun
+from xavi_dialogue.nlu.grounding.things.scene import nearest
+
+UNKNOWN: Final = 1.5  # cost of a reading that speaks of what has no sense here
+
+
+def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None) -> Thing:
+    """Ground a thing; what cannot be found is noted, and stays as it was."""
+    match thing:
+        case Passenger():
+            return Ego()
+        case Vehicle(number=0):
+            return Ego()
+        case Vehicle() | Vehicles():
+            return _numbered(thing, g, window)
+        case Described():
+            return described(thing, g, window, fits)
+        case Pronoun(form="who"):
+            return Wanted()
+        case Pronoun():
+            return pronoun(thing, g, window, fits)
+        case Junction():
+            return places.junction(thing, g, window)
+        case Lane():
+            return places.lane(thing, g, window)
+        case Unknown(words=words):
+            g.notes.unknown.append(words)
+            g.notes.cost += UNKNOWN
+    return thing
+
+
+def _numbered(thing: Vehicle | Vehicles, g: Grounder, window: Window) -> Thing:
+    numbers = (thing.number,) if isinstance(thing, Vehicle) else thing.numbers
+    absent = [n for n in numbers if n not in g.context.world.vehicles]
+    if not absent:
+        return thing
+    moment = min(window.end, g.context.now)
+    near = nearest(g.context, g.context.in_view(g.context.now), g.context.now)
+    g.notes.missing.append(NoSuchVehicle(thing=Vehicle(absent[0]), time=moment, known=near[:KNOWN]))
+    g.notes.cost += MISSING
+    return thing

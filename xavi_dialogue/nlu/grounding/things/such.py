@@ -1,0 +1,120 @@
+"""Such: vehicles told by what holds of them: "that you cannot see", "that is faster than us"."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from xavi_dialogue.domain.terms import (
+    Both,
+    Compares,
+    Event,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Not,
+    Pronoun,
+    Proposition,
+    Related,
+    Thing,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder, Window
+from xavi_dialogue.nlu.grounding.rewriting import rewrite, substitute
+from xavi_dialogue.nlu.grounding.things import looks
+
+STANDING: Final = 0.5  # [m/s]
+LATELY: Final = 3.0  # [s] in which something counts as being done
+UNTOLD: Final = 0.4  # cost where it cannot be told
+GAP: Final = Vehicle(-1)
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """What is to hold of the vehicle looked for; `GAP` stands for it."""
+
+    grounder: Grounder
+    proposition: Proposition
+    moment: float  # [s]
+
+    def cost(self, vehicle: int) -> float:
+        """Weigh whether it holds of a vehicle."""
+        held = self._holds(substitute(self.proposition, GAP, Vehicle(vehicle)))
+        return UNTOLD if held is None else 0.0 if held else 1.0
+
+    def _holds(self, proposition: Proposition) -> bool | None:
+        context, at = self.grounder.context, self.moment
+        match proposition:
+            case Not(content=content):
+                held = self._holds(content)
+                return None if held is None else not held
+            case Both(contents=contents, join=join):
+                each = [self._holds(one) for one in contents]
+                decided = join == "or"
+                if decided in each:
+                    return decided
+                return None if None in each else not decided
+            case Related(relation=relation, thing=thing, to=to):
+                return context.world.relation(relation, thing, to, at)
+            case Happens(event=event):
+                return bool(context.holds(event, *self._interval(event)))
+            case Is(state=state, thing=Vehicle(number=number)):
+                return self._is(state, number)
+            case Has(attribute="colour" | "kind" as attribute, thing=Vehicle(number=number)):
+                look = context.look(number, at)
+                seen = None if look is None else getattr(look, attribute)
+                return None if seen is None else bool(seen == proposition.value)
+            case Exists(thing=Vehicle(number=number)):
+                return number in context.in_view(at)
+            case Compares(left=left, comparator="more" | "less" as comparator, right=right):
+                return self._faster(left, right, comparator)
+        return None
+
+    def _interval(self, event: Event) -> tuple[float, float]:
+        if event.tense == "present":
+            return self.moment - LATELY, self.moment
+        return self.grounder.context.begin, self.grounder.context.now
+
+    def _is(self, state: str, number: int) -> bool | None:
+        look = self.grounder.context.look(number, self.moment)
+        if look is None:
+            return None
+        match state:
+            case "stationary":
+                return look.speed < STANDING
+            case "moving":
+                return look.speed >= STANDING
+            case "visible" | "present":
+                return look.in_view
+            case "hidden" | "lost":
+                return not look.in_view
+            case "big":
+                return looks.size_cost("big", look) < UNTOLD
+            case "close":
+                return look.distance < looks.HERE
+            case "far":
+                return look.distance > looks.FAR
+        return None
+
+    def _faster(self, left: object, right: object, comparator: str) -> bool | None:
+        things = [getattr(one, "thing", None) for one in (left, right)]
+        if getattr(left, "attribute", "") != "speed" or None in things:
+            return None
+        relation = "faster-than" if comparator == "more" else "slower-than"
+        world = self.grounder.context.world
+        return world.relation(relation, things[0], things[1], self.moment)  # type: ignore[arg-type]
+
+
+def condition_of(such: Proposition, g: Grounder, window: Window, moment: float) -> Condition:
+    """Ground the things of a condition but for its gap."""
+
+    def change(part: object) -> object:
+        if isinstance(part, Wanted | Pronoun):
+            is_gap = isinstance(part, Wanted) or part.form == "who"
+            return GAP if is_gap else g.thing(part, window)
+        return g.thing(part, window) if isinstance(part, _THINGS) else part
+
+    return Condition(g, rewrite(such, change), moment)
+
+
+_THINGS: Final = Thing.__args__

@@ -1,0 +1,6 @@
+"""Projection: meanings onto the flat query fields by which annotated texts are scored."""
+
+from xavi_dialogue.nlu.projection.fields import QueryFields
+from xavi_dialogue.nlu.projection.follow_ups import project
+
+__all__ = ["QueryFields", "project"]

@@ -1,0 +1,187 @@
+"""Lattice: the words that a text may consist of, between numbered nodes.
+
+A token may have been meant as several words, and as several different ones; each alternative is
+a path from the node before the token to the node behind it, at a cost.
+"""
+
+import re
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from xavi_dialogue.nlu.text.spelling import Vocabulary, corrections
+from xavi_dialogue.nlu.text.tables import load
+from xavi_dialogue.nlu.text.tokens import Typed
+
+HOMOPHONE = 0.6
+PHONE = 0.15
+LATER = 0.1  # cost of each further expansion of a contraction
+PLURAL_GENITIVE = 0.45  # "the blue cars fault"
+_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_CLOCK = re.compile(r"\d{1,3}:\d{2}")
+_SUFFIXES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("n't", ("not",)),
+    ("'re", ("are",)),
+    ("'ve", ("have",)),
+    ("'ll", ("will",)),
+    ("'m", ("am",)),
+    ("'s", ("is", "'s", "has")),
+    ("'d", ("had", "would", "did")),
+)
+_DID_HEADS = frozenset({"why", "how", "where", "what", "when"})
+
+_EXITS = frozenset({"out", "exit", "off", "ramp"})
+_DRAWN = re.compile(r"([a-z])\1\1+")
+
+Alternative = tuple[tuple[str, ...], float]
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A word that may stand between two nodes."""
+
+    end: int
+    word: str
+    cost: float
+    token: int
+
+
+@dataclass(slots=True)
+class Lattice:
+    """Word edges by the node where they start; `marks` are clause marks by node."""
+
+    edges: list[list[Edge]] = field(default_factory=list)
+    marks: dict[int, str] = field(default_factory=dict)  # node before the mark -> "," "." "?"
+    tokens: tuple[str, ...] = ()
+    end_mark: str = ""
+
+    @property
+    def size(self) -> int:
+        """The number of the last node."""
+        return len(self.edges) - 1
+
+
+def build(typed: Typed, vocabulary: Vocabulary, nouns: frozenset[str]) -> Lattice:
+    """Lay out the alternatives of every token."""
+    lattice = Lattice(edges=[[]], tokens=tuple(t.text for t in typed.tokens), end_mark=typed.end)
+    for index, token in enumerate(typed.tokens):
+        if token.mark and index:
+            lattice.marks[len(lattice.edges) - 1] = token.mark
+            lattice.edges.append([])
+        start = len(lattice.edges) - 1
+        found = alternatives(token.text, vocabulary, nouns)
+        longest = max(len(words) for words, _ in found)
+        lattice.edges.extend([] for _ in range(longest))
+        for words, cost in found:
+            _lay(lattice, start, start + longest, words, cost, index)
+    return lattice
+
+
+def _lay(
+    lattice: Lattice, start: int, end: int, words: tuple[str, ...], cost: float, index: int
+) -> None:
+    for step, word in enumerate(words):
+        last = step == len(words) - 1
+        target = end if last else start + step + 1
+        edges = lattice.edges[start + step]
+        edge = Edge(target, word, cost if step == 0 else 0.0, index)
+        if not any(e.end == target and e.word == word and e.cost <= edge.cost for e in edges):
+            edges.append(edge)
+
+
+@lru_cache(maxsize=8192)
+def alternatives(
+    token: str, vocabulary: Vocabulary, nouns: frozenset[str]
+) -> tuple[Alternative, ...]:
+    """List the word rows that a token may have been meant as; never empty."""
+    if _NUMBER.fullmatch(token) or _CLOCK.fullmatch(token):
+        plain: list[Alternative] = [((token,), 0.0)]
+        return tuple(plain + _sounding(token))
+    known = vocabulary.words
+    if "_" in token:
+        return (((_named(token, vocabulary),), 0.0),)
+    token = _drawn_out(token, vocabulary)
+    found: list[Alternative] = []
+    found += _listed("contractions", token, 0.0)
+    found += _listed("phone", token, PHONE)
+    if token in known:
+        found.append(((token,), 0.0))
+        found += _sounding(token)
+    elif "'" in token:
+        found += _contracted(token, vocabulary, nouns)
+    elif "-" in token:
+        found += _hyphened(token, vocabulary)
+    if token.endswith("ies") and token[:-3] + "y" in nouns:
+        found.append(((token[:-3] + "y", "'s"), PLURAL_GENITIVE))
+    if token.endswith("s") and token[:-1] in nouns:
+        found.append(((token[:-1], "'s"), PLURAL_GENITIVE))
+    if not found:
+        found = [(words, PHONE) for words, _ in _sounding(token)]
+    if not found:
+        found = list(corrections(token, vocabulary))
+        found += [entry for words, _ in found[:1] for entry in _sounding(words[0])]
+    if not any(words == (token,) for words, _ in found):
+        found.append(((token,), 0.0 if token not in known else HOMOPHONE))
+    return tuple(found)
+
+
+def _named(token: str, vocabulary: Vocabulary) -> str:
+    """Read the name of an edge of the map, "south_out", as the exit or road that it is."""
+    parts = token.split("_")
+    if any(part in _EXITS for part in parts):
+        return "exit"
+    return next((part for part in parts if vocabulary.words.get(part) == 0), token)
+
+
+def _drawn_out(token: str, vocabulary: Vocabulary) -> str:
+    """Write a letter once or twice that was typed more often: "sooo", "heyyy"."""
+    if token in vocabulary.words or _DRAWN.search(token) is None:
+        return token
+    shorter = (_DRAWN.sub(r"\1\1", token), _DRAWN.sub(r"\1", token))
+    return next((word for word in shorter if word in vocabulary.words), token)
+
+
+def _listed(table: str, token: str, cost: float) -> list[Alternative]:
+    listed = load("nlu_text.toml")[table].get(token)
+    if listed is None:
+        return []
+    return [
+        (tuple(full.split()), cost + LATER * rank) for rank, full in enumerate(listed.split("|"))
+    ]
+
+
+def _sounding(token: str) -> list[Alternative]:
+    return _listed("homophones", token, HOMOPHONE)
+
+
+def _contracted(token: str, vocabulary: Vocabulary, nouns: frozenset[str]) -> list[Alternative]:
+    for suffix, full in _SUFFIXES:
+        if not token.endswith(suffix) or len(token) == len(suffix):
+            continue
+        head = token.removesuffix(suffix)
+        if suffix == "'d" and head in _DID_HEADS:
+            full = ("did", "would", "had")
+        heads = alternatives(head, vocabulary, nouns)[:2]
+        return [
+            ((*words, short), cost + LATER * rank)
+            for words, cost in heads
+            for rank, short in enumerate(full)
+        ]
+    joined = token.replace("'", "")
+    if joined in vocabulary.words:
+        return [((joined,), 0.0)]
+    listed = _listed("contractions", joined, 0.0)
+    return listed or [(tuple(part for part in token.split("'") if part) or (token,), 0.3)]
+
+
+def _hyphened(token: str, vocabulary: Vocabulary) -> list[Alternative]:
+    parts = tuple(part for part in token.split("-") if part)
+    joined = "".join(parts)
+    if joined in vocabulary.words:
+        return [((joined,), 0.0), (parts, 0.05)]
+    words: list[str] = []
+    for part in parts:
+        if part in vocabulary.words or not (near := corrections(part, vocabulary)):
+            words.append(part)
+        else:
+            words.extend(near[0][0])
+    return [(tuple(words) or (token,), 0.0)]

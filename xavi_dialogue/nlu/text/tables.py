@@ -1,0 +1,17 @@
+"""Tables: the data files of the language side, read once from the package `grammars`."""
+
+import tomllib
+from functools import cache
+from importlib import resources
+from typing import Any
+
+
+@cache
+def load(name: str) -> dict[str, Any]:
+    """Read one TOML file of the package `grammars`."""
+    return tomllib.loads(resources.files("grammars").joinpath(name).read_text(encoding="utf-8"))
+
+
+def phrases(listed: str) -> list[tuple[str, ...]]:
+    """Split "a b, c" into phrases, each a tuple of words."""
+    return [tuple(phrase.split()) for phrase in listed.split(",") if phrase.strip()]
