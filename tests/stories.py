@@ -164,7 +164,7 @@ def crash(time: float) -> Moment:
 def decisions() -> dict[str, tuple[Moment, tuple[int, ...]]]:
     """The decisions by name, with the vehicles without which they are planned again."""
     return {
-        "squeezed": (squeezed(10.0), (2,)),
+        "squeezed": (squeezed(10.0), (1, 2)),
         "even": (even(10.0), (1,)),
         "alone": (alone(10.0), ()),
     }
@@ -179,7 +179,9 @@ def rides() -> dict[str, RecordedRide]:
     gave = Event("gave-way", 5.0, vehicle=1)
     return {
         "braking": ride_of(map(squeezed, every), (begun,), 10.0, {4.0: (2,), 6.0: (1,)}),
-        "lorry": ride_of(map(lorry, every), (begun,), 10.0, {4.0: (1,), 6.0: (1,)}),
+        "lorry": ride_of(
+            map(lorry, every), (begun,), 10.0, dict.fromkeys((4.0, 6.0, 8.0, 10.0), (1,))
+        ),
         "crash": ride_of(map(crash, (3.0, 5.0, 7.0)), (begun, over), 10.0),
         "waiting": ride_of(map(waiting, every), (turn, gave), 10.0, {4.0: (1,), 10.0: (1,)}),
         "nobody": ride_of(map(alone, every), (begun,), 10.0),

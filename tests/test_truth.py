@@ -9,12 +9,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import msgspec
 import pytest
 
 from planner.trace import PlanTrace, Rollout
 from sim import scenario
 from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
 from xavi_dialogue.app.ride import network_of, start
+from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
 
 pytestmark = pytest.mark.slow
@@ -37,6 +39,12 @@ class Asked:
         """The trace that the answer rests on."""
         assert self.reply.trace_id is not None
         return self.traces[self.reply.trace_id]
+
+    @property
+    def contrast(self) -> Contrastive | None:
+        """What the answer compares; None of a refusal."""
+        found = self.reply.explanation
+        return None if found is None else msgspec.convert(found, Contrastive)
 
 
 def ask(name: str, seed: int, text: str) -> Asked:
@@ -110,12 +118,18 @@ def chance(trace: PlanTrace, vehicle: int, actions: tuple[str, ...]) -> float:
     )
 
 
+def stated(asked: Asked) -> list[float]:
+    """How probable it is that the vehicles that an answer blames do as it says, from the trace."""
+    causes = () if asked.contrast is None else asked.contrast.causes
+    return [chance(asked.trace, cause.vehicle, cause.actions) for cause in causes]
+
+
 def test_lane_changes_are_explained_by_the_vehicle_that_cuts_in(lane_changes: list[Asked]) -> None:
     answers = [asked for asked in lane_changes if asked.reply.kind == "answer"]
     assert len(answers) >= 8
     for asked in answers:
         assert "vehicle 1" in asked.reply.text
-        assert re.search(r"\b(later|slower)\b", asked.reply.text)
+        assert re.search(r"\b(cost us|later|longer|slower)\b", asked.reply.text)
         assert " because " in asked.reply.text
     for asked in lane_changes:
         if asked.reply.kind != "answer":  # sound only if there was no lane change, and it says so
@@ -125,7 +139,7 @@ def test_lane_changes_are_explained_by_the_vehicle_that_cuts_in(lane_changes: li
 
 def test_the_stated_delay_is_that_of_the_rollouts(lane_changes: list[Asked]) -> None:
     for asked in lane_changes:
-        explanation = asked.reply.explanation
+        explanation = asked.contrast
         if explanation is None:
             continue
         (delay,) = (e for e in explanation.effects if e.component == "time")
@@ -145,17 +159,20 @@ def test_every_number_and_vehicle_stands_in_the_trace(lane_changes: list[Asked])
         named = {int(name) for name in re.findall(r"vehicle (\d+)", text)}
         assert named <= set(trace.scene)
         held = [speed for vehicle in named for speed in speeds(trace, vehicle)]
+        chances = [100.0 * p for p in stated(asked)]
         for value, unit in numbers(re.sub(r"vehicle \d+", "", text)):
             if unit == "km/h":
                 assert min(held) - 0.51 <= value <= max(held) + 0.51
-            elif unit != "%":
+            elif unit == "%":
+                assert any(abs(value - chance) <= 1.0 for chance in chances)
+            else:
                 assert unit.startswith("second")
 
 
 def test_causes_are_as_probable_as_predicted(lane_changes: list[Asked]) -> None:
     checked = 0
     for asked in lane_changes:
-        explanation = asked.reply.explanation
+        explanation = asked.contrast
         for cause in explanation.causes if explanation is not None else ():
             predicted = chance(asked.trace, cause.vehicle, cause.actions)
             assert cause.probability == pytest.approx(predicted, abs=0.02)
@@ -173,9 +190,9 @@ def test_going_straight_does_not_reach_the_goal(straight_on: list[Asked]) -> Non
     for asked in straight_on:
         reply = asked.reply
         assert reply.kind == "answer", reply.text
-        assert reply.explanation is not None
-        assert reply.explanation.outcome is not None
-        assert reply.explanation.outcome.name != "done"
+        assert asked.contrast is not None
+        assert asked.contrast.outcome is not None
+        assert asked.contrast.outcome.name != "done"
         assert "destination" in reply.text
         tried = starting_with(asked.trace, "exit-straight")
         assert tried

@@ -33,7 +33,9 @@ def ask(conversation: list[Line]) -> list[Line]:
     )
     replies = [json.loads(row) for row in done.stdout.splitlines() if row.startswith("{")]
     if len(replies) != len(conversation):
-        raise RuntimeError(f"{first['conversation']}: {len(replies)} replies\n{done.stderr[-2000:]}")
+        raise RuntimeError(
+            f"{first['conversation']}: {len(replies)} replies\n{done.stderr[-2000:]}"
+        )
     return [
         {**line, "answer": r["text"], "answer_kind": r["kind"], "answer_reason": r["reason"]}
         for line, r in zip(conversation, replies, strict=True)
@@ -53,7 +55,7 @@ def main(questions: Path, answers: Path) -> None:
             for line in ask(conversation):
                 out.write(json.dumps(line, ensure_ascii=False) + "\n")
             out.flush()
-            print(conversation[0]["conversation"], file=sys.stderr)
+            sys.stderr.write(conversation[0]["conversation"] + "\n")
 
 
 if __name__ == "__main__":

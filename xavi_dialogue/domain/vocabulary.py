@@ -22,6 +22,7 @@ ActionName: TypeAlias = Literal[
     "change-lane",  # side open
     "turn",  # side open
     "u-turn",
+    "fly",
     "go",  # move on, proceed, set off, pull away
     "move",  # be in motion, drive, as against standing
     "wait",  # for the object
@@ -167,5 +168,6 @@ FeelingKind: TypeAlias = Literal[
 
 MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)
 BEYOND: frozenset[ActionName] = frozenset(
-    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn")
+    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn",
+     "fly")
 )

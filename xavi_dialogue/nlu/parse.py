@@ -25,10 +25,11 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_ski
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
-from xavi_dialogue.nlu.shares import shares_of, unknown_shares
+from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
+from xavi_dialogue.nlu.topics import fold
 
 MAX_READINGS = 6
 MAX_STEPS = 8_000
@@ -180,6 +181,7 @@ def _along(path: Path, lattice: Lattice, composed: dict[int, Composed]) -> list[
         for row, _ in combination:
             owners.append(len(acts) if row else None)
             acts.extend(row)
+        acts, owners = fold(acts, owners)
         cost = path.cost + sum(extra for _, extra in combination)
         found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(unknown)))
     return found
@@ -192,7 +194,7 @@ def _composed(unit: Node, lattice: Lattice, composed: dict[int, Composed]) -> Co
                             lattice.marks.get(unit.end, ""))  # fmt: skip
         found = [(acts, cost + sum(map(oddity, acts))) for acts, cost in composer.compose(unit)]
         found.sort(key=lambda entry: entry[1])
-        if not found:
+        if not found or is_unknown(unit, composer.notes.unknown):
             found = [((), NOTHING)]
         composed[key] = (found, composer.notes.unknown)
     return composed[key]

@@ -5,6 +5,7 @@ from typing import Any
 
 from xavi_dialogue.domain.meaning import (
     Act,
+    Ask,
     Claim,
     Elliptic,
     HowDecide,
@@ -12,6 +13,7 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     Identify,
     Request,
+    Summarise,
 )
 from xavi_dialogue.domain.terms import (
     Caused,
@@ -35,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Road,
     Unknown,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 
@@ -43,7 +46,7 @@ DOUBTFUL = 0.4
 ODD = 0.8
 _PLACES = (Junction, Exit, Lane, Road, Feature, Destination, Record)
 _FIXED = (Junction, Exit, Road, Record)
-_ROAD_USERS = (Ego, Described, Pronoun)
+_ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
 
@@ -59,6 +62,8 @@ def _top(act: Act) -> float:
     match act:
         case Claim(that=Caused(cause=cause, effect=None)) if isinstance(cause, (*_PLACES, Ego)):
             return ODD
+        case Ask(question=Summarise(about=Ego())):
+            return DOUBTFUL
         case Request(event=Event(action="do", object=None)):
             return ODD
         case Elliptic(thing=Ego() | Passenger(), event=None, time=Unsaid(), form="same"):
@@ -93,7 +98,11 @@ def _own(value: Any) -> float:
             return ODD
         case HowDecide(of=Caused()):
             return ODD
-        case HowMuch(of=Measured(attribute="size", thing=Unknown())):
+        case HowMuch(
+            of=Measured(attribute="size" | "count", thing=Unknown() | Feature() | Pronoun())
+        ):
+            return ODD
+        case HowMuch(of=Measured(attribute="count", thing=Ego())):
             return ODD
         case Exists(thing=Feature(kind="way")) | Identify(thing=Feature(kind="way")):
             return ODD
@@ -125,6 +134,8 @@ def _event(value: Event) -> float:
         cost += ODD
     if value.action == "do" and isinstance(value.object, Unknown):
         cost += DOUBTFUL
+    if value.action == "do" and isinstance(value.object, Passenger):
+        cost += ODD
     if value.actor == value.object and not isinstance(value.actor, Pronoun):
         cost += DOUBTFUL
     return cost

@@ -33,6 +33,7 @@ AT_STOP = 0.0  # cost of a border between units, by the mark there
 AT_COMMA = 0.15
 JOINED = 0.3  # before "and", "but", "so"
 UNMARKED = 0.75
+DICTATED = 0.5  # in a text without any mark
 _KEPT = 4
 _FINAL = 8
 _STARTERS = frozenset(
@@ -134,4 +135,5 @@ def _border(
     if _STARTERS.isdisjoint(leaves[node]):
         return node, None
     joined = not _JOINING.isdisjoint(leaves[node])
-    return node, JOINED if joined else UNMARKED
+    unmarked = UNMARKED if lattice.marks else DICTATED
+    return node, JOINED if joined else unmarked

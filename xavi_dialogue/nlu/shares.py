@@ -75,6 +75,15 @@ def shares_of(
     return tuple(found.get(i) or _missing(i, lattice) for i in range(len(lattice.tokens)))
 
 
+def is_unknown(unit: Node, unknown: list[Leaf]) -> bool:
+    """Say whether no word of a unit is known."""
+    lost = {id(leaf) for leaf in unknown}
+    shares = [_share(leaf) for leaf in leaves_of(unit) if id(leaf) not in lost]
+    return "unknown" in (*shares, *("unknown" for _ in lost)) and not any(
+        share in ("meaning", "grammar") for share in shares
+    )
+
+
 def _merge(
     found: dict[int, TokenShare], token: int, leaf: Leaf, share: Share, owner: int | None,
     lattice: Lattice,

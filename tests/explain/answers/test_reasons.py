@@ -1,5 +1,7 @@
 """Why we drove as we did: the episode that is meant, what it really was, and because of whom."""
 
+import copy
+
 from tests.explain.causes.rides import recorded, single, story, told
 from tests.stories import squeezed
 from xavi_dialogue.domain.answers import (
@@ -128,7 +130,9 @@ def test_whoever_is_in_the_way_but_makes_no_difference_is_not_the_reason() -> No
 
 def test_whoever_is_in_front_is_the_reason_for_driving_slowly() -> None:
     question = Why(Is("slow", tense="present"), suspect=Vehicle(1))
-    found = told(story("lorry"), question, 9.0)
+    ride = copy.copy(story("lorry"))
+    ride.whatifs = {}  # nothing was planned without it, so that nothing clears it
+    found = told(ride, question, 9.0)
     assert isinstance(found, MotionReason)
     assert found.deed.action == "follow"
     assert found.causes[0].kind == "leader"

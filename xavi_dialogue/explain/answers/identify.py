@@ -1,7 +1,6 @@
 """Identify: who or what a thing is, and who it is of whom something holds."""
 
-from collections.abc import Callable
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 from msgspec.structs import fields, replace
 
@@ -38,6 +37,7 @@ from xavi_dialogue.explain.answers.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, occasions, overlaps
+from xavi_dialogue.explain.answers.picking import extreme_of, lately_lost
 from xavi_dialogue.explain.answers.places import locate
 from xavi_dialogue.explain.answers.weighing import weigh
 
@@ -46,7 +46,6 @@ MOST = 4  # vehicles of whom it is told what they do
 BESIDE = 2.0  # [m] sideways from which somebody is in another lane
 REACH = 30.0  # [m] behind us from which somebody is about to pass
 GOING: tuple[ActionName, ...] = ("go", "move", "enter", "cross", "turn", "continue")
-LATELY = 10.0  # [s] for which one that was lost from view may still be around
 LIKELY = 0.3  # probability from which somebody may be meant by who is going to do something
 
 
@@ -186,9 +185,9 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
             found.append((chance, candidate, one))
     found.sort(key=lambda entry: -entry[0])
     numbers = tuple(who.number for _, who, _ in found if isinstance(who, Vehicle))
-    seen = _extreme(question.thing, looks(asked, numbers, at))
+    seen = extreme_of(question.thing, looks(asked, numbers, at))
     if unseen:
-        lost = tuple(x for x in seen if _lost(asked, x))
+        lost = tuple(x for x in seen if lately_lost(asked, x))
         if lost:
             return Located(Vehicles(_numbers(lost)), lost, gap="out-of-view")
         return Identified((), such, none=True)
@@ -201,29 +200,6 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
         facts = _conduct(asked, tuple(shown)[:1], at) or facts
     ours = any(isinstance(who, Ego) for _, who, _ in found)
     return Identified(seen, such, facts[: 2 * MOST], none=not seen and not ours)
-
-
-def _extreme(thing: Thing, seen: tuple[Look, ...]) -> tuple[Look, ...]:
-    """Keep the nearest, fastest, biggest of them, where the description wants one."""
-    wanted = thing.extreme if isinstance(thing, Described) else None
-    if wanted is None or not seen:
-        return seen
-    keys: dict[str, Callable[[Look], float]] = {
-        "nearest": lambda look: look.distance,
-        "farthest": lambda look: -look.distance,
-        "fastest": lambda look: -look.speed,
-        "slowest": lambda look: look.speed,
-        "biggest": lambda look: -look.length,
-    }
-    return (min(seen, key=keys[wanted]),)
-
-
-def _lost(asked: Asked, look: Look) -> bool:
-    """Tell whether a vehicle is hidden, or was lost a short while ago."""
-    if look.in_view or look.seen is None:
-        return False
-    shown = asked.world.measure("visibility", Vehicle(look.vehicle), asked.now)
-    return shown.word == "hidden" or look.seen >= asked.now - LATELY
 
 
 def _plainest(such: Related, seen: tuple[Look, ...]) -> tuple[Look, ...]:
@@ -279,7 +255,7 @@ def _open(event: Event) -> Event:
     return event if any(_wants(part) for part in parts) else replace(event, actor=Wanted())
 
 
-def _tense(event: Event) -> str:
+def _tense(event: Event) -> Literal["past", "present"]:
     """Give the tense of an event for a state."""
     return "past" if event.tense in ("past", "perfect") else "present"
 

@@ -133,7 +133,9 @@ def _ahead(asked: Asked, at: float) -> Thing | None:
     ahead = [
         look
         for look in looks(asked, asked.world.in_view(at), at)
-        if asked.world.relation("ahead-of", Vehicle(look.vehicle), Ego(), at)
+        if look.bearing == "ahead"
+        and not look.oncoming
+        and asked.world.relation("ahead-of", Vehicle(look.vehicle), Ego(), at)
     ]
     if not ahead:
         return None
@@ -193,7 +195,11 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
         one, other = sides(asked, of, thing, about.end)
         most = "highest" if of.attribute in UPWARDS else which
         found.append(_nearest(asked, of.attribute, one, most, about, other))
-    marked = isinstance(of.thing, Ego) and which in ("highest", "lowest") and of.attribute in ("speed", "deceleration")
+    marked = (
+        isinstance(of.thing, Ego)
+        and which in ("highest", "lowest")
+        and of.attribute in ("speed", "deceleration")
+    )
     if len(found) == 1 and found[0].gap is None and marked:
         road = asked.world.road(found[0].time)
         if road is not None and road.route:

@@ -6,7 +6,7 @@ from planner.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.answers import PlanAhead
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Destination, Ego, Event, Junction
+from xavi_dialogue.domain.terms import Destination, Ego, Event, Junction, Thing
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, YIELDS, macros, sided
@@ -31,7 +31,8 @@ def plan_ahead(asked: Asked, *, measures: bool = True) -> PlanAhead:
         return PlanAhead((), arrived=ride.arrived)
     known: tuple[Measure, ...] = ()
     if measures:
-        to = {"time-to-go": Destination(), "distance": Junction("roundabout", 1)}
+        rotary = Junction("roundabout", 1)
+        to: dict[Attribute, Thing] = {"time-to-go": Destination(), "distance": rotary}
         found = (world.measure(a, Ego(), asked.now, to.get(a)) for a in AHEAD)
         known = tuple(m for m in found if m.gap is None)
     begun = ride.under_way

@@ -79,7 +79,8 @@ def priority_at(
     waited = _waited(asked, vehicle, near)
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
-    rule = rule_for(asked.world.road(time), vehicle, waited is not None)
+    yielded = waited is not None and waited.how in (None, "right-of-way")
+    rule = rule_for(asked.world.road(time), vehicle, yielded)
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -96,14 +97,14 @@ def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rul
     """Give the rule for us against a vehicle, or all at the next junction; None: not recorded."""
     if road is None:
         return "give-way" if gave_way else None
-    if not gave_way and _same_way(road, vehicle):
-        return "none"
     for fact in road.priority:
         if fact.vehicle == vehicle:
             rules: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way"}
             return rules.get(fact.who, "depends")
     if vehicle is not None and gave_way:
         return "give-way"
+    if _same_way(road, vehicle):
+        return "none"
     if vehicle is not None and road.places.get(vehicle) is not None:
         return "none"
     return road.route[0].rule if road.route else "none"
@@ -128,6 +129,8 @@ def went_first(
     )  # fmt: skip
     if mine is not None or theirs is not None:
         ours = theirs is None or (mine is not None and mine < theirs)
+        if ours and not any(near.begin <= t for t in entries(asked)):
+            return None
         return Ego() if ours else Vehicle(vehicle)
     over = waited is not None and waited.end is not None and waited.standing
     return Vehicle(vehicle) if over else None

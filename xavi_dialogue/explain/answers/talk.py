@@ -59,9 +59,7 @@ def request(act: Request, asked: Asked) -> Answer:
     soon = _coming(asked, event) if able and not already else None
     cannot = _cannot(asked, event) if able and not already and soon is None else None
     ahead = plan_ahead(asked)
-    ahead = replace(
-        ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go")
-    )
+    ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
     facts = _instead(asked, event)
     return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts)
 

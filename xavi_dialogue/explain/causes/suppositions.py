@@ -83,10 +83,10 @@ def without(ride: Ride, vehicle: int, moment: float) -> Supposed:
         Unanswered: no decision reckons with it; or it must be planned again first.
     """
     trace = decision_for(ride, vehicle, moment)
-    again = ride.variants(trace, removed=vehicle)
-    if not again:
-        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=vehicle))
-    return compared(ride, trace, again[-1], None)
+    again = ride.without(trace, vehicle)
+    if again is None:  # the planner could not make it
+        raise thin((), None)
+    return compared(ride, trace, again, None)
 
 
 def otherwise(

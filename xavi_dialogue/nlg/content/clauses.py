@@ -104,7 +104,10 @@ def event_clause(
     at = moment_of(event.time)
     verb, rest = verb_phrase(event.action, event.actor, event.object, event.side, time=at)
     manners = table("doings")["manner"]
-    adverbs: tuple[object, ...] = tuple(str(manners[m]) for m in event.manner if m in manners)
+    told_by_verb = ("first",) if event.action == "let-go" else ()
+    adverbs: tuple[object, ...] = tuple(
+        str(manners[m]) for m in event.manner if m in manners and m not in told_by_verb
+    )
     *head, last = verb.split(" ")
     if adverbs and rest and last in _PREPOSITIONS:  # "brake hard for"
         verb, adverbs = " ".join((*head, *map(str, adverbs), last)), ()

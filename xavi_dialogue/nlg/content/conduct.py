@@ -193,9 +193,7 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
         )
         times = [m.time for m in answer.measures if context.now - m.time > PRESENT]
         when = Moment(times[0]) if times and len(answer.measures) == 1 else None
-        first = message(
-            "BOUND_US", far=Quantity(far, "m") if far is not None else None, when=when
-        )
+        first = message("BOUND_US", far=Quantity(far, "m") if far is not None else None, when=when)
         return Plan((first,), others)
     went = answer.went
     if went is not None:

@@ -203,8 +203,8 @@ def _particular(one: Measure, value: float | None, context: SpeechContext) -> di
             pair = "we" if one.to is None else (Who(ride=True), Who(other)) if other else "we"
             return {"pair": pair}
         case "waiting-time":
-            left = one.extreme is None and one.until is not None and one.until > context.now
-            return {"left": left, "soon": left and (value or 0.0) < SOON}
+            lasts = one.extreme is None and one.until is not None and one.until > context.now
+            return {"left": lasts, "soon": lasts and (value or 0.0) < SOON}
         case "duration":
             return {"going_on": one.until is None and one.at_least, "at_least": False}
         case "cost":

@@ -9,6 +9,7 @@ from xavi_dialogue.nlg.content import (
     quizzes,
     safety,
     talk,
+    whereabouts,
 )
 from xavi_dialogue.nlg.content.happenings import plan_happenings
 from xavi_dialogue.nlg.content.joint_measures import plan_measures
@@ -20,7 +21,7 @@ FACTS: dict[type, Planner] = {
     answers.Verdict: plan_verdict,
     answers.Identified: people.plan_identified,
     answers.Counted: people.plan_counted,
-    answers.Located: people.plan_located,
+    answers.Located: whereabouts.plan_located,
     answers.Happenings: plan_happenings,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,

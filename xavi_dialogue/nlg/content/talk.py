@@ -22,7 +22,6 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Clause, Quantity
 
-
 #: Requests that slowing down complies with.
 SLOWING = frozenset(("slow-down", "brake", "stop", "give-way", "wait", "let-go", "stand"))
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 from itertools import groupby
+from typing import cast
 
 from msgspec.structs import replace
 
@@ -58,8 +59,9 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
     answer = replace(answer, facts=_telling(answer))
     facts = [m for f in together(answer.facts) for m in _facts(f, answer, context)]
     beliefs = tuple(fact_message(b, context) for b in answer.believed[:1])
-    slots = {"claim": answer.claim, "challenge": answer.challenge and answer.claim,
-             "either": answer.either}  # fmt: skip
+    challenge = answer.challenge and answer.claim
+    slots: dict[str, object] = {"claim": answer.claim, "challenge": challenge}
+    slots["either"] = answer.either
     said = clause_of(answer.that, context.now, negated=not answer.holds)
     inside, outside = tuple(facts[:IN_ONE]), tuple(facts[IN_ONE:])
     limited = _within_limit(answer)
@@ -152,7 +154,7 @@ def _fact(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
         return look_message(fact, context, told=not placed)
     if isinstance(fact, Episode) and _since(fact, answer, context):
         told = fact_message(fact, context)
-        clause = dataclasses.replace(told.slots["clause"], tense="perfect")
+        clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="perfect")
         return message("EPISODE_SINCE", clause=clause, since=Moment(fact.begin))
     return fact_message(fact, context)
 
@@ -197,9 +199,7 @@ def _within_limit(answer: Verdict) -> Measure | None:
     return next((m for m in speeds if m.reference is not None and m.value is not None), None)
 
 
-def _there(
-    answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]
-) -> Plan:
+def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
     """Plan who is there, the nearest first; or that nobody is, and who is nearest."""
     near = sorted(seen, key=lambda look: look.distance)
     shown = near[:IN_ONE]

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Related,
 )
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
@@ -33,7 +34,7 @@ from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Notes, as_thing
 from xavi_dialogue.nlu.compose.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import feeling_of, talk_act
-from xavi_dialogue.nlu.compose.tree import leaf_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
 from xavi_dialogue.nlu.compose.wh import fact
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -103,6 +104,8 @@ class Composer:
 
     def _polar(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
+        if clause.feelings and _of_you(unit, clause):
+            return [((Social("are-you-human"),), 0.1)]
         order = self.orders.polite(clause)
         if order is not None:
             return [(order, 0.0)]
@@ -166,6 +169,8 @@ class Composer:
             if isinstance(value, Special) and isinstance(of, Believed):
                 question = Whether(of, True)
             return (Ask(self.questions.framed(question, clause, value)),)
+        if isinstance(of, Related) and of.thing == Passenger() and of.relation == "with":
+            return (Social("acknowledge"),)
         supposed = self.questions.supposition(clause)
         if supposed is not None:
             return (Ask(self.questions.framed(Whether(of, True), clause, value)),)
@@ -240,6 +245,13 @@ def _lead_act(part: Part) -> Act | None:
     if isinstance(part, Leaf) and part.category == "NO":
         return Social("disagree")
     return None
+
+
+def _of_you(unit: Node, clause: Clause) -> bool:
+    """Say whether "are you scared", "do you get bored" is asked: of the car, with no reason."""
+    if not isinstance(clause.subject, Ego) or clause.that is not None or clause.because is not None:
+        return False
+    return any(leaf.category == "YOU" for leaf in leaves_of(unit)) and not clause.complements
 
 
 def _tagged(unit: Node) -> bool:

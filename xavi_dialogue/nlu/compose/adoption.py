@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Passenger,
     Proposition,
+    Quantity,
     Related,
     Relative,
     Thing,
@@ -98,11 +99,28 @@ def with_fields(value: Any, **fields: Any) -> Any:
     return type(value)(**{**old, **fields})
 
 
+_AMOUNTS = {"high": "more", "low": "less", "fast": "more", "slow": "less"}
+
+
+def exceeding(clause: Clause, event: Event) -> Proposition | None:
+    """Read "we are doing more than forty" as a comparison of the speed."""
+    key = clause.comparisons[0][0] if clause.comparisons else ""
+    if key not in _AMOUNTS or not isinstance(clause.than, Quantity):
+        return None
+    speed = Measured("speed", event.actor, time=event.time, tense=event.tense)
+    than = clause.than
+    if than.unit == "count":
+        than = Quantity(round(than.value / 3.6, 6), "m/s")  # nobody says "km/h"
+    return Compares(speed, cast(Any, _AMOUNTS[key]), than)
+
+
 def compared(clause: Clause, event: Event) -> Proposition | None:
     """Read "he goes faster than us" as a comparison."""
     if not clause.comparisons or clause.than is None or isinstance(clause.than, Clause):
         return None
     key = clause.comparisons[0][0]
+    if event.action in ("move", "go") and (found := exceeding(clause, event)) is not None:
+        return found
     thing = as_thing(clause.than)
     if key not in _COMPARED or thing is None or clause.comparisons[0][1] == "as":
         return None

@@ -35,6 +35,9 @@ _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "betwe
            "like": "same-as"}  # fmt: skip
 
 
+_LIGHTS = frozenset({"indicator", "brake-lights"})
+
+
 def actor_of(clause: Clause) -> Thing:
     """Tell who acts: the subject, or in a passive the one behind "by"."""
     if clause.passive:
@@ -45,6 +48,8 @@ def actor_of(clause: Clause) -> Thing:
             return clause.gap
         return Described(definite=False)
     actor = as_thing(clause.subject)
+    if isinstance(clause.subject, Measure) and clause.subject.of.attribute in _LIGHTS:
+        actor = clause.subject.of.thing
     if actor is None or isinstance(actor, Passenger):
         return Ego()
     return actor

@@ -46,6 +46,8 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     """Ask for an attribute of a thing at the time of the clause."""
     extreme = more.pop("extreme", None)
     actor = Ego() if thing is None or isinstance(thing, Passenger) else thing
+    if actor == more.get("to") == Ego():
+        actor = Pronoun("it")  # "how much room was there between us"
     return HowMuch(
         Measured(cast(Any, attribute), actor, time=_time(clause), tense=cast(Any, clause.tense),
                  **more), extreme,
@@ -79,6 +81,9 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             if event is not None:
                 return When(Happens(event))
             return measured("delay", clause, actor)
+        case "faster" if event is None and actor is not None and clause.verb is None:
+            than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
+            return measured("speed", clause, actor, to=than)
         case "faster":
             return measured("delay", clause, actor, event=event)
         case "many":
@@ -191,10 +196,16 @@ def until(anchor: Any) -> Question:
     return HowMuch(Measured("time-to-go"))
 
 
+_DIFFERENCES = {"fast": "speed", "slow": "speed", "close": "distance", "far": "distance"}
+
+
 def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
     subject = clause.subject
     if isinstance(subject, Measure):
         return HowMuch(subject.of, subject.extreme)
+    if clause.comparisons and clause.comparisons[0][0] in _DIFFERENCES:
+        than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
+        return measured(_DIFFERENCES[clause.comparisons[0][0]], clause, actor, to=than)
     if isinstance(value, Special) and value.name in ("cost", "delay", "save", "take-time"):
         return measured("delay", clause, actor)
     if any(key == "allowed" for key, _ in clause.adjectives):

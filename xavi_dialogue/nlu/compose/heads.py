@@ -50,6 +50,7 @@ _PLACES: dict[str, Thing] = {
     "left-exit": Exit(side="left"),
     "right-exit": Exit(side="right"),
     "side-road": Road("side"),
+    "main-road": Road("main"),
     "here": Unknown("here"),
     "there": Unknown("there"),
 }
@@ -166,6 +167,8 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     owner = as_thing(traits.owner)
     if head.key == "destination" and owner is not None and not isinstance(owner, Ego):
         return Measure(Measured("heading", owner))
+    if head.key == "light" and owner is not None:
+        return Measure(Measured("indicator", owner))
     if head.key in _PLACES and not (head.key.endswith("lane") and traits.owner):
         return _PLACES[head.key]
     rank = 1 if traits.following else traits.ordinal

@@ -6,18 +6,25 @@ from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
     Described,
+    Destination,
     Ego,
     Event,
     Everyone,
+    Exists,
+    Exit,
+    Feature,
     Happens,
     Has,
     Is,
+    Junction,
+    Lane,
     Measured,
     Not,
     Pronoun,
     Proposition,
     Quantity,
     Related,
+    Road,
     Thing,
     Time,
     Unknown,
@@ -84,6 +91,9 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
             return [(arrived(clause), 0.0)]
         return [(Is("present", subject, time=time, tense=tense), 0.0)]
     thing = thing or Pronoun("it")
+    placed = _placed(thing, subject, time, tense)
+    if placed is not None:
+        return [(placed, 0.05)]
     if isinstance(thing, (Described, Everyone)) or not isinstance(subject, Pronoun):
         return [(Related("same-as", subject, thing, time, tense), 0.1)]
     return [(Caused(thing), 0.1), (Related("same-as", subject, thing, time, tense), 0.15)]
@@ -99,6 +109,22 @@ def _described(clause: Clause, sem: Described, subject: Thing, time: Time) -> li
     if isinstance(subject, Pronoun) and subject.form in ("it", "that", "this"):
         return [(Caused(sem), 0.0), (same, 0.1)]
     return [(same, 0.0)]
+
+
+def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition | None:
+    """Read "this is the main road", "is that our exit", "that is a roundabout"."""
+    if not isinstance(subject, Pronoun) or subject.form not in ("it", "that", "this"):
+        return None
+    match thing:
+        case Road() | Lane():
+            return Related("on", Ego(), thing, time, tense)
+        case Exit():
+            return Happens(Event("leave", Ego(), thing, time=time, tense=tense))
+        case Destination():
+            return Happens(Event("arrive", Ego(), time=time, tense=tense))
+        case Junction() | Feature():
+            return Exists(thing, time, tense)
+    return None
 
 
 def _cleft(sem: Sem) -> Proposition | None:

@@ -51,6 +51,9 @@ class Propositions:
         best = found[0].cost if found else 0.0
         kept = [c for c in found if c.cost <= best + SPREAD][:4]
         if kept:
+            value = kept[0].value
+            if isinstance(value, Special) and value.name == "beyond" and clause.verb is not None:
+                self.notes.unknown.append(clause.verb)
             for part in kept[0].left:
                 self.notes.unknown.extend(leaves_of(part))
             self.notes.cost += max(0.0, kept[0].cost)
@@ -96,8 +99,6 @@ class Propositions:
 
     def _special(self, clause: Clause, one: Match) -> Special:
         clause.time = when(clause, one)
-        if one.sense.head == "@beyond":
-            self.notes.unknown.append(cast(Any, clause.verb))
         governed = clause.that or clause.infinitive or clause.gerund or clause.bare
         content: Proposition | None = None
         if one.sense.head == "@make-do" and isinstance(one.second, Event):

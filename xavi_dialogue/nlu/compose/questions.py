@@ -41,7 +41,7 @@ from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 EMPHATIC = 0.6  # cost of "who did stop"
-WEAK = 0.7  # cost of a clause of which nothing is said
+WEAK = 1.0  # cost of a clause of which nothing is said
 
 
 class Questions(Polar):

@@ -3,12 +3,13 @@
 from dataclasses import dataclass, field
 from functools import cache
 
-from xavi_dialogue.domain.terms import Wanted
+from xavi_dialogue.domain.terms import Pronoun, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.sem import Sem, is_thing, types
 from xavi_dialogue.nlu.text.tables import load
 
 _NO_BASE = frozenset({"be", "have"})  # auxiliaries that no base form follows
+VAGUE = 0.25  # cost of a pronoun as the subject that a sense asks for
 LEFT_OBJECT = 1.3  # cost of an object without a role
 LEFT_OTHER = 0.35  # of another phrase without a role
 MISSING = 2.0  # of a role that must be filled
@@ -156,7 +157,11 @@ def _fill(
     if role.kind in ("o", "o2"):
         return _fill_object(role, found, clause, objects)
     if role.kind == "s":
-        return fits(clause.subject, role.types) if clause.subject is not None else None
+        if clause.subject is None:
+            return None
+        cost = fits(clause.subject, role.types)
+        vague = isinstance(clause.subject, Pronoun)
+        return cost if cost is None or not vague else cost + VAGUE
     if role.kind.startswith("+"):
         return _fill_particle(role.kind[1:], found, clause, particles, phrases, objects)
     if role.kind == "side":
@@ -282,6 +287,7 @@ def _flag(kind: str, wanted: str, clause: Clause) -> bool:
         case "adj":
             listed = bool(clause.adjectives or clause.feelings or clause.comparisons)
             return listed and (wanted == "*" or any(k == wanted for k, _ in clause.adjectives)
+                               or any(k == wanted for k, _ in clause.comparisons)
                                or wanted in clause.manner)  # fmt: skip
         case "bearing":
             return bool(clause.bearings)

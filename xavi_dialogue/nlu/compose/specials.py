@@ -28,13 +28,18 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.adoption import exceeding
 from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.nominal import event_in
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
+_BECOMING = {"slow": "slow-down", "fast": "speed-up", "close": "approach"}
+_STATES = frozenset({"stuck", "late", "busy", "free", "far", "dangerous", "visible", "hidden",
+                     "lost"})  # fmt: skip
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
 
@@ -141,10 +146,15 @@ def _have(special: Special) -> Proposition:
     sem = special.object
     over = next((as_thing(s) for k, s in special.match.phrases.items() if k in
                  ("over", "bearing-ahead", "with")), None)  # fmt: skip
+    if over is None and not isinstance(special.clause.than, Clause):
+        over = as_thing(special.clause.than)
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = over or sem.of.to or Described(definite=False)
         time = _when(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
         return Related("has-priority-over", special.subject, other, time, _tense(special))
+    if isinstance(sem, Measure) and sem.of.attribute in ("indicator", "brake-lights"):
+        value = special.clause.side or "on"
+        return Has(sem.of.attribute, value, special.subject, _when(special), _tense(special))
     if isinstance(sem, Measure):
         return Compares(Measured(sem.of.attribute, special.subject), "same", None)
     if isinstance(sem, Feature):
@@ -194,6 +204,18 @@ def _cost(special: Special) -> Proposition:
     return Compares(measured, "same", quantity)
 
 
+def _become(special: Special) -> Proposition:
+    """Read "getting slower", "got close", "became free"."""
+    clause = special.clause
+    words = [k for k, _ in clause.adjectives] + [k for k, _ in clause.comparisons]
+    words += [manner.removesuffix("ly") for manner in clause.manner]
+    for word in words:
+        if word in _BECOMING:
+            return Happens(_event(special, _BECOMING[word], None))
+    state = next((word for word in words if word in _STATES), "right")
+    return Is(cast(Any, state), special.subject, time=_when(special), tense=_tense(special))
+
+
 def _deed(special: Special) -> Proposition:
     sem = special.object
     if isinstance(sem, Event):
@@ -211,6 +233,9 @@ def _happen(special: Special) -> Proposition:
 
 def _do(special: Special) -> Proposition:
     sem = special.object
+    above = exceeding(special.clause, _event(special, "do", None))
+    if above is not None:
+        return above
     if isinstance(sem, Event):
         return Happens(sem)
     thing = as_thing(sem)
@@ -269,8 +294,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": _exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "give-priority": _priority, "switch": _signal,
-    "become": lambda s: Is("stuck" if "stuck" in [k for k, _ in s.clause.adjectives] else "right",
-                           s.subject, time=_when(s), tense=_tense(s)),
+    "become": lambda s: _become(s),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": lambda s: Happens(_event(s, "keep-distance", as_thing(s.object))),

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
     Lane,
     Measured,
     Nobody,
@@ -38,6 +39,7 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.things import relation_of
+from xavi_dialogue.nlu.compose.tree import words_of
 
 _NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
             "occupied": "free", "unsure": "sure", "absent": "present", "early": "late"}  # fmt: skip
@@ -87,6 +89,8 @@ _COMPARED: dict[str, tuple[str, str]] = {
     "soon": ("arrival-time", "less"), "late": ("arrival-time", "more"),
     "safe": ("value", "more"), "better": ("value", "more"), "likely": ("probability", "more"),
 }  # fmt: skip
+_TURNS = frozenset({"turn", "exit-left", "exit-right"})
+LOOSE = 0.25  # cost of a particle beside "be"
 Found = tuple[Proposition, float]
 
 
@@ -100,7 +104,8 @@ def ungoverned(clause: Clause) -> float:
     """Say what the clauses inside cost that a clause without a verb cannot govern."""
     prices = ((clause.question, 1.2), (clause.bare, 0.9), (clause.that, 0.5), (clause.gerund, 0.3))
     objects = 0.9 * max(0, len(clause.objects) - 1)
-    return sum(price for inner, price in prices if inner is not None) + objects
+    loose = LOOSE * len(clause.particles)
+    return sum(price for inner, price in prices if inner is not None) + objects + loose
 
 
 def _found(clause: Clause) -> list[Found]:
@@ -186,6 +191,9 @@ def _exists(clause: Clause) -> list[Found]:
         return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.6)]
     sem = clause.objects[0][0]
     thing = as_thing(sem)
+    if isinstance(sem, Event) and sem.action in _TURNS:
+        turn = Exists(Junction(), clause.time, tense_of(clause))
+        return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
         if sem.key == "problem":
@@ -256,6 +264,9 @@ def _placed(clause: Clause) -> list[Found]:
             return [(Related("with", thing, to, time, tense), 0.1)]
     if clause.origin is not None:
         return [(Has("origin", clause.origin, thing, time, tense), 0.0)]
+    passed = {leaf.key for leaf in clause.particles} & {"through", "past", "over"}
+    if passed and not clause.bearings:
+        return [(Is("over", thing, time=time, tense=tense), 0.0)]
     for bearing, _ in clause.bearings:
         if bearing in ("there", "here"):
             if isinstance(thing, Ego):

@@ -34,7 +34,6 @@ from xavi_dialogue.nlu.compose.nominal import asked_of, counted, propose
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh
 
-
 _SHOWING = frozenset({"give", "show", "describe", "report", "provide", "present"})
 
 

@@ -47,7 +47,7 @@ def number_of(node: Node) -> float:
     names = load("nlu_text.toml")["numbers"]
     total = 0.0
     for leaf in leaves_of(node):
-        if leaf.category != "NUM":
+        if leaf.category not in ("NUM", "HUNDRED"):
             continue
         word = leaf.key.replace(",", ".")
         value = float(names[word]) if word in names else float(word)

@@ -18,7 +18,7 @@ LATER_SENSE = 0.15  # cost of a phrase marked "*"
 UNKNOWN = 1.0  # cost of a word without a sense
 SKIPPED = 1.6  # cost of a word with senses of which none is taken
 FILLER = 0.35  # cost of a function word that is read past
-AUXILIARY = 0.1  # cost of "do" and "have" as verbs in their own right
+AUXILIARIES = {"do": 0.1, "have": 0.2}  # cost as verbs in their own right
 ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
 PHRASE = 0.02  # what a phrase is cheaper by for each word after its first
 
@@ -117,10 +117,10 @@ def _add_verbs(trie: Trie) -> None:
         for words in spelt:
             irregular = table["forms"].get(" ".join(words))
             for form, word in verb_forms(words[0], irregular):
-                cost = AUXILIARY if lemma in ("do", "have") else 0.0
+                cost = AUXILIARIES.get(lemma, 0.0)
                 cost = (
                     LATER_SENSE
-                    if word in ("left", "saw", "thought", "found") and form != "base"
+                    if word in ("left", "saw", "thought", "found", "past") and form != "base"
                     else cost
                 )
                 if form in ("part", "base") and not words[1:] and _is_adjective(trie, word):
@@ -182,6 +182,8 @@ def _single(found: list[dict[str, list[Leaf]]], known: Lexicon, start: int, edge
     if (word[0].isdigit() and "'" not in word) or word in load("nlu_text.toml")["numbers"]:
         name = "CLOCK" if ":" in word else "NUM"
         _put(found, Leaf(name, word, "", (word,), (edge.token,), start, edge.end, edge.cost))
+    if word == "hundred":
+        _put(found, Leaf("HUNDRED", word, "", (word,), (edge.token,), start, edge.end, edge.cost))
     has_sense = known.vocabulary.words.get(word) == 0 or word[0].isdigit()
     if word in known.fillers:
         _put(found, Leaf("FILLER", word, "", (word,), (edge.token,), start, edge.end,

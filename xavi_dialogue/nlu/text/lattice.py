@@ -13,6 +13,7 @@ from xavi_dialogue.nlu.text.tables import load
 from xavi_dialogue.nlu.text.tokens import Typed
 
 HOMOPHONE = 0.6
+CONFUSED = 0.2  # of words often mistaken for each other, the one typed being rare
 PHONE = 0.15
 LATER = 0.1  # cost of each further expansion of a contraction
 PLURAL_GENITIVE = 0.45  # "the blue cars fault"
@@ -104,7 +105,8 @@ def alternatives(
     found += _listed("contractions", token, 0.0)
     found += _listed("phone", token, PHONE)
     if token in known:
-        found.append(((token,), 0.0))
+        rare = token in load("nlu_text.toml")["confused"]
+        found.append(((token,), CONFUSED if rare else 0.0))
         found += _sounding(token)
     elif "'" in token:
         found += _contracted(token, vocabulary, nouns)
@@ -150,7 +152,7 @@ def _listed(table: str, token: str, cost: float) -> list[Alternative]:
 
 
 def _sounding(token: str) -> list[Alternative]:
-    return _listed("homophones", token, HOMOPHONE)
+    return _listed("confused", token, CONFUSED) + _listed("homophones", token, HOMOPHONE)
 
 
 def _contracted(token: str, vocabulary: Vocabulary, nouns: frozenset[str]) -> list[Alternative]:
