@@ -1,7 +1,7 @@
 """`xavi transcripts --coverage`: what the golden conversations exercise, and what none does.
 
-Counted are types of acts, questions, answers and refusals, reasons, the rules of the question
-grammar and of all answer grammars, and, as a finer list, the alternatives of the latter; and only
+Counted are types of acts, questions, answers and refusals, reasons, and, as a finer list, the rules
+of the question grammar and of all answer grammars, and the alternatives of the latter; and only
 what was understood and said. Of which rules and alternatives a question was read and an answer was
 made is watched from outside, as coverage tools do, so that parser and realiser need not know.
 """
@@ -22,7 +22,7 @@ from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Answer, Reason, Refusal
 from xavi_dialogue.domain.discourse import Discourse
-from xavi_dialogue.domain.meaning import Act, Question, Reading
+from xavi_dialogue.domain.meaning import Act, Question, Quizzing, Reading
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.nlg.surface.generator import choose
 from xavi_dialogue.nlg.surface.orthography import capitalise
@@ -37,6 +37,9 @@ from xavi_dialogue.nlu.grounding.result import Grounding
 
 _RULE = re.compile(r"(?:^!?|->\s*)([a-z]\w*)(?=(?:\.-?\d+)?\s*:|\s*$)")
 PAPER = "answer_paper"
+RULES_OF, ALTERNATIVES_OF = "rules of {}", "alternatives of {}"
+#: Reasons of the contract that no explainer gives.
+NOT_GIVEN = frozenset({"effect-too-small", "no-influence"})
 ACTS, QUESTIONS, ANSWERS, REFUSALS = "types of acts", "questions", "answers", "refusals"
 #: An alternative beside its file and its line there.
 Placed: TypeAlias = tuple[str, int, str, Alternative]
@@ -48,7 +51,7 @@ class Item:
 
     group: str  # what it is one of
     name: str  # with the place in its file, where it stands in one
-    fine: bool = False  # one of several that do for another item
+    fine: bool = False  # of the finer list: nice to have, not required
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +67,13 @@ class Coverage:
 
     @property
     def unseen(self) -> tuple[Item, ...]:
-        """The alternatives that no conversation exercises."""
+        """The rules and alternatives that no conversation exercises."""
         return tuple(i for i, count in self.counts.items() if count == 0 and i.fine)
+
+    def share(self, groups: str) -> float:
+        """Return which share is exercised of all items in groups whose names begin so."""
+        counts = [n for item, n in self.counts.items() if item.group.startswith(groups)]
+        return sum(map(bool, counts)) / len(counts)
 
     def table(self) -> str:
         """The figures of each group, then what is missing by name, the finer list last."""
@@ -92,7 +100,7 @@ def measure(written: Sequence[Written]) -> Coverage:
             *_types(QUESTIONS, Question),
             *_types(ANSWERS, Answer),
             *_types(REFUSALS, Refusal),
-            *(Item("reasons", name) for name in get_args(Reason)),
+            *(Item("reasons", name) for name in get_args(Reason) if name not in NOT_GIVEN),
             *_question_rules().values(),
             *rules.values(),
             *alternatives.values(),
@@ -107,7 +115,7 @@ def measure(written: Sequence[Written]) -> Coverage:
             with _watched(ear) as mouth:
                 played = replay_recorded(one.transcript, ride, ear.mind())
             for item in _exercised(played.replies, ear, mouth, (rules, alternatives)):
-                counts[item] += 1
+                counts[item] = counts.get(item, 0) + 1
     return Coverage(counts)
 
 
@@ -130,6 +138,8 @@ def _exercised(
     rules = _question_rules()
     for names in ear.read_by:
         yield from (rules[name] for name in sorted(names & rules.keys()))
+    for reading in ear.chosen:
+        yield from (Item(ACTS, type(act).__name__) for act in reading.acts)
 
 
 def _typed(reply: Reply) -> Iterator[Item]:
@@ -138,7 +148,6 @@ def _typed(reply: Reply) -> Iterator[Item]:
     for grounded in reply.acts:
         act = grounded["act"]
         assert isinstance(act, dict)
-        yield Item(ACTS, act["is"])
         if "question" in act and act["is"] == "Ask":
             yield Item(QUESTIONS, act["question"]["is"])
     for answer in reply.answers:
@@ -152,6 +161,7 @@ class _Ear:
 
     composed: list[tuple[Node, tuple[tuple[Act, ...], ...]]] = field(default_factory=list)
     read_by: list[frozenset[str]] = field(default_factory=list)  # names of rules, of each text
+    chosen: list[Reading] = field(default_factory=list)
     _readings: tuple[Reading, ...] = ()
 
     def mind(self) -> Mind:
@@ -160,13 +170,14 @@ class _Ear:
 
         def read(text: str) -> tuple[Reading, ...]:
             self._readings = mind.read(text)
+            self.chosen += filter(_is_quizzing, self._readings[:1])  # it needs no grounding
             return self._readings
 
         def ground(
             readings: tuple[Reading, ...], record: Record, discourse: Discourse
         ) -> Grounding:
             found = mind.ground(readings, record, discourse)
-            if found.acts and found.reading in readings:
+            if found.reading in readings:
                 self._note(self._readings[readings.index(found.reading)])
             self.composed.clear()
             return found
@@ -176,10 +187,15 @@ class _Ear:
     def _note(self, chosen: Reading) -> None:
         """Take note of the rules of the units that a reading is composed of."""
         names: set[str] = set()
+        self.chosen.append(chosen)
         for unit, ways in self.composed:
             if any(acts and set(acts) <= set(chosen.acts) for acts in ways):
                 names |= set(_names(unit))
         self.read_by.append(frozenset(names))
+
+
+def _is_quizzing(reading: Reading) -> bool:
+    return any(isinstance(act, Quizzing) for act in reading.acts)
 
 
 def _names(node: Node) -> Iterator[str]:
@@ -229,7 +245,8 @@ def _answer_rules() -> dict[int, Item]:
     items: dict[int, Item] = {}
     for file, line, rule, one in _placed():
         first = places.setdefault((file, rule), line)
-        items[id(one)] = Item(f"rules of {file}", f"grammars/{file}:{first}: {rule}")
+        name = f"grammars/{file}:{first}: {rule}"
+        items[id(one)] = Item(RULES_OF.format(file), name, fine=True)
     return items
 
 
@@ -242,7 +259,7 @@ def _alternatives() -> dict[int, Item]:
         text = _lines(file)[line - 1]
         text = re.sub(r"^[A-Z_]+\[.*?\]\s*->|^\s*\|", "", text).strip()
         name = f"grammars/{file}:{line}: {rule} {number}: {text}"
-        items[id(one)] = Item(f"alternatives of {file}", name, fine=True)
+        items[id(one)] = Item(ALTERNATIVES_OF.format(file), name, fine=True)
     return items
 
 
@@ -283,5 +300,5 @@ def _question_rules() -> dict[str, Item]:
             for name in _RULE.findall(line):
                 if name in made and name not in items:
                     place = f"grammars/{file}:{number}: {name}"
-                    items[name] = Item(f"rules of {file}", place)
+                    items[name] = Item(RULES_OF.format(file), place, fine=True)
     return items

@@ -168,6 +168,5 @@ FeelingKind: TypeAlias = Literal[
 
 MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)
 BEYOND: frozenset[ActionName] = frozenset(
-    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn",
-     "fly")
+    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn", "fly")
 )

@@ -16,13 +16,14 @@ Conventions that others rely on:
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
+from itertools import islice, product
 
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, TokenShare
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
+from xavi_dialogue.nlu.honesty import is_dear
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
 from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares
@@ -88,10 +89,10 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     readings: list[Reading] = []
     try:
         strict = Chart(grammar(), without_skips(found), budget)
-        readings = _readings(segment(strict, lattice, found, CLAUSES), lattice)
+        readings = _readings(segment(strict, lattice, found, CLAUSES), lattice, budget)
         if not readings or not _plain(readings[0]):
             loose = Chart(grammar(), found, budget)
-            others = _readings(segment(loose, lattice, found, CLAUSES + RARE), lattice)
+            others = _readings(segment(loose, lattice, found, CLAUSES + RARE), lattice, budget)
             readings = others or readings
     except ChartLimitError:
         pass
@@ -130,16 +131,19 @@ def _plain(reading: Reading) -> bool:
     return bool(reading.acts) and not reading.unknown and reading.cost <= EASY * len(reading.acts)
 
 
-def _readings(paths: list[Path], lattice: Lattice) -> list[Reading]:
+def _readings(paths: list[Path], lattice: Lattice, budget: Budget) -> list[Reading]:
     composed: dict[int, Composed] = {}
     found: list[_Draft] = []
     best = float("inf")
     for path in paths:
         if path.cost > best + _SPREAD:
             break
-        for draft in _along(path, lattice, composed):
-            found.append(draft)
-            best = min(best, draft.cost)
+        try:
+            drafts = _along(path, lattice, composed, budget)
+        except ChartLimitError:
+            break
+        found += drafts
+        best = min(best, *(draft.cost for draft in drafts))
     found.sort(key=lambda draft: draft.cost)
     kept: list[_Draft] = []
     for draft in found:
@@ -166,19 +170,23 @@ class _Draft:
         return Reading(self.acts, shares, round(self.cost, 3))
 
 
-def _along(path: Path, lattice: Lattice, composed: dict[int, Composed]) -> list[_Draft]:
+def _along(
+    path: Path, lattice: Lattice, composed: dict[int, Composed], budget: Budget
+) -> list[_Draft]:
     """Compose the units of a path, in each way that they can be read."""
     choices: list[list[tuple[tuple[Act, ...], float]]] = []
     unknown: list[Leaf] = []
     for unit in path.units:
-        alternatives, left = _composed(unit, lattice, composed)
+        alternatives, left = _composed(unit, lattice, composed, budget)
         unknown += left
         choices.append(alternatives[:_ALTERNATIVES])
     found: list[_Draft] = []
-    for combination in list(product(*choices))[: _ALTERNATIVES * 2]:
+    for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        for row, _ in combination:
+        for unit, (row, extra) in zip(path.units, combination, strict=True):
+            if is_dear(unit, extra):
+                row = ()
             owners.append(len(acts) if row else None)
             acts.extend(row)
         acts, owners = fold(acts, owners)
@@ -187,11 +195,13 @@ def _along(path: Path, lattice: Lattice, composed: dict[int, Composed]) -> list[
     return found
 
 
-def _composed(unit: Node, lattice: Lattice, composed: dict[int, Composed]) -> Composed:
+def _composed(
+    unit: Node, lattice: Lattice, composed: dict[int, Composed], budget: Budget
+) -> Composed:
     key = id(unit)
     if key not in composed:
-        composer = Composer(lattice.end_mark if unit.end >= lattice.size else
-                            lattice.marks.get(unit.end, ""))  # fmt: skip
+        last = unit.end >= lattice.size
+        composer = Composer(budget, lattice.end_mark if last else lattice.marks.get(unit.end, ""))
         found = [(acts, cost + sum(map(oddity, acts))) for acts, cost in composer.compose(unit)]
         found.sort(key=lambda entry: entry[1])
         if not found or is_unknown(unit, composer.notes.unknown):

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.answers import (
     Priority,
     Verdict,
 )
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Fault, HowMany, HowMuch, Request, When, Whether, Which
 from xavi_dialogue.domain.terms import (
     At,
@@ -176,3 +177,15 @@ def test_what_is_said_of_us_at_another_time_says_when() -> None:
     for attribute in ("distance-to-go", "time-to-go", "distance-driven", "turn", "place"):
         text = said(ride, HowMuch(Measured(attribute, Ego(), time=At(2.0), tense="past")))  # type: ignore[arg-type]
         assert text.startswith("About 6 seconds ago"), text
+
+
+def test_one_stop_for_several_counts_once() -> None:
+    """Way that is given to two vehicles at one time is given once, and both are named."""
+    whom = (Episode(Ego(), "give-way", 2.0, 5.0, Vehicle(1)),
+            Episode(Ego(), "give-way", 2.0, 5.0, Vehicle(2)))  # fmt: skip
+    ride = made(BESIDE, 8.0)
+    world = world_of(ride.record)
+    context = SpeechContext(now=8.0, looks=world.look)
+    text = say(Counted(Event("give-way"), 1, whom, since=0.0, until=8.0), context).text
+    assert text.startswith("I have given way once so far, at 0:02 to the red car")
+    assert "and the blue car" in text

@@ -45,8 +45,9 @@ def _events(asked: Asked, event: Event) -> Counted:
     if event.tense != "present" and about.instant:
         about = Window(asked.world.begin, asked.now)
     found = merged(asked, within(asked, event, about))
+    times = merged(asked, (replace(e, object=None) for e in found))
     lost = any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
-    return Counted(event, len(found), found, lost, about.begin, about.end)
+    return Counted(event, len(times), found, lost, about.begin, about.end)
 
 
 def _named(thing: Thing | None) -> Thing | None:

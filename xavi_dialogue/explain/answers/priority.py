@@ -79,8 +79,7 @@ def priority_at(
     waited = _waited(asked, vehicle, near)
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
-    yielded = waited is not None and waited.how in (None, "right-of-way")
-    rule = rule_for(asked.world.road(time), vehicle, yielded)
+    rule = rule_for(asked.world.road(time), vehicle, waited is not None)
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -209,7 +208,9 @@ def _waited(asked: Asked, vehicle: int | None, near: Window) -> Episode | None:
     found = [
         e
         for e in asked.world.episodes(actor=Ego(), actions=("give-way", "wait"))
-        if overlaps(asked, e, near) and (vehicle is None or number(e.object) == vehicle)
+        if e.how in (None, "right-of-way")
+        and overlaps(asked, e, near)
+        and (vehicle is None or number(e.object) == vehicle)
     ]
     return next((e for e in found if isinstance(e.object, Vehicle)), None)
 

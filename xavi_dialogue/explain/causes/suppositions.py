@@ -84,8 +84,8 @@ def without(ride: Ride, vehicle: int, moment: float) -> Supposed:
     """
     trace = decision_for(ride, vehicle, moment)
     again = ride.without(trace, vehicle)
-    if again is None:  # the planner could not make it
-        raise thin((), None)
+    if again is None:  # the planner could not make it: whoever asked it knows why
+        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=vehicle))
     return compared(ride, trace, again, None)
 
 

@@ -45,7 +45,7 @@ def doing(
     entry = entry or section["action"][action]
     phrase = str(entry["say"])
     if has_object and "with" in entry:
-        phrase = str(entry["with"])
+        phrase = str(entry["own_with"] if ego and "own_with" in entry else entry["with"])
     elif ego and "ego" in entry:
         phrase = str(entry["ego"])
     if side is not None and side in entry:

@@ -145,7 +145,9 @@ def _far(ring: Ring) -> Quantity | None:
 
 def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
     """What is under way before the first step."""
-    if answer.begun is None or answer.begun == answer.steps[0][0]:
+    first = answer.steps[0][0]
+    straight = answer.begun == "exit-straight" and first == "continue"
+    if answer.begun is None or answer.begun == first or straight:
         return None
     if ring is not None and ring.next and answer.begun in TURNS:
         return ring.clause

@@ -34,6 +34,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, W
 
 PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
 CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
+TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # before whom it concerned
 FEW = 3  # vehicles that are told beside their number
 MANY = 5  # vehicles that are described one by one
 
@@ -197,10 +198,9 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         told = event_clause(
             answer.of, context.now, tense="perfect" if whole else "past", negated=never
         )
-        moments = [f.begin for f in answer.facts if isinstance(f, Episode)]
-        whens = clocks(moments) if 0 < len(moments) <= MANY else None
+        whens = _occasions(answer)
         first = message("COUNTED_EVENTS", clause=told, never=never, times=times(answer.count),
-                        at_least=answer.at_least, whens=whens, one=len(moments) == 1,
+                        at_least=answer.at_least, whens=whens, one=answer.count == 1,
                         **span)  # fmt: skip
         return Plan((first,), () if whens else _listed(facts))
     past = answer.until is not None and context.now - answer.until > PRESENT
@@ -210,6 +210,31 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     if len(facts) > FEW:
         return Plan((first,), (), _listed(facts))
     return Plan((first,), _listed(facts))
+
+
+def _occasions(answer: Counted) -> tuple[Message, ...] | None:
+    """When it happened, each time once, with whom it concerned where that was left open."""
+    assert isinstance(answer.of, Event)
+    rows: list[tuple[float, list[Thing]]] = []
+    for fact in answer.facts:
+        if not isinstance(fact, Episode):
+            continue
+        if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
+            rows.append((fact.begin, []))
+        whom = fact.object
+        if isinstance(whom, Vehicle) and whom != answer.of.object and whom not in rows[-1][1]:
+            rows[-1][1].append(whom)
+    if not 0 < len(rows) <= MANY or len(rows) != answer.count:
+        return None
+    to = TOWARDS.get(answer.of.action)
+    return tuple(
+        message(
+            "OCCASION", when=Moment(begin), to=to, whom=tuple(Who(v, begin) for v in who[:MANY])
+        )
+        if to is not None and who
+        else message("OCCASION", when=Moment(begin))
+        for begin, who in rows
+    )
 
 
 def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:

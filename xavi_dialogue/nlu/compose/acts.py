@@ -36,7 +36,7 @@ from xavi_dialogue.nlu.compose.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import feeling_of, talk_act
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
 from xavi_dialogue.nlu.compose.wh import fact
-from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 Acts = tuple[Act, ...]
@@ -49,10 +49,10 @@ STATED = 0.15  # of a statement taken for a question
 class Composer:
     """Composes the units of one utterance."""
 
-    def __init__(self, end_mark: str = "") -> None:
+    def __init__(self, budget: Budget, end_mark: str = "") -> None:
         self.notes = Notes()
         self.asks = end_mark == "?"
-        self.propositions = Propositions(self.notes)
+        self.propositions = Propositions(self.notes, budget)
         self.questions = Questions(self.notes)
         self.phrases = Phrases(self.propositions, self.questions, self.notes)
         self.questions.phrases = self.phrases

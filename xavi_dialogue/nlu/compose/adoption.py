@@ -105,10 +105,12 @@ _AMOUNTS = {"high": "more", "low": "less", "fast": "more", "slow": "less"}
 def exceeding(clause: Clause, event: Event) -> Proposition | None:
     """Read "we are doing more than forty" as a comparison of the speed."""
     key = clause.comparisons[0][0] if clause.comparisons else ""
-    if key not in _AMOUNTS or not isinstance(clause.than, Quantity):
+    than = clause.than
+    if isinstance(than, Described) and than.number is not None and than.kind == "vehicle":
+        than = Quantity(float(than.number))  # "a hundred and ten"
+    if key not in _AMOUNTS or not isinstance(than, Quantity):
         return None
     speed = Measured("speed", event.actor, time=event.time, tense=event.tense)
-    than = clause.than
     if than.unit == "count":
         than = Quantity(round(than.value / 3.6, 6), "m/s")  # nobody says "km/h"
     return Compares(speed, cast(Any, _AMOUNTS[key]), than)

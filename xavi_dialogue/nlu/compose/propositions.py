@@ -23,16 +23,20 @@ from xavi_dialogue.nlu.compose.senses import Match, match, senses
 from xavi_dialogue.nlu.compose.specials import proposition_of
 from xavi_dialogue.nlu.compose.states import state_of
 from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Budget
 
 SPREAD = 0.45  # readings that cost this much more than the best are not offered
 NO_PREDICATE = 1.0
+READING = 20  # steps that reading a clause with a verb takes
 
 
 class Propositions:
     """Reads clauses."""
 
-    def __init__(self, notes: Notes) -> None:
+    def __init__(self, notes: Notes, budget: Budget) -> None:
         self.notes = notes
+        self.budget = budget
+        self.later: dict[int, tuple[Clause, Sem | None]] = {}  # chained clauses as events
 
     def readings(self, clause: Clause) -> list[Candidate]:
         """Read a clause in all the ways that its words allow, cheapest first."""
@@ -69,6 +73,7 @@ class Propositions:
 
     def _verbal(self, clause: Clause) -> list[Candidate]:
         lemma = cast(Any, clause.verb).key
+        self.budget.spend(READING)
         found: list[Candidate] = []
         matches = [m for sense in senses(lemma) if (m := match(sense, clause)) is not None]
         if not matches:
@@ -113,11 +118,17 @@ class Propositions:
     def _chain(self, clause: Clause, event: Event) -> Event:
         """Add what is done next: "change left and then turn right"."""
         for join, later in reversed(clause.chained):
-            found = self.as_event(later)
+            found = self._later(later)
             if join == "and" and isinstance(found, Event):
                 fields = {k: getattr(event, k) for k in event.__struct_fields__}
                 event = Event(**{**fields, "then": found})
         return event
+
+    def _later(self, clause: Clause) -> Sem | None:
+        """Read a chained clause as an event, once for all senses of the verb before it."""
+        if id(clause) not in self.later:
+            self.later[id(clause)] = (clause, self.as_event(clause))
+        return self.later[id(clause)][1]
 
     def _unknown(self, clause: Clause) -> Proposition:
         word = cast(Any, clause.verb).words[0]

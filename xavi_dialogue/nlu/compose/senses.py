@@ -5,6 +5,7 @@ from functools import cache
 
 from xavi_dialogue.domain.terms import Pronoun, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.flags import flag
 from xavi_dialogue.nlu.compose.sem import Sem, is_thing, types
 from xavi_dialogue.nlu.text.tables import load
 
@@ -171,7 +172,7 @@ def _fill(
         found.sided = True
         return 0.0
     if role.kind in _FLAGS:
-        return 0.0 if _flag(role.kind, role.types, clause) else None
+        return 0.0 if flag(role.kind, role.types, clause) else None
     return _fill_phrase(role, found, clause, phrases)
 
 
@@ -270,35 +271,3 @@ def _fill_phrase(
             found.object = sem
         return cost
     return None
-
-
-def _flag(kind: str, wanted: str, clause: Clause) -> bool:
-    match kind:
-        case "inf":
-            return clause.infinitive is not None
-        case "ger":
-            return clause.gerund is not None
-        case "bare":
-            return clause.bare is not None
-        case "that":
-            return clause.that is not None
-        case "wh":
-            return clause.question is not None
-        case "adj":
-            listed = bool(clause.adjectives or clause.feelings or clause.comparisons)
-            return listed and (wanted == "*" or any(k == wanted for k, _ in clause.adjectives)
-                               or any(k == wanted for k, _ in clause.comparisons)
-                               or wanted in clause.manner)  # fmt: skip
-        case "bearing":
-            return bool(clause.bearings)
-        case "origin":
-            return clause.origin is not None
-        case "because":
-            return clause.because is not None
-        case "go":
-            inner = clause.bare.verb if clause.bare is not None else None
-            return inner is not None and inner.key == "go"
-        case "close":
-            return "close" in clause.manner
-        case _:
-            return False

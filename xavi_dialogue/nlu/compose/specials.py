@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import exceeding
+from xavi_dialogue.nlu.compose.becoming import become
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
@@ -37,9 +38,6 @@ from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
-_BECOMING = {"slow": "slow-down", "fast": "speed-up", "close": "approach"}
-_STATES = frozenset({"stuck", "late", "busy", "free", "far", "dangerous", "visible", "hidden",
-                     "lost"})  # fmt: skip
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
 
@@ -204,18 +202,6 @@ def _cost(special: Special) -> Proposition:
     return Compares(measured, "same", quantity)
 
 
-def _become(special: Special) -> Proposition:
-    """Read "getting slower", "got close", "became free"."""
-    clause = special.clause
-    words = [k for k, _ in clause.adjectives] + [k for k, _ in clause.comparisons]
-    words += [manner.removesuffix("ly") for manner in clause.manner]
-    for word in words:
-        if word in _BECOMING:
-            return Happens(_event(special, _BECOMING[word], None))
-    state = next((word for word in words if word in _STATES), "right")
-    return Is(cast(Any, state), special.subject, time=_when(special), tense=_tense(special))
-
-
 def _deed(special: Special) -> Proposition:
     sem = special.object
     if isinstance(sem, Event):
@@ -294,7 +280,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": _exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "give-priority": _priority, "switch": _signal,
-    "become": lambda s: _become(s),
+    "become": lambda s: become(s, _event),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": lambda s: Happens(_event(s, "keep-distance", as_thing(s.object))),

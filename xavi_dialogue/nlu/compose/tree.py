@@ -50,6 +50,12 @@ def number_of(node: Node) -> float:
         if leaf.category not in ("NUM", "HUNDRED"):
             continue
         word = leaf.key.replace(",", ".")
-        value = float(names[word]) if word in names else float(word)
+        value = float(names[word]) if word in names else _digits(word)
         total = total * value if value == 100 and total else total + value
     return min(total, MOST)
+
+
+def _digits(word: str) -> float:
+    """Read a number in decimal digits; 0 for other signs that look like digits."""
+    plain = word.isascii() and word.replace(".", "", 1).isdecimal()
+    return float(word) if plain else 0.0

@@ -43,6 +43,12 @@ class Budget:
 
     steps: int
 
+    def spend(self, steps: int) -> None:
+        """Take steps."""
+        self.steps -= steps
+        if self.steps < 0:
+            raise ChartLimitError
+
 
 class Chart:
     """One text against the grammar."""

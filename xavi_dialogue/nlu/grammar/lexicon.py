@@ -3,6 +3,7 @@
 Word classes are the terminals of the grammar. A phrase of several words is one leaf.
 """
 
+import re
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -12,6 +13,7 @@ from xavi_dialogue.nlu.text.lattice import Edge, Lattice
 from xavi_dialogue.nlu.text.spelling import Vocabulary
 from xavi_dialogue.nlu.text.tables import load, phrases
 
+_NUMBER = re.compile(r"[0-9]+(?:[.,:][0-9]+)?")
 NOUNS = frozenset({"KIND", "PLACEN", "MEAS", "EVN", "ABS", "UNIT", "TUNIT", "RIDE", "TIMES"})
 VERB_CLASSES = {"base": "V", "third": "V", "past": "VPAST", "part": "VED", "ing": "VING"}
 LATER_SENSE = 0.15  # cost of a phrase marked "*"
@@ -179,12 +181,13 @@ def _walk(
 
 def _single(found: list[dict[str, list[Leaf]]], known: Lexicon, start: int, edge: Edge) -> None:
     word = edge.word
-    if (word[0].isdigit() and "'" not in word) or word in load("nlu_text.toml")["numbers"]:
+    is_number = _NUMBER.fullmatch(word) is not None
+    if is_number or word in load("nlu_text.toml")["numbers"]:
         name = "CLOCK" if ":" in word else "NUM"
         _put(found, Leaf(name, word, "", (word,), (edge.token,), start, edge.end, edge.cost))
     if word == "hundred":
         _put(found, Leaf("HUNDRED", word, "", (word,), (edge.token,), start, edge.end, edge.cost))
-    has_sense = known.vocabulary.words.get(word) == 0 or word[0].isdigit()
+    has_sense = known.vocabulary.words.get(word) == 0 or is_number
     if word in known.fillers:
         _put(found, Leaf("FILLER", word, "", (word,), (edge.token,), start, edge.end,
                          FILLER + edge.cost))  # fmt: skip

