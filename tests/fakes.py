@@ -39,7 +39,8 @@ def moments_of(ride: Ride, *, step: float = 0.5, until: float | None = None) -> 
 def again(trace: PlanTrace, need: NeedRollout | WhatIfRequest) -> PlanTrace:
     """Plan again without a planner: the same decision, said to be what was wanted."""
     what_if = msgspec.convert(msgspec.to_builtins(need), WhatIf)
-    return msgspec.structs.replace(trace, what_if=what_if)
+    scene = {vehicle: state for vehicle, state in trace.scene.items() if vehicle != need.removed}
+    return msgspec.structs.replace(trace, what_if=what_if, scene=scene)
 
 
 def s1_moments() -> Iterator[Moment]:

@@ -50,6 +50,12 @@ def test_what_is_made_of_leftovers_is_not_understood(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["Minimum gap to 2 over the whole manoeuvre, in metres?",
-                                  "overtaking?", "hw long til we r there", "and the bus?"])  # fmt: skip
+                                  "overtaking?", "hw long til we r there",
+                                  "and the bus?"])  # fmt: skip
 def test_what_is_plain_stays_understood(text: str) -> None:
     assert PARSER.read(text)[0].acts
+
+
+@pytest.mark.parametrize("word", ["lets", "cars", "the car of", "who said that"])
+def test_nesting_without_end_is_read_without_a_fault(word: str) -> None:
+    assert PARSER.read(" ".join([word] * 48)[:MAX_CHARACTERS])

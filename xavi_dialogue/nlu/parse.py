@@ -33,7 +33,7 @@ from xavi_dialogue.nlu.text.tokens import Typed, tokenise
 from xavi_dialogue.nlu.topics import fold
 
 MAX_READINGS = 6
-MAX_STEPS = 8_000
+MAX_STEPS = 6_500
 CACHED = 512
 LONG = 18  # [tokens] from which on a text may be a story with a question at its end
 REACH = 24  # [tokens] how long that question may be

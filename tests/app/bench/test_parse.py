@@ -166,7 +166,7 @@ def test_ambiguous_words_are_known_ones() -> None:
 
 
 def test_no_text_profits_from_those_before_it() -> None:
-    latency.hearing_time("wyh did yuo brake?", latency.record_of(RIDE))
+    latency.hearing_time("why did you braek?", latency.record_of(RIDE))
     assert spelling.corrections.cache_info().currsize > 0
     latency.forget()
     assert spelling.corrections.cache_info().currsize == 0

@@ -31,6 +31,7 @@ Leaves: TypeAlias = list[dict[str, list[Leaf]]]
 
 _TIE = 1e-6
 _BEAM = 3.0  # what costs this much more than the best at its node is given up
+_DEEPEST = 60  # phrases within one another; no sentence that people say comes near
 
 
 class ChartLimitError(Exception):
@@ -62,6 +63,7 @@ class Chart:
         self.masks = [sum(bits[name] for name in found if name in bits) for found in leaves]
         self.masks.append(0)
         self.width = len(leaves) + 1
+        self.depth = 0
 
     def read(self, name: str, start: int) -> dict[int, Entry]:
         """Find the phrases of that name that begin at a node, by the node where they end."""
@@ -74,8 +76,12 @@ class Chart:
         key = number * self.width + start
         found = self.table.get(key)
         if found is None:
+            if self.depth >= _DEEPEST:
+                return {}
             self.table[key] = {}
+            self.depth += 1
             found = self.table[key] = self._run(number, start)
+            self.depth -= 1
         return found
 
     def _run(self, number: int, start: int) -> dict[int, Entry]:
