@@ -52,9 +52,10 @@ def test_an_answer_is_shown_on_the_map_with_its_evidence(screen: Screen) -> None
 
 
 def test_a_vehicle_that_an_answer_names_is_pointed_at(screen: Screen) -> None:
-    turn = screen.ask_and_hear(LANES)
-    latest = screen.turn(turn["n"])
-    latest.get_by_role("button", name=re.compile("vehicle 1", re.I)).first.hover()
+    screen.ask_and_hear(LANES)
+    # Where it is named a second time in a conversation, its number is left out.
+    named = screen.log.get_by_role("article").get_by_role("button", name=re.compile("^vehicle 1$"))
+    named.first.hover()
     screen.until("() => window.xavi.store.pointed.has(1)")
 
 
@@ -65,8 +66,8 @@ def test_misspelt_questions_are_understood(screen: Screen) -> None:
 
 
 def test_a_refusal_offers_other_questions(screen: Screen) -> None:
-    turn = screen.ask_and_hear("What is the weather like?")
-    assert (turn["reply"]["kind"], turn["reply"]["reason"]) == ("refusal", "out-of-scope")
+    turn = screen.ask_and_hear("asdf qwer")
+    assert (turn["reply"]["kind"], turn["reply"]["reason"]) == ("refusal", "not-understood")
     latest = screen.turn(turn["n"])
     offered = turn["reply"]["suggestions"][0]
     before = screen.count
