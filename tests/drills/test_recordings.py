@@ -214,8 +214,8 @@ def test_past_its_end_a_recording_is_asked_about_its_last_moment(
     question = "What are you doing?\n"
     said, notes = asked(hub, root, f"@ 2.0s\n{question}@ 15s\n{question}", str(path))
     first, second = said.splitlines()
-    assert first.endswith("going straight on at 36 km/h.")
-    assert second.endswith("going straight on at 36 km/h.")
+    assert first.endswith("at 36 km/h.")
+    assert second.endswith("at 36 km/h.")
     assert notes.count("the recording ends at 0:02") == 1
     from_there, notes = asked(hub, root, question, str(path), "--from", "15")
     assert from_there == f"{first}\n"

@@ -38,8 +38,7 @@ from xavi_dialogue.nlu.grounding.result import Grounding
 _RULE = re.compile(r"(?:^!?|->\s*)([a-z]\w*)(?=(?:\.-?\d+)?\s*:|\s*$)")
 PAPER = "answer_paper"
 RULES_OF, ALTERNATIVES_OF = "rules of {}", "alternatives of {}"
-#: Reasons of the contract that no explainer gives.
-NOT_GIVEN = frozenset({"effect-too-small", "no-influence"})
+NOT_GIVEN = ("effect-too-small", "no-influence")  # reasons of the contract that nothing gives
 ACTS, QUESTIONS, ANSWERS, REFUSALS = "types of acts", "questions", "answers", "refusals"
 #: An alternative beside its file and its line there.
 Placed: TypeAlias = tuple[str, int, str, Alternative]
@@ -170,7 +169,8 @@ class _Ear:
 
         def read(text: str) -> tuple[Reading, ...]:
             self._readings = mind.read(text)
-            self.chosen += filter(_is_quizzing, self._readings[:1])  # it needs no grounding
+            first = self._readings[:1]  # a wish to be quizzed needs no grounding
+            self.chosen += (r for r in first if any(isinstance(a, Quizzing) for a in r.acts))
             return self._readings
 
         def ground(
@@ -192,10 +192,6 @@ class _Ear:
             if any(acts and set(acts) <= set(chosen.acts) for acts in ways):
                 names |= set(_names(unit))
         self.read_by.append(frozenset(names))
-
-
-def _is_quizzing(reading: Reading) -> bool:
-    return any(isinstance(act, Quizzing) for act in reading.acts)
 
 
 def _names(node: Node) -> Iterator[str]:

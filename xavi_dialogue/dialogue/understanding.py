@@ -11,7 +11,8 @@ from xavi_dialogue.dialogue.quizzing import judgement_of, put_again
 from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Offer, Turn
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood, Refusal, WhichOne
-from xavi_dialogue.domain.meaning import Act, Elliptic, Quizzing, Reading, Repair
+from xavi_dialogue.domain.meaning import Act, Elliptic, Quizzing, Reading, Repair, TokenShare
+from xavi_dialogue.domain.terms import Described
 from xavi_dialogue.nlu.grounding.result import Grounding
 
 
@@ -22,7 +23,8 @@ def understand(now: Situation, before: Turn | None) -> Understood:
         now: the question and what there is to understand it from.
         before: the turn before, where it ended with a question of ours.
     """
-    readings = now.mind.read(now.asked.text)
+    chosen = _chosen(now.asked.text, before)
+    readings = now.mind.read(now.asked.text) if chosen is None else (chosen,)
     quiz = None if before is None else before.quiz
     if quiz is not None:
         judged = judgement_of(now, quiz, readings)
@@ -39,6 +41,18 @@ def understand(now: Situation, before: Turn | None) -> Understood:
     if quiz is not None and (not understood.acts or _is_fragment(now, readings)):
         return put_again(quiz)
     return understood
+
+
+def _chosen(text: str, before: Turn | None) -> Reading | None:
+    """Read a text that is the number or the very words of a choice that was offered."""
+    if before is None or before.offer is None:
+        return None
+    typed = text.strip().strip("().").casefold()
+    for rank, choice in enumerate(before.reply.choices, start=1):
+        if text.strip().casefold() == choice.casefold() or typed == str(rank):
+            thing = Described(kind="vehicle", rank=rank)
+            return Reading((Elliptic(thing),), (TokenShare(text, text, "meaning", act=0),))
+    return None
 
 
 def _of_reply(acts: Sequence[Act]) -> bool:
