@@ -276,6 +276,11 @@ def clarified() -> Talk:
     return one
 
 
+@pytest.mark.parametrize("text", ["2", "(2)", "that one", "That one"])
+def test_a_clarification_is_answered_by_what_it_says(clarified: Talk, text: str) -> None:
+    assert clarified.say(text).results == (SPEED,)
+
+
 def test_a_clarification_is_answered_by_number(clarified: Talk) -> None:
     reply = clarified.session.turns[-1].reply
     assert (reply.kind, reply.reason, len(reply.choices)) == ("clarification", "ambiguous", 2)

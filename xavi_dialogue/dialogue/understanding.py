@@ -12,7 +12,6 @@ from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Offer, Turn
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood, Refusal, WhichOne
 from xavi_dialogue.domain.meaning import Act, Elliptic, Quizzing, Reading, Repair, TokenShare
-from xavi_dialogue.domain.terms import Described
 from xavi_dialogue.nlu.grounding.result import Grounding
 
 
@@ -50,8 +49,8 @@ def _chosen(text: str, before: Turn | None) -> Reading | None:
     typed = text.strip().strip("().").casefold()
     for rank, choice in enumerate(before.reply.choices, start=1):
         if text.strip().casefold() == choice.casefold() or typed == str(rank):
-            thing = Described(kind="vehicle", rank=rank)
-            return Reading((Elliptic(thing),), (TokenShare(text, text, "meaning", act=0),))
+            share = TokenShare(text, text, "meaning", act=0)
+            return Reading((Repair("pick", pick=rank),), (share,))
     return None
 
 
