@@ -50,7 +50,7 @@ class Item:
 
     group: str  # what it is one of
     name: str  # with the place in its file, where it stands in one
-    fine: bool = False  # of the finer list: nice to have, not required
+    fine: bool = False  # of the finer list, which is shown and not required
 
 
 @dataclass(frozen=True, slots=True)
