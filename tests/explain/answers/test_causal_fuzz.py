@@ -7,7 +7,7 @@ import msgspec
 import pytest
 
 from tests.explain.causes.rides import recorded, story, told
-from xavi_dialogue.domain.answers import Answer, Refusal
+from xavi_dialogue.domain.answers import Answer, NeedRollout, Refusal
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import (
     Compare,
@@ -41,7 +41,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, State
 
 ACTIONS = get_args(ActionName)
 STATES = get_args(State)
-RESULTS = (*get_args(Answer), *get_args(Refusal))
+RESULTS = (*get_args(Answer), *get_args(Refusal), NeedRollout)
 RIDES = ("s1-0", "s2-0", "s3-0", "motorway-0", "braking", "waiting", "crash", "nobody")
 
 

@@ -37,7 +37,10 @@ def single(at: Moment, removed: tuple[int, ...] = ()) -> RecordedRide:
 
 
 def told(ride: RecordedRide, question: Any, now: float, span: Span | None = None) -> Any:
-    """What the engine makes of a question; plans that nobody made are refused."""
+    """What the engine makes of a question; plans that nobody made are refused.
+
+    A plan that is asked for again after it was refused ends it: there is no answer without it.
+    """
     act = GroundedAct(Ask(question), span)
     record = Record(
         now,
@@ -46,7 +49,7 @@ def told(ride: RecordedRide, question: Any, now: float, span: Span | None = None
         ended=ride.ended is not None and ride.ended <= now,
     )
     found = explain(act, record)
-    while isinstance(found, NeedRollout):
+    while isinstance(found, NeedRollout) and found not in record.refused:
         record = _answered(ride, record, found)
         found = explain(act, record)
     return found
