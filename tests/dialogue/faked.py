@@ -54,7 +54,10 @@ class Faked:
         for act in acts:
             if act in self.groundings:
                 return self.groundings[act]
-        grounded = tuple(GroundedAct(act, doubts=self.doubts.get(act, ())) for act in acts)
+        words = self.doubts.get
+        grounded = tuple(
+            GroundedAct(act, doubts=words(act, ()), strange=words(act, ())) for act in acts
+        )
         return Grounding(acts=grounded, reading=readings[0])
 
     def explain(self, act: GroundedAct, record: Record) -> Explained:

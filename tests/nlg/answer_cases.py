@@ -18,6 +18,7 @@ from xavi_dialogue.domain.answers import (
     Happenings,
     Helpful,
     Identified,
+    Lasted,
     Located,
     Measures,
     MotionCause,
@@ -199,4 +200,6 @@ CASES: tuple[Answer, ...] = (
     Acknowledged("cancelled"),
     Again("shorter", Measures((Measure("speed", E, NOW, 13.0, reference=13.9),))),
     Again("repeat", None),
+    Lasted(Related("behind", V, E), 3.0, None, NOW),
+    Lasted(Related("behind", V, E), 3.0, 8.0, NOW),
 )

@@ -120,4 +120,7 @@ CASES: tuple[tuple[Measure, ...], ...] = (
     (Measure("jerk", E, 9.0, 2.1, extreme="highest"),),
     (Measure("speed", V, NOW, gap="out-of-view"), Measure("speed", V, THEN, 13.0)),
     (Measure("lane", E, NOW, gap="not-applicable"),),
+    (Measure("speed-change", E, NOW - 5.0, -4.0, until=NOW, low=13.9, high=9.9),),
+    (Measure("time-to-go", E, NOW, 4.0, to=V),),
+    (Measure("speed", E, NOW - 8.0, 12.0, until=NOW - 2.0, low=10.0, high=13.9, extreme="mean"),),
 )

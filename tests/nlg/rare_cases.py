@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from tests.nlg.answer_cases import RIDE, E, V
+from tests.nlg.answer_cases import EXPECTED, RIDE, UNSURE, E, V
 from tests.nlg.causal_cases import (
     ALONE,
     CHANGED,
@@ -32,8 +32,11 @@ from xavi_dialogue.domain.answers import (
     Identified,
     Located,
     Measures,
+    MotionCause,
+    MotionReason,
     Options,
     OtherReason,
+    OwnSignal,
     PlaceReason,
     Priority,
     SignalReason,
@@ -44,7 +47,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import Feel, Request
-from xavi_dialogue.domain.terms import Event, Exit, Happens, Is, Junction
+from xavi_dialogue.domain.terms import Event, Exit, Happens, Is, Junction, Nobody, Related
 
 STOOD = (Episode(E, "stand", 4.0, 6.0), Episode(E, "stand", 14.0, 18.0))
 MANY = tuple(
@@ -70,7 +73,14 @@ CASES: tuple[Answer, ...] = (
     Bound(V),
     Options((), 2.0, Evidence()),
     Verdict(Is("safe"), None),
-    Priority(NOW, "none", limit=Measure("speed", E, NOW, 13.0, reference=13.9)),
+    Priority(
+        NOW, "none", limit=Measure("speed", E, NOW, 13.0, reference=13.9), blame=True, legal=True
+    ),
+    Priority(NOW, "give-way", 1, holds=False, claim=True),
+    Priority(12.0, "priority", 1, first=E, holds=True),
+    Priority(12.0, "give-way", 1, first=E, stood=True),
+    Priority(NOW, "we-change", 1),
+    Priority(NOW, "priority", 1, others=(2, 3), holds=True),
     Declined(Request(Event("do", tense="present"))),
     Declined(Request(Event("overtake", object=V)), cannot="there is no lane to the left"),
     OtherReason(1, Episode(V, "brake", 15.0, 17.0), causes=(replace(SLOW_BUS, vehicle=2), LEADER)),
@@ -143,6 +153,23 @@ CASES: tuple[Answer, ...] = (
     PlaceReason(1, "ahead-of", Episode(V, "overtake", 8.0, 12.0, E)),
     PlaceReason(1, "ahead-of", Episode(E, "give-way", 8.0, 12.0, V)),
     PlaceReason(1, "behind"),
+    MotionReason(
+        Episode(E, "give-way", 8.0, 11.0), (MotionCause("right-of-way", 1),), asked="let-go"
+    ),
+    OwnSignal(Episode(E, "signal", 18.0, side="right"), "exit-right"),
+    OwnSignal(Episode(E, "signal", 8.0, 10.0, side="left"), "change-left", came=False),
+    OwnSignal(Episode(E, "signal", 8.0, 10.0, side="left"), None),
+    ChoiceReason(
+        "why",
+        Episode(E, "change-left", 8.0, 11.0),
+        HOPELESS,
+        1,
+        "main",
+        ahead=MotionCause("leader", 1, speed=0.0),
+    ),
+    GoReason(
+        Episode(E, "exit-right", 9.0, 11.0), (Bystander(1, "vehicle", gone=True),), refrained="wait"
+    ),
     Declined(Request(Event("stop", tense="present")), soon=26.0),
     Declined(Request(Event("stop", tense="present")), soon=20.2),
     Declined(
@@ -158,4 +185,29 @@ CASES: tuple[Answer, ...] = (
         Feel("sick"),
         Comfort(Measure("deceleration", E, 9.0, 5.2, extreme="highest"), hard=True),
     ),
+    Bound(V, None, TURNED_OFF, LORRY),
+    Bound(V, None, TURNED_OFF, replace(LORRY, in_view=False, seen=14.0)),
+    Bound(V, None, None, replace(LORRY, in_view=False, seen=14.0)),
+    Bound(V, None, None, LORRY),
+    Beliefs(
+        1,
+        Event("turn", V, side="right"),
+        (UNSURE, EXPECTED),
+        probability=0.78,
+        time=8.0,
+        turning=(4.0, 8.0),
+        changed=True,
+    ),
+    Beliefs(
+        1, Event("turn", V, side="right"), (UNSURE, EXPECTED), probability=0.78, time=8.0, since=8.0
+    ),
+    Verdict(
+        Happens(Event("let-go", V, E, tense="future")),
+        False,
+        believed=(EXPECTED,),
+        probability=0.04,
+    ),
+    Verdict(Is("wrong", V, tense="past"), False, (TURNED_OFF,)),
+    Verdict(Related("can-see", E, V, tense="future"), None, (LORRY,), "in-future"),
+    Verdict(Happens(Event("let-go", Nobody(), E, tense="present")), False),
 )

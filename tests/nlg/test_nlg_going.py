@@ -37,9 +37,9 @@ FIRST = MotionCause("right-of-way", 1)
         ),
         (
             GoReason(TURN, (Bystander(1, "vehicle", gone=True),)),
-            ("which I had let go first, had passed",),
+            ("I had let", "go first"),
         ),
-        (Unslowed(SLOWED, FIRST), ("had right of way", "My planner did not try", "cannot say")),
+        (Unslowed(SLOWED, FIRST), ("had right of way", "had to brake for us")),
         (Unslowed(SLOWED, FIRST, 8.0, 8.4), ("at about the same time",)),
         (Unslowed(SLOWED, FIRST, 8.0, 11.0), ("about 3 seconds before",)),
         (Unslowed(SLOWED, MotionCause("turn")), ("I had to take the turn at a safe speed",)),

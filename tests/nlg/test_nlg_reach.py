@@ -7,7 +7,15 @@ from typing import get_args
 
 import pytest
 
-from tests.nlg import answer_cases, causal_cases, dialogue_cases, measure_cases, rare_cases
+from tests.nlg import (
+    answer_cases,
+    causal_cases,
+    dialogue_cases,
+    journey_cases,
+    measure_cases,
+    rare_cases,
+    supposed_cases,
+)
 from tests.nlg.scenery import CONTEXT
 from tests.nlg.test_nlg_properties import check
 from xavi_dialogue.domain.answers import Again, Answer, Measures, Refusal
@@ -23,7 +31,9 @@ CASES = (
     *answer_cases.CASES,
     *causal_cases.CASES,
     *dialogue_cases.CASES,
+    *journey_cases.CASES,
     *rare_cases.CASES,
+    *supposed_cases.CASES,
     *(Measures(measures) for measures in measure_cases.CASES),
 )
 RARE = [

@@ -5,7 +5,7 @@ from typing import get_args
 
 import pytest
 
-from tests.nlg import answer_cases, dialogue_cases, measure_cases
+from tests.nlg import answer_cases, dialogue_cases, journey_cases, measure_cases
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Answer, Measures
 from xavi_dialogue.domain.vocabulary import Attribute
@@ -34,12 +34,17 @@ def test_an_answer_is_said(answer, text):
     assert say(answer, CONTEXT).text == text
 
 
+@pytest.mark.parametrize(("answer", "text"), table("journey", journey_cases.CASES))
+def test_an_answer_about_our_way_is_said(answer, text):
+    assert say(answer, CONTEXT).text == text
+
+
 def test_every_attribute_has_a_case():
     cases = {m.attribute for case in measure_cases.CASES for m in case}
     assert cases == set(get_args(Attribute))
 
 
 def test_every_kind_of_factual_answer_has_a_case():
-    cases = {type(case) for case in (*answer_cases.CASES, *dialogue_cases.CASES)}
+    cases = {type(case) for case in (*answer_cases.CASES, *dialogue_cases.CASES, *journey_cases.CASES)}
     assert set(FACTS) - cases == {Measures}
     assert set(FACTS) <= set(get_args(Answer))

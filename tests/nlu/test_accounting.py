@@ -18,7 +18,7 @@ from xavi_dialogue.nlu.text.tokens import MAX_TOKENS, tokenise
 PARSER = Parser()
 TABLE = Path(__file__).with_name("readings.toml")
 TEXTS = [case["text"] for case in tomllib.loads(TABLE.read_text(encoding="utf-8"))["readings"]]
-STRANGE = ("frobnicate", "zorblax", "quibbed", "blorping", "Xylograph")
+STRANGE = ("frobnicate", "zorblax", "vlorped", "blorping", "Xylograph")
 HOSTILE = (
     "", " ", "?", "?!?", "\x00\x1b[31m", "a" * 5000, "why " * 200, "if " * 60, "what if " * 24,
     "vehicle 1 " * 48, "and " * 48, "don't " * 40, "'s 's 's", "-- -- --", "0:99 99999999999999999",

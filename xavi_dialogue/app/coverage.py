@@ -286,7 +286,7 @@ def _question_rules() -> dict[str, Item]:
     made = {
         name
         for phrase in question_grammar().phrases
-        if not phrase.splices
+        if not phrase.name.startswith("_")
         for state in phrase.states
         for name, _ in state.complete
     }

@@ -9,7 +9,7 @@ from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.notation import acts_line, reading_line
 from xavi_dialogue.nlu.parse import Parser
-from xavi_dialogue.nlu.projection import QueryFields, project
+from xavi_dialogue.nlu.projection import QueryFields, project_readings
 from xavi_dialogue.nlu.projection.fields import TALK
 from xavi_dialogue.transports.text import one_line
 
@@ -55,7 +55,7 @@ def parse_text(
     best = readings[0]
     meaning = Meaning(
         text=typed,
-        query=project(best.acts),
+        query=project_readings(readings),
         acts=best.acts,
         unknown=best.unknown,
         strangers=_strangers(best.acts, vehicles),
@@ -110,9 +110,9 @@ def query_of(parser: Parser, text: str, context: Sequence[str] = ()) -> QueryFie
     """Return the query fields of a text after earlier turns, oldest first."""
     previous: QueryFields | None = None
     for turn in context:
-        found = project(parser.read(turn)[0].acts, previous)
+        found = project_readings(parser.read(turn), previous)
         previous = previous if found.type in TALK else found
-    return project(parser.read(text)[0].acts, previous)
+    return project_readings(parser.read(text), previous)
 
 
 def _strangers(acts: tuple[Act, ...], vehicles: frozenset[int]) -> tuple[int, ...]:

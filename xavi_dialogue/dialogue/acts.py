@@ -44,8 +44,10 @@ Results: TypeAlias = tuple[Result, ...]
 
 #: Social moves that a reply to something else makes superfluous.
 _POLITE = frozenset(
-    ("greeting", "farewell", "thanks", "agree", "acknowledge", "laugh", "wish", "address")
-)
+    ("greeting", "farewell", "thanks", "agree", "disagree", "acknowledge", "laugh", "wish",
+     "address", "apology", "praise")
+)  # fmt: skip
+_MENDING = frozenset(("meant", "correct", "pick"))
 _REWORDINGS = frozenset(("longer", "shorter", "simpler"))
 
 
@@ -111,9 +113,18 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
 def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
     """Return the acts that are replied to: courtesies only where there is nothing else.
 
-    What is to be said again in another form is not said again as it was, too.
+    What is to be said again in another form is not said again as it was, too; "what?" beside
+    a question is no more than surprise.
     """
-    telling = tuple(act for act in acts if not _is_courtesy(act))
+    asked = any(isinstance(act.act, Ask | Request) for act in acts)
+    telling = tuple(
+        act for act in acts
+        if not _is_courtesy(act) and not (asked and isinstance(act.act, Repair))
+    )  # fmt: skip
+    mended = any(isinstance(a.act, Repair) and a.act.kind in _MENDING for a in acts)
+    corrected = mended or any(act.leaned for act in acts)
+    if corrected:
+        telling = tuple(a for a in telling if a.act != Social("disagree")) or telling
     reworded = any(isinstance(a.act, Repair) and a.act.kind in _REWORDINGS for a in telling)
     kept = tuple(act for act in telling if not (reworded and act.act == Repair(kind="repeat")))
     return kept or acts[:1]
@@ -211,9 +222,11 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
         for act, results in zip(understood.acts, done, strict=True)
         for result in results
     )
-    doubts = tuple(dict.fromkeys(word for act in understood.acts for word in act.doubts))
+    heard = [act for act in understood.acts if isinstance(act.act, Ask | Request)]
+    doubtful = [act for act in heard or understood.acts if act.doubts]
+    strange = tuple(dict.fromkeys(word for act in doubtful for word in act.strange))
     answered = any(not isinstance(part.result, NotUnderstood) for part in replied)
-    owned = (Part(None, Unfamiliar(doubts)),) if doubts and answered else ()
+    owned = (Part(None, Unfamiliar(strange)),) if doubtful and answered else ()
     before = tuple(Part(None, one) for one in understood.before)
     after = tuple(Part(None, one) for one in understood.behind)
     return (*owned, *before, *replied, *after)

@@ -15,6 +15,7 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.domain.answers import (
     Activity,
     Again,
+    Altered,
     Answer,
     Avoidance,
     Beliefs,
@@ -25,6 +26,7 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Comforting,
     Contrast,
+    Decided,
     Declined,
     DidNotHappen,
     Grounds,
@@ -40,12 +42,13 @@ from xavi_dialogue.domain.answers import (
     Pivot,
     PlanAhead,
     Refusal,
+    Summit,
     SupposedOfOther,
     SupposedOfUs,
     TooLittle,
     Verdict,
 )
-from xavi_dialogue.domain.facts import Belief, Measure
+from xavi_dialogue.domain.facts import Belief, Episode, Measure
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
@@ -83,7 +86,12 @@ def recast(reading: Reading, turns: Sequence[Turn]) -> Reading:
     last = _last(turns)
     if last is None:
         return reading
-    return replace(reading, acts=tuple(_recast(act, last) for act in reading.acts))
+    acts = reading.acts
+    own = [k > 0 and isinstance(acts[k - 1], Ask) and _is_bare_why(a) for k, a in enumerate(acts)]
+    return replace(reading, acts=tuple(
+        Elliptic(form="why") if mine else _recast(act, last)
+        for act, mine in zip(acts, own, strict=True)
+    ))  # fmt: skip
 
 
 def _recast(act: Act, last: Turn) -> Act:
@@ -120,7 +128,13 @@ def deeper(last: Turn) -> Deeper:
             driving = Event("move", speed.thing, time=At(speed.time), tense="present")
             return Ask(Why(Happens(driving)))
         case Activity(doing=doing) if doing:
-            return Ask(Why(Happens(event_of(doing[-1]))))
+            return Ask(Why(Happens(event_of(_telling(doing)))))
+        case Summit(deeds=deeds) if deeds:
+            return Ask(Why(Happens(event_of(deeds[0]))))
+        case Decided(time=time, steps=steps) if steps:
+            return Ask(Why(Happens(Event(steps[0], time=At(time)))))
+        case Altered(after=after) if after.steps:
+            return Ask(Why(Happens(Event(after.steps[0], time=At(after.time)))))
         case PlanAhead(steps=steps) if steps:
             return Ask(Why(Happens(Event(steps[0][0], tense="future", modal="will"))))
         case SupposedOfOther(plan=plan) if plan:
@@ -133,6 +147,15 @@ def deeper(last: Turn) -> Deeper:
         case CannotSay() | NotApplicable() | TooLittle():
             return "bottom"
     return "leave"
+
+
+#: What says least of what somebody is about.
+_PLAIN = frozenset(("signal", "follow", "speed-up", "slow-down", "continue", "move", "approach"))
+
+
+def _telling(doing: Sequence[Episode]) -> Episode:
+    """Return the deed that tells most of what somebody is about; of equals the last."""
+    return max(doing, key=lambda e: (e.action not in _PLAIN, e.action != "signal", e.begin))
 
 
 def _of_ours(

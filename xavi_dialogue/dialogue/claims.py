@@ -9,7 +9,14 @@ from typing import Final, TypeAlias
 
 from xavi_dialogue.dialogue.discourse import causes_of
 from xavi_dialogue.dialogue.turn import Part
-from xavi_dialogue.domain.answers import Acknowledged, Answer, DidNotHappen, Refusal, Verdict
+from xavi_dialogue.domain.answers import (
+    Acknowledged,
+    Answer,
+    DidNotHappen,
+    Priority,
+    Refusal,
+    Verdict,
+)
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.meaning import Ask, Claim, Request
@@ -72,7 +79,10 @@ def _is_vague(that: Proposition) -> bool:
         case Compares(right=None):
             return True
     event = first(that, Event)
-    return event is not None and any(manner in MANNERS for manner in event.manner)
+    if event is None:
+        return False
+    opinion = event.modal is not None or event.action == "do"
+    return opinion or any(manner in MANNERS for manner in event.manner)
 
 
 def _is_bare(act: GroundedAct) -> bool:
@@ -86,11 +96,22 @@ def _is_bare(act: GroundedAct) -> bool:
 
 def told(said: Sequence[Part]) -> tuple[Part, ...]:
     """Return the parts of a reply that are put into words."""
+    said = _once(said)
     acts = [part.act for part in said if part.act is not None]
     answers = [part.result for part in said if not _is_claim(part)]
     if not asks(acts):
         return tuple(part for part in said if not (_is_claim(part) and part.result == NOTED))
     return tuple(part for part in said if not _is_claim(part) or _matters(part.result, answers))
+
+
+def _once(said: Sequence[Part]) -> tuple[Part, ...]:
+    """Leave out who has right of way where another part tells it of the same vehicle."""
+    rules = [p for p in said if isinstance(p.result, Priority)]
+    owned = [p for p in rules if isinstance(p.result, Priority) and p.result.holds is not None]
+    kept_rules = {
+        p.result.vehicle: p for p in reversed(owned or rules) if isinstance(p.result, Priority)
+    }
+    return tuple(p for p in said if p not in rules or p in kept_rules.values())
 
 
 def kept(said: Sequence[Part]) -> tuple[Part, ...]:

@@ -27,6 +27,7 @@ from xavi_dialogue.domain.answers import (
     PlanAhead,
     Priority,
     Refusal,
+    Summit,
     SupposedOfOther,
     SupposedOfUs,
     Verdict,
@@ -50,6 +51,7 @@ from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, 
 
 REMEMBERED = 20  # turns; what was said before them is no longer referred to
 ASSERTED = 6  # propositions that are kept
+TIMES = 4  # moments that the passenger named which are kept
 LONG = 60.0  # [s] a longer stretch is no episode that "that" or "then" may mean
 
 
@@ -79,7 +81,15 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         pending=None if offer is None else offer.pending,
         last_acts=said or discourse.last_acts,
         asked_at=turn.reply.sim_time if said else discourse.asked_at,
+        times=tuple(dict.fromkeys((*_times(turn), *discourse.times)))[:TIMES],
     )
+
+
+def _times(turn: Turn) -> Iterator[float]:
+    """Yield the moments [s] that the passenger named, latest first."""
+    for act in reversed(turn.acts):
+        if act.span is not None and act.span.said and not act.span.ahead:
+            yield act.span.end
 
 
 def _said(turn: Turn) -> Iterator[Ask | Claim | Request | Feel]:
@@ -155,6 +165,10 @@ def _answered(part: Part) -> Iterator[Proposition]:
             yield Happens(event_of(deed))
         case Happenings(episodes=episodes) if episodes:
             yield Happens(event_of(episodes[-1]))
+        case Identified(facts=facts) if deeds := [f for f in facts if isinstance(f, Episode)]:
+            yield Happens(event_of(deeds[-1]))
+        case Summit(deeds=deeds) if deeds:
+            yield Happens(event_of(deeds[0]))
         case DidNotHappen(asked=asked, instead=instead):
             yield from (Happens(event_of(one)) for one in instead[-1:])
             yield Not(Happens(asked))

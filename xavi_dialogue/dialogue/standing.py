@@ -41,6 +41,7 @@ _BY_GAP: dict[Gap, Reason] = {
     "not-recorded": "outside-record",
     "not-applicable": "not-applicable",
     "others-thoughts": "out-of-scope",
+    "unknown-plans": "out-of-scope",
 }
 
 

@@ -76,7 +76,7 @@ def grounded(grounding: Grounding) -> Understood:
     if clarify is not None:
         behind = (*behind, clarify)
     if not acts and not before and not behind:
-        unknown = () if grounding.reading is None else grounding.reading.unknown
+        unknown = () if grounding.reading is None else grounding.reading.strange
         behind = (NotUnderstood(words=unknown),)
     return Understood(acts=acts, before=before, behind=behind, offer=_offer(grounding, clarify))
 

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.findings import (
     Counted,
     Happenings,
     Identified,
+    Lasted,
     Located,
     Measures,
     Options,
@@ -35,6 +36,7 @@ from xavi_dialogue.domain.findings import (
     Priority,
     Verdict,
 )
+from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit
 from xavi_dialogue.domain.knowing import Avoidance, Certainty, Grounds, Method, Pivot
 from xavi_dialogue.domain.meaning import Act, Feel, Question, Request
 from xavi_dialogue.domain.reasons import (
@@ -44,7 +46,9 @@ from xavi_dialogue.domain.reasons import (
     MotionCause,
     MotionReason,
     OtherReason,
+    OwnSignal,
     PlaceReason,
+    Reaction,
     SignalReason,
     SupposedOfOther,
     SupposedOfUs,
@@ -53,15 +57,17 @@ from xavi_dialogue.domain.reasons import (
 from xavi_dialogue.domain.terms import Event, Proposition, Thing
 
 __all__ = [
-    "Acknowledged", "Activity", "Again", "Answer", "Avoidance", "Beliefs", "Bound", "Bystander",
+    "Acknowledged", "Activity", "Again", "Altered", "Answer", "Avoidance", "Beliefs", "Bound",
+    "Bystander",
     "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort", "Comforting",
-    "Compared", "Contrast", "Counted", "Declined", "DidNotHappen", "Effect", "Evidence",
-    "GoReason", "Grounds", "Happenings", "Helpful", "Identified", "Judged", "Located",
+    "Compared", "Contrast", "Counted", "Course", "Decided", "Declined", "DidNotHappen",
+    "Effect", "Evidence",
+    "GoReason", "Grounds", "Happenings", "Helpful", "Identified", "Judged", "Lasted", "Located",
     "Measures", "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout",
     "NoSuchVehicle", "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options",
-    "OtherReason", "OutcomeEstimate", "Pivot", "PlaceReason", "PlanAhead", "Posed", "Priority",
-    "Reason", "Refusal", "SignalReason", "Sociable", "SupposedOfOther", "SupposedOfUs", "Term",
-    "TooLittle",
+    "OtherReason", "OutcomeEstimate", "OwnSignal", "Pivot", "PlaceReason", "PlanAhead", "Posed",
+    "Priority", "Reaction", "Reason", "Refusal", "SignalReason", "Sociable", "Summit",
+    "SupposedOfOther", "SupposedOfUs", "Term", "TooLittle",
     "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "WhichOne",
 ]  # fmt: skip
 
@@ -86,6 +92,7 @@ class Declined(Value, frozen=True):
     cannot: str | None = None  # code of the reason why the plan cannot have it, if it cannot
     soon: float | None = None  # [s] when the plan comes to it anyway
     facts: tuple[Measure, ...] = ()  # what bears on it: our speed, when we drive on or are there
+    cause: MotionCause | None = None  # for which reason the car must drive as it does
 
 
 class Sociable(Value, frozen=True):
@@ -114,7 +121,7 @@ class Acknowledged(Value, frozen=True):
 class Unfamiliar(Value, frozen=True):
     """Owning up to words that were not understood, before the answer to the rest."""
 
-    words: tuple[str, ...]  # as typed
+    words: tuple[str, ...] = ()  # as typed, those in no vocabulary
 
 
 class Posed(Value, frozen=True):
@@ -164,8 +171,9 @@ Reason: TypeAlias = Literal[
 class NotUnderstood(Value, frozen=True):
     """Nothing, or not enough, was understood."""
 
-    words: tuple[str, ...] = ()  # that have no part in any reading
+    words: tuple[str, ...] = ()  # that are in no vocabulary
     about: tuple[str, ...] = ()  # what was understood, as glosses
+    rest: bool = False  # something else of the text was understood
 
 
 class WhichOne(Value, frozen=True):
@@ -257,14 +265,17 @@ Answer: TypeAlias = (
     | Unslowed
     | OtherReason
     | SignalReason
+    | OwnSignal
     | PlaceReason
     | SupposedOfUs
     | SupposedOfOther
+    | Reaction
     | Measures
     | Verdict
     | Identified
     | Counted
     | Happenings
+    | Lasted
     | Activity
     | PlanAhead
     | Located
@@ -275,6 +286,10 @@ Answer: TypeAlias = (
     | Priority
     | Comfort
     | Closeness
+    | Course
+    | Summit
+    | Decided
+    | Altered
     | Grounds
     | Certainty
     | Method

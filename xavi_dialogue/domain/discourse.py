@@ -28,6 +28,7 @@ class Discourse(Value, frozen=True):
     pending: Act | None = None  # the act that a clarification was about, to be completed
     last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
     asked_at: float | None = None  # [s] when the last question was asked
+    times: tuple[float, ...] = ()  # [s] that the passenger named, latest first
 
 
 class Span(Value, frozen=True):
@@ -46,4 +47,5 @@ class GroundedAct(Value, frozen=True):
     span: Span | None = None  # None: no time was said and none is implied
     leaned: bool = False  # it was completed from an earlier turn
     doubts: tuple[str, ...] = ()  # words that were not understood, to be owned up to
+    strange: tuple[str, ...] = ()  # those of them that are in no vocabulary
     presupposed: bool = True  # what it takes for granted holds, as far as could be checked

@@ -24,6 +24,7 @@ Gap: TypeAlias = Literal[
     "not-recorded",  # it exists but no record keeps it
     "not-applicable",  # it has no value: time to collision of vehicles that part
     "others-thoughts",  # what other drivers think or know
+    "unknown-plans",  # what the passengers have to be there for
 ]
 
 

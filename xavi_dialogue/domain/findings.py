@@ -58,6 +58,7 @@ class Counted(Value, frozen=True):
     at_least: bool = False  # the record has gaps
     since: float | None = None  # [s] over which interval
     until: float | None = None
+    such: Thing | None = None  # what was said of them
 
 
 class Happenings(Value, frozen=True):
@@ -71,6 +72,16 @@ class Happenings(Value, frozen=True):
     measures: tuple[Measure, ...] = ()  # beside them: duration of the ride, distance, speed
     looks: tuple[Look, ...] = ()  # of the vehicles concerned, at the time of the first episode
     asked: Event | None = None
+
+
+class Lasted(Value, frozen=True):
+    """How long a state lasted or has lasted."""
+
+    that: Proposition  # grounded
+    begin: float  # [s]
+    end: float | None = None  # [s] None while it goes on
+    now: float = 0.0  # [s]
+    at_least: bool = False  # it held from when the record begins
 
 
 class Activity(Value, frozen=True):
@@ -110,6 +121,7 @@ class Bound(Value, frozen=True):
     actor: Somebody
     belief: Belief | None = None  # of another vehicle
     went: Episode | None = None  # where it has gone in fact
+    look: Look | None = None  # where it is by now, or was seen last
     measures: tuple[Measure, ...] = ()  # of ours: destination, turns
 
 
@@ -124,6 +136,8 @@ class Beliefs(Value, frozen=True):
     why: Episode | None = None  # what the vehicle did while it moved most
     turning: tuple[float, float] | None = None  # [s] between which it moved most
     came: Episode | None = None  # what it did in fact
+    since: float | None = None  # [s] from when on it was held to be more likely than not
+    changed: bool = False  # it is asked how it moved
 
 
 class Options(Value, frozen=True):
@@ -150,7 +164,8 @@ class Priority(Value, frozen=True):
     """Who has or had right of way, and who went first."""
 
     time: float  # [s]
-    rule: Literal["priority", "give-way", "equal", "depends", "none"]  # for us
+    #: For us; "we-change", "it-changes": who changes lanes has to leave the other one room.
+    rule: Literal["priority", "give-way", "equal", "depends", "none", "we-change", "it-changes"]
     vehicle: int | None = None
     first: Somebody | None = None  # who went first in fact
     waited: Episode | None = None
@@ -158,6 +173,11 @@ class Priority(Value, frozen=True):
     conflict: bool | None = None  # somebody had to brake or swerve
     limit: Measure | None = None  # our speed against the limit, where law was asked
     deeds: tuple[Episode, ...] = ()  # what those concerned did then: cut in, braked, waited
+    legal: bool = False  # asked as a question of law
+    stood: bool = False  # the vehicle was standing when we went
+    others: tuple[int, ...] = ()  # of whom the same is true
+    holds: bool | None = None  # the reply to the yes or no question, or claim, that it answers
+    claim: bool = False  # it answers a claim
 
 
 class Comfort(Value, frozen=True):
@@ -176,6 +196,6 @@ class Closeness(Value, frozen=True):
     closest: Measure | None  # distance at the closest
     ttc: Measure | None = None  # shortest time to collision
     risk: float | None = None  # of a collision under the plan, as foreseen
-    asked: Literal["safe", "dangerous", "close", "hit"] = "safe"
+    asked: Literal["safe", "dangerous", "close", "hit", "room"] = "safe"
     time: float = 0.0
     past: bool = True

@@ -66,6 +66,7 @@ class HowMany(Value, frozen=True):
     """How many things there are, or how often an event happened."""
 
     of: Thing | Event
+    such: Thing | None = None  # grounded: what was said of those that are counted
 
 
 class When(Value, frozen=True):
@@ -76,9 +77,9 @@ class When(Value, frozen=True):
 
 
 class HowLong(Value, frozen=True):
-    """How long something lasts or lasted: "how long do we stand here", "how long did you wait"."""
+    """How long something lasts or lasted, or since when it is so: "how long did you wait"."""
 
-    of: Event
+    of: Event | Proposition
 
 
 class Where(Value, frozen=True):
@@ -119,6 +120,20 @@ class Listing(Value, frozen=True):
         "wrong-predictions", "capabilities",
     ]  # fmt: skip
     about: Thing | None = None
+    time: Time = Unsaid()
+    event: Event | None = None  # of events: only those that are such
+
+
+class Peak(Value, frozen=True):
+    """The moment at which something was at its most: "the hardest moment", "the closest call"."""
+
+    of: Literal["danger", "difficulty", "closeness", "braking", "slowness", "speed", "waiting"]
+    time: Time = Unsaid()
+
+
+class Changed(Value, frozen=True):
+    """What became different between two times, in the plan and in what was seen and expected."""
+
     time: Time = Unsaid()
 
 
@@ -185,6 +200,8 @@ Question: TypeAlias = (
     | Doing
     | Compare
     | Listing
+    | Peak
+    | Changed
     | Summarise
     | HowKnow
     | HowSure
@@ -214,6 +231,7 @@ class Request(Value, frozen=True):
     """Something the car is asked to do: "slow down please", "overtake it", "drop me off"."""
 
     event: Event
+    negated: bool = False  # not to do it: "don't stop"
 
 
 class Feel(Value, frozen=True):
@@ -294,6 +312,14 @@ class TokenShare(Value, frozen=True):
     share: Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
     part: str = ""  # what it stands for, for developers
     act: int | None = None  # index of the act that it belongs to; None: not told
+    strange: bool = False  # it is no English word that is known
+
+
+class Unread(Value, frozen=True):
+    """A stretch of a text of which nothing was made."""
+
+    words: tuple[str, ...]  # as typed
+    asks: bool = False  # it has the form of a question
 
 
 class Reading(Value, frozen=True):
@@ -302,8 +328,14 @@ class Reading(Value, frozen=True):
     acts: tuple[Act, ...]
     shares: tuple[TokenShare, ...]
     cost: float = 0.0  # lower is likelier, by the words alone
+    unread: tuple[Unread, ...] = ()
 
     @property
     def unknown(self) -> tuple[str, ...]:
         """The words as typed that have no part in the reading."""
         return tuple(share.text for share in self.shares if share.share == "unknown")
+
+    @property
+    def strange(self) -> tuple[str, ...]:
+        """The words as typed that are no words that are known."""
+        return tuple(share.text for share in self.shares if share.strange)

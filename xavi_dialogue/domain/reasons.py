@@ -1,6 +1,6 @@
 """Reasons: why something was done or not, and what would have come of something else."""
 
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
@@ -19,6 +19,7 @@ class ChoiceReason(Value, frozen=True):
     suspect: int | None = None  # a vehicle that the question takes for the cause ...
     suspected: Literal["main", "part", "none"] | None = None  # ... and whether it is
     past: bool = True
+    ahead: "MotionCause | None" = None  # who stood or crept in the lane that we left
 
 
 class MotionCause(Value, frozen=True):
@@ -39,6 +40,7 @@ class MotionCause(Value, frozen=True):
         "lane-end",
         "plan",  # the plan calls for it, no reason beyond
         "starting",  # we have only just set off
+        "picking-up",  # we speed up again, and are not there yet
         "light",
     ]
     vehicle: int | None = None
@@ -62,15 +64,16 @@ class MotionReason(Value, frozen=True):
     evidence: Evidence = Evidence()
     manner: Manner | None = None  # how it drove, where that is asked about: slowly, fast, close
     limit: float | None = None  # [m/s] that was in force
-    form: Literal["why", "necessary"] = "why"
+    form: Literal["why", "necessary", "did"] = "why"  # "did": it was asked why we did not
     cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
+    past: bool = False  # it was asked about as past, though it may go on
 
 
 class Bystander(Value, frozen=True):
     """Somebody whose way crosses ours at the moment when we go: who goes first, what it does."""
 
     vehicle: int
-    first: Literal["ego", "vehicle", "depends"]
+    first: Literal["ego", "vehicle", "depends", "none"]  # "none": our ways do not cross
     trend: Literal["slowing", "steady", "speeding-up", "standing"] | None = None
     distance: float | None = None  # [m] from us
     gone: bool = False  # we have let it go first
@@ -83,6 +86,12 @@ class GoReason(Value, frozen=True):
     others: tuple[Bystander, ...]  # () nobody's way crossed ours
     contrast: Contrast | None = None  # with waiting
     past: bool = True
+    refrained: ActionName | None = None  # what was asked: why we did not wait, stop, ...
+
+
+#: What is asked of a supposition about us: what would come of it, whether we would collide, whether
+#: we could do it, when we would be there.
+Asking: TypeAlias = Literal["what-if", "crash", "could", "arrival", "quicker", "safer"]
 
 
 class Unslowed(Value, frozen=True):
@@ -93,6 +102,12 @@ class Unslowed(Value, frozen=True):
     ours: float | None = None  # [s] when we would have been where our ways meet ...
     theirs: float | None = None  # [s] ... and when the vehicle was there
     going: bool = True  # asked of going on; False: of another speed
+    vehicle: int | None = None  # whose way ours would have crossed
+    right: bool = True  # it had right of way
+    past: bool = True
+    form: Asking = "what-if"
+    saved: float | None = None  # [s] that the slowing or waiting cost
+    arrival: float | None = None  # [s] when we would be there without
 
 
 class OtherReason(Value, frozen=True):
@@ -116,6 +131,15 @@ class SignalReason(Value, frozen=True):
     came: Episode | None = None  # what it did of that since
 
 
+class OwnSignal(Value, frozen=True):
+    """What our own indicator announces, and whether we did so."""
+
+    shown: Episode  # the indicating
+    aim: MacroAction | None  # what it announced; None: the record does not tell
+    came: bool | None = None  # None: it may still come
+    past: bool = False  # it was asked about as past
+
+
 class PlaceReason(Value, frozen=True):
     """How another vehicle came to be where it is, seen from us."""
 
@@ -131,6 +155,8 @@ class SupposedOfUs(Value, frozen=True):
     done: bool = False  # it is just what was done
     past: bool = True
     asked: ActionName | None = None  # where the foil is only the nearest to it: "brake" for a stop
+    form: Asking = "what-if"
+    arrival: float | None = None  # [s] when we would be there
 
 
 class SupposedOfOther(Value, frozen=True):
@@ -147,3 +173,32 @@ class SupposedOfOther(Value, frozen=True):
     asked: Event | None = None  # "would you still have braked": the deed asked about ...
     still: bool | None = None  # ... and whether it would have come about; None: not known
     negated: bool = False  # it is supposed not to have done that
+    slows: bool | None = None  # we would have to slow down for it, as we do not otherwise
+    form: Asking = "what-if"
+    arrival: float | None = None  # [s] when we would be there
+
+
+class Reaction(Value, frozen=True):
+    """What a sudden act of another vehicle would ask of us: told by distances to stop."""
+
+    vehicle: int | None  # None: somebody who is not there
+    kind: Literal[
+        "anybody",  # it is not known where that would be
+        "room",  # we would stop in time
+        "short",  # we would not
+        "first",  # we would be past before it got in our way
+        "behind",  # it is behind us
+        "beside",  # it is right beside us
+        "apart",  # it stays in a lane of its own
+        "joins",  # it moves in ahead of us and drives on, with room to do so
+        "standing",  # we stand still ourselves
+    ]
+    supposed: Event | None  # None: what it does is not known here
+    time: float  # [s] when it is supposed to do so
+    speed: float  # [m/s] ours then
+    needed: float | None = None  # [m] in which we come to a standstill
+    room: float | None = None  # [m] to it, or to where it gets in our way
+    left: float | None = None  # [m] that would be left behind a leader that brakes as hard
+    past: bool = False
+    negated: bool = False  # it is supposed not to do that
+    asked: Literal["stop", "collide"] | None = None  # as a yes or no question: could we stop, ...

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.times import (
     Ago,
     At,
+    AtDecision,
     Back,
     Between,
     Next,
@@ -35,7 +36,8 @@ from xavi_dialogue.domain.vocabulary import (
 )
 
 __all__ = [
-    "Ago", "At", "Back", "Believed", "Between", "Both", "Caused", "Compares", "Described",
+    "Ago", "At", "AtDecision", "Back", "Believed", "Between", "Both", "Caused", "Compares",
+    "Described",
     "Destination", "Ego", "Event", "Everyone", "Exists", "Exit", "Extremes", "Feature",
     "Happens", "Has", "Is", "Junction", "Lane", "Measured", "Next", "Nobody", "Not", "Now",
     "Passenger", "Pronoun", "Proposition", "Quantity", "Rank", "Record", "Related", "Relative",
@@ -192,7 +194,8 @@ class Relative(Value, frozen=True):
 
 
 Time: TypeAlias = (
-    Now | Unsaid | At | Ago | Within | Between | Relative | Back | Rank | Start | WholeRide | Next
+    Now | Unsaid | At | AtDecision | Ago | Within | Between | Relative | Back | Rank | Start
+    | WholeRide | Next
 )
 Tense: TypeAlias = Literal["past", "present", "future", "perfect"]
 
@@ -306,6 +309,7 @@ class Not(Value, frozen=True):
     """The contrary."""
 
     content: "Proposition"
+    lexical: bool = False  # by the word itself: "blocked" for not free
 
 
 class Both(Value, frozen=True):

@@ -23,6 +23,14 @@ class Ago(Value, frozen=True):
     """A time before now: "five seconds ago", "just now" (None: a few seconds)."""
 
     seconds: float | None = None  # [s]
+    span: bool = False  # all of it up to now: "in the last ten seconds"
+
+
+class AtDecision(Value, frozen=True):
+    """The time of a decision by its number in the record: "at decision 4"."""
+
+    number: int
+    last: int | None = None  # "between decisions 4 and 6"
 
 
 class Within(Value, frozen=True):

@@ -78,6 +78,7 @@ Manner: TypeAlias = Literal[
 Attribute: TypeAlias = Literal[
     "speed",  # [m/s]
     "limit",  # [m/s] in force where the thing is
+    "speed-change",  # [m/s] by how much the speed rose or fell over the time or event
     "excess",  # [m/s] speed over the limit
     "acceleration",  # [m/s2] positive: speeding up
     "deceleration",  # [m/s2] positive: braking; how hard
@@ -141,7 +142,7 @@ State: TypeAlias = Literal[
     "free",  # a lane, a way
     "visible", "hidden", "stationary", "moving", "fast", "slow", "close", "far", "sure", "over",
     "late", "wrong", "right", "present", "lost", "stuck", "at-fault", "first", "last", "dirty",
-    "big", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy",
+    "big", "roomy", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy",
 ]  # fmt: skip
 
 #: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be told.

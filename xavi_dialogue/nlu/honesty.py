@@ -8,6 +8,8 @@ The limits are fitted to 308 questions of two panels: they stop 3 of 35 readings
 took for wrong, and none of the others. Cost alone does not tell most wrong readings from right.
 """
 
+from xavi_dialogue.domain.meaning import Act, Claim, Elliptic, Feel
+from xavi_dialogue.domain.terms import Unknown
 from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -15,6 +17,30 @@ DEAR = 1.7  # cost of a unit
 DEAR_WORD = 0.3  # cost of a unit for each of its words
 FEWEST = 5  # words that a shorter unit counts as
 _READ_PAST = frozenset({"SKIP", "FILLER"})
+
+
+def well_typed(row: tuple[Act, ...]) -> tuple[Act, ...]:
+    """Leave out what is stated or named in words that have no sense here."""
+    return tuple(found for act in row if (found := _typed(act)) is not None)
+
+
+def _typed(act: Act) -> Act | None:
+    match act:
+        case Feel():
+            return act if is_well_typed(act) else Feel(act.feeling)
+        case Claim() | Elliptic(form="same"):
+            return act if is_well_typed(act) else None
+    return act
+
+
+def is_well_typed(value: object) -> bool:
+    """Say whether nothing in a term lacks a sense."""
+    if isinstance(value, Unknown):
+        return False
+    if isinstance(value, tuple):
+        return all(map(is_well_typed, value))
+    names = getattr(value, "__struct_fields__", ())
+    return all(is_well_typed(getattr(value, name)) for name in names)
 
 
 def is_dear(unit: Node, extra: float) -> bool:

@@ -1,6 +1,8 @@
 """Parse: a text becomes readings, each a row of acts in which every word is accounted for.
 
-    text -> tokens -> lattice of words -> leaves of the lexicon -> chart -> units -> acts
+    text -> sentences -> lattices of words -> leaves of the lexicon -> charts -> units -> acts
+
+Each sentence is read by itself; the readings of all of them are put together.
 
 Conventions that others rely on:
 
@@ -18,36 +20,53 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
 
-from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, TokenShare
+from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
+from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
-from xavi_dialogue.nlu.honesty import is_dear
+from xavi_dialogue.nlu.honesty import is_dear, well_typed
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
-from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares
+from xavi_dialogue.nlu.sentences import (
+    MAX_READINGS,
+    SPREAD,
+    appended,
+    joined,
+    sentences,
+    unlike,
+)
+from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
 from xavi_dialogue.nlu.topics import fold
 
-MAX_READINGS = 6
-MAX_STEPS = 6_500
+MAX_STEPS = 6_500  # of a sentence
+MOST_STEPS = 9_000  # of a text
+SPARED = 600  # steps that are left for each sentence to come
 CACHED = 512
+LONGEST_TAG = 3  # [tokens]
 LONG = 18  # [tokens] from which on a text may be a story with a question at its end
 REACH = 24  # [tokens] how long that question may be
 TRIES = 4
 FEW = 0.2  # share of unknown words with which a long text counts as understood
 DEAR = 1.5  # cost of an act from which on a long text does not count as understood
+DROPPED = 1.2  # cost of a clause behind "and" of which nothing was made
 FOREIGN = 0.5  # cost of taking a text for another language
+LOOSE = 1.5  # cost of a topic that no clause takes up
 STORY = 1.0  # cost of a story before the question
 _OPENERS = frozenset(
     ["so", "but", "why", "what", "how", "can", "could", "would", "tell", "explain", "when"]
 )
 EASY = 0.42  # cost of an act up to which a reading is taken as it is
-_SPREAD = 1.5  # readings that cost this much more than the best are not offered
+EASY_ALONE = 0.62  # the same of an act that is the only one
 _ALTERNATIVES = 3
+WORD = 0.15  # cost of each word more than SHORT in a unit of which nothing is made
+SHORT = 5
+ENOUGH = 2  # readings, with which those that cost much more are not looked for
+NEAR = 0.5
 
 Composed = tuple[list[tuple[tuple[Act, ...], float]], list[Leaf]]
 
@@ -69,17 +88,49 @@ def _read(text: str) -> tuple[Reading, ...]:
     typed = tokenise(text)
     if not typed.tokens:
         return (Reading((), ()),)
+    tokens = tuple(token.text for token in typed.tokens)
+    if is_foreign(tokens, lexicon().vocabulary):
+        act = Beyond("non-english", " ".join(tokens))
+        return (Reading((act,), unknown_shares(tokens), FOREIGN),)
+    budget = Budget(MOST_STEPS)
+    rows: list[tuple[Reading, ...]] = []
+    parts = sentences(typed)
+    before: Typed | None = None
+    ends: list[str] = []
+    for index, sentence in enumerate(parts):
+        budget.reserve = max(SPARED * (len(parts) - 1 - index), budget.steps - MAX_STEPS)
+        if before is not None and before.end != "?" and _is_tag(sentence):
+            before = appended(before, sentence)
+            rows[-1] = _sentence(before, budget)
+        else:
+            before = sentence
+            rows.append(_sentence(sentence, budget))
+            ends.append("")
+        ends[-1] = before.end
+    return joined(rows, ends)
+
+
+def _is_tag(typed: Typed) -> bool:
+    """Say whether a sentence is a tag of the one before: "isn't it?", "right?"."""
+    if len(typed.tokens) > LONGEST_TAG:
+        return False
     known = lexicon()
     lattice = build(typed, known.vocabulary, known.nouns)
-    if is_foreign(lattice.tokens, known.vocabulary):
-        act = Beyond("non-english", " ".join(lattice.tokens))
-        return (Reading((act,), unknown_shares(lattice), FOREIGN),)
-    budget = Budget(MAX_STEPS)
+    found = leaves(lattice)
+    if len(typed.tokens) == 1:
+        return "TAGWORD" in found[0] and typed.end == "?"
+    return lattice.size in Chart(grammar(), found, Budget(LONGEST_TAG * 100)).read("tag", 0)
+
+
+def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
+    """Give the readings of one sentence, likeliest first; at least one."""
+    known = lexicon()
+    lattice = build(typed, known.vocabulary, known.nouns)
     readings = _understood(lattice, budget)
     if len(typed.tokens) > LONG and not _asks(readings):
         readings = _ending(typed, budget) or readings
     if not readings:
-        return (Reading((), unknown_shares(lattice), NOTHING * len(typed.tokens)),)
+        return (unreadable(typed),)
     return tuple(readings)
 
 
@@ -93,7 +144,7 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
         if not readings or not _plain(readings[0]):
             loose = Chart(grammar(), found, budget)
             others = _readings(segment(loose, lattice, found, CLAUSES + RARE), lattice, budget)
-            readings = others or readings
+            readings = unlike([*readings, *others])
     except ChartLimitError:
         pass
     return readings
@@ -108,12 +159,19 @@ def _asks(readings: list[Reading]) -> bool:
     return cheap and len(best.unknown) <= FEW * len(best.shares)
 
 
+def unreadable(typed: Typed) -> Reading:
+    """Give the reading of a stretch of which nothing can be made."""
+    words = tuple(token.text for token in typed.tokens)
+    asks = typed.end == "?" or words[0] in _OPENERS
+    return Reading((), unknown_shares(words), NOTHING, (Unread(words, asks),))
+
+
 def _ending(typed: Typed, budget: Budget) -> list[Reading]:
     """Read the end of a long story by itself; what leads up to it is not understood."""
     tokens = typed.tokens
     starts = [
         index for index, token in enumerate(tokens)
-        if index >= len(tokens) - REACH and (token.mark or token.text in _OPENERS)
+        if index and index >= len(tokens) - REACH and (token.mark or token.text in _OPENERS)
     ]  # fmt: skip
     known = lexicon()
     for start in starts[:TRIES]:
@@ -121,14 +179,20 @@ def _ending(typed: Typed, budget: Budget) -> list[Reading]:
         lattice = build(rest, known.vocabulary, known.nouns)
         found = [reading for reading in _understood(lattice, budget) if reading.acts]
         if found and isinstance(found[0].acts[-1], Ask) and not found[0].unknown:
-            before = tuple(TokenShare(t.text, t.text, "unknown") for t in tokens[:start])
-            return [Reading(r.acts, (*before, *r.shares), r.cost + STORY) for r in found]
+            before = unreadable(Typed(tokens[:start]))
+            return [
+                Reading(r.acts, (*before.shares, *r.shares), r.cost + STORY,
+                        (*before.unread, *r.unread))
+                for r in found
+            ]  # fmt: skip
     return []
 
 
 def _plain(reading: Reading) -> bool:
     """Say whether a reading is so cheap that rarer kinds of units need not be tried."""
-    return bool(reading.acts) and not reading.unknown and reading.cost <= EASY * len(reading.acts)
+    count = len(reading.acts)
+    limit = EASY_ALONE if count == 1 else EASY * count
+    return bool(count) and not reading.unknown and reading.cost <= limit
 
 
 def _readings(paths: list[Path], lattice: Lattice, budget: Budget) -> list[Reading]:
@@ -136,7 +200,7 @@ def _readings(paths: list[Path], lattice: Lattice, budget: Budget) -> list[Readi
     found: list[_Draft] = []
     best = float("inf")
     for path in paths:
-        if path.cost > best + _SPREAD:
+        if path.cost > best + (SPREAD if len(found) < ENOUGH else NEAR):
             break
         try:
             drafts = _along(path, lattice, composed, budget)
@@ -147,7 +211,7 @@ def _readings(paths: list[Path], lattice: Lattice, budget: Budget) -> list[Readi
     found.sort(key=lambda draft: draft.cost)
     kept: list[_Draft] = []
     for draft in found:
-        if best + _SPREAD < draft.cost or len(kept) == MAX_READINGS:
+        if best + SPREAD < draft.cost or len(kept) == MAX_READINGS:
             break
         if all(draft.acts != other.acts for other in kept):
             kept.append(draft)
@@ -167,7 +231,8 @@ class _Draft:
     def reading(self, lattice: Lattice) -> Reading:
         """Account for the words."""
         shares = shares_of(self.units, list(self.owners), list(self.unknown), lattice)
-        return Reading(self.acts, shares, round(self.cost, 3))
+        unread = unread_of(self.units, list(self.owners), shares)
+        return Reading(self.acts, shares, round(self.cost, 3), unread)
 
 
 def _along(
@@ -179,18 +244,19 @@ def _along(
     for unit in path.units:
         alternatives, left = _composed(unit, lattice, composed, budget)
         unknown += left
-        choices.append(alternatives[:_ALTERNATIVES])
+        choices.append(alternatives)
     found: list[_Draft] = []
     for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        for unit, (row, extra) in zip(path.units, combination, strict=True):
-            if is_dear(unit, extra):
-                row = ()
+        for row, _ in combination:
             owners.append(len(acts) if row else None)
             acts.extend(row)
+        named = sum(unit.name == "topic" for unit in path.units)
+        loose = named - len(acts) if named else 0
         acts, owners = fold(acts, owners)
-        cost = path.cost + sum(extra for _, extra in combination)
+        loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
+        cost = path.cost + sum(extra for _, extra in combination) + LOOSE * loose
         found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(unknown)))
     return found
 
@@ -202,9 +268,26 @@ def _composed(
     if key not in composed:
         last = unit.end >= lattice.size
         composer = Composer(budget, lattice.end_mark if last else lattice.marks.get(unit.end, ""))
-        found = [(acts, cost + sum(map(oddity, acts))) for acts, cost in composer.compose(unit)]
+        read = composer.compose(unit)
+        notes = composer.notes
+        lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
+        lost += sum(max(0.0, cost) for cost in notes.inner.values())
+        found = [(acts, cost + lost + sum(map(oddity, acts))) for acts, cost in read]
         found.sort(key=lambda entry: entry[1])
+        found = [_accepted(unit, acts, cost) for acts, cost in found[:_ALTERNATIVES]]
         if not found or is_unknown(unit, composer.notes.unknown):
-            found = [((), NOTHING)]
+            found = [((), _unread(unit))]
         composed[key] = (found, composer.notes.unknown)
     return composed[key]
+
+
+def _accepted(unit: Node, acts: tuple[Act, ...], cost: float) -> tuple[tuple[Act, ...], float]:
+    """Leave out acts that cost too much or rest on what has no sense."""
+    row = () if is_dear(unit, cost) else well_typed(acts)
+    return row, cost if row or not acts else max(cost, _unread(unit))
+
+
+def _unread(unit: Node) -> float:
+    """Say what a unit costs of which nothing is made: the more, the longer it is."""
+    count = len({token for leaf in leaves_of(unit) for token in leaf.tokens})
+    return NOTHING + WORD * max(0, count - SHORT)

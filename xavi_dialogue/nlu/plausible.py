@@ -62,6 +62,8 @@ def _top(act: Act) -> float:
     match act:
         case Claim(that=Caused(cause=cause, effect=None)) if isinstance(cause, (*_PLACES, Ego)):
             return ODD
+        case Claim(that=Caused(cause=Described(definite=False), effect=None)):
+            return ODD
         case Ask(question=Summarise(about=Ego())):
             return DOUBTFUL
         case Request(event=Event(action="do", object=None)):
@@ -93,6 +95,8 @@ def _own(value: Any) -> float:
             named = attribute in _OF_LIGHTS or not isinstance(right, Quantity)
             return DOUBTFUL if named else PLAIN
         case Measured(thing=Unknown()):
+            return DOUBTFUL
+        case HowMany(of=Event(action="do", object=None)):
             return DOUBTFUL
         case HowMany(of=Pronoun() | Unknown() | Feature(kind="space" | "way")):
             return ODD
@@ -136,6 +140,8 @@ def _event(value: Event) -> float:
         cost += DOUBTFUL
     if value.action == "do" and isinstance(value.object, Passenger):
         cost += ODD
+    if isinstance(value.actor, Unknown):
+        cost += DOUBTFUL
     if value.actor == value.object and not isinstance(value.actor, Pronoun):
         cost += DOUBTFUL
     return cost

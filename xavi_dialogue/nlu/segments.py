@@ -7,6 +7,8 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.text.lattice import Lattice
 
 CLAUSES = (
+    "adverbial",
+    "ask_declarative",
     "ask_inverted",
     "ask_extracted",
     "ask_subject",
@@ -17,11 +19,10 @@ CLAUSES = (
     "about",
     "supposed",
     "talk",
+    "topic",
 )
 RARE = (
-    "adverbial",
     "ask_lacking",
-    "ask_declarative",
     "ask_in_place",
     "ask_bare",
     "polar_short",
@@ -87,7 +88,7 @@ class Path:
     cost: float = 0.0
 
 
-_Row = tuple[float, tuple[Entry, ...]]  # cost, entries of the units
+_Row = tuple[float, tuple[Entry, ...], int]  # cost, entries of the units, start of the last
 
 
 def segment(
@@ -96,22 +97,27 @@ def segment(
     """Find the cheapest rows of units of some names from the first node to the last."""
     last = lattice.size
     table: list[list[_Row]] = [[] for _ in range(last + 1)]
-    table[0] = [(0.0, ())]
+    table[0] = [(0.0, (), 0)]
     for node in range(last):
-        rows = sorted(table[node], key=_cost)[:_KEPT]
+        rows = _best(table[node], _KEPT, 2)
         if not rows:
             continue
         start, border = _border(node, lattice, leaves)
         if border is None:
             continue
+        opens = node == 0 or node in lattice.marks  # what is named first stands in front
         for name in names:
+            if name == "topic" and not opens:
+                continue
             for end, entry in chart.read(name, start).items():
-                for cost, entries in rows:
+                if end == last and name == "topic":
+                    continue
+                for cost, entries, _ in rows:
                     total = cost + entry[0] + UNIT + (border if entries else 0.0)
-                    table[end].append((total, (*entries, entry)))
+                    table[end].append((total, (*entries, entry), node))
     built: dict[int, Node] = {}
     found: list[Path] = []
-    for cost, entries in sorted(table[last], key=_cost)[:_FINAL]:
+    for cost, entries, _ in _best(table[last], _FINAL, 5):
         for entry in entries:
             if id(entry) not in built:
                 built[id(entry)] = tree(entry)
@@ -121,6 +127,19 @@ def segment(
 
 def _cost(row: _Row) -> float:
     return row[0]
+
+
+def _best(rows: list[_Row], most: int, alike: int) -> list[_Row]:
+    """Keep the cheapest rows, and few of those whose last unit begins at the same node."""
+    kept: list[_Row] = []
+    counts: dict[int, int] = {}
+    for row in sorted(rows, key=_cost):
+        if counts.get(row[2], 0) < alike:
+            counts[row[2]] = counts.get(row[2], 0) + 1
+            kept.append(row)
+            if len(kept) == most:
+                break
+    return kept
 
 
 def _border(

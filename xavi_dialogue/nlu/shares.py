@@ -2,11 +2,11 @@
 
 from typing import Literal
 
-from xavi_dialogue.domain.meaning import TokenShare
+from xavi_dialogue.domain.meaning import TokenShare, Unread
 from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, lexicon
-from xavi_dialogue.nlu.text.lattice import Lattice
+from xavi_dialogue.nlu.text.lattice import Lattice, is_strange
 
 Share = Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
 
@@ -49,6 +49,7 @@ _SHARES: dict[str, Share] = {
     "PLEASE": "politeness", "HEDGE": "hedge", "INTERJ": "hedge", "ADDRESS": "address",
     "SKIP": "unknown", "UNK": "unknown",
 }  # fmt: skip
+_ASKING = ("ask", "polar", "about", "supposed")  # how the names of units that ask begin
 _RANK = {"unknown": 5, "meaning": 4, "politeness": 3, "address": 2, "hedge": 1, "grammar": 0}
 
 
@@ -96,17 +97,34 @@ def _merge(
         part = f"{before.part} {part}"
         if _RANK[before.share] > _RANK[share]:
             share = before.share
-    found[token] = TokenShare(lattice.tokens[token], read, share, part, owner)
+    text = lattice.tokens[token]
+    strange = share == "unknown" and is_strange(text, lexicon().vocabulary)
+    found[token] = TokenShare(text, read, share, part, owner, strange)
 
 
 def _missing(token: int, lattice: Lattice) -> TokenShare:
-    return TokenShare(lattice.tokens[token], lattice.tokens[token], "unknown")
+    return unknown_shares(lattice.tokens[token : token + 1])[0]
 
 
-def unknown_shares(lattice: Lattice) -> tuple[TokenShare, ...]:
+def unknown_shares(tokens: tuple[str, ...]) -> tuple[TokenShare, ...]:
     """Account for the tokens of a text that could not be read."""
-    fillers = lexicon().fillers
+    known = lexicon()
     return tuple(
-        TokenShare(word, word, "grammar" if word in fillers else "unknown")
-        for word in lattice.tokens
+        TokenShare(word, word, "grammar")
+        if word in known.fillers
+        else TokenShare(word, word, "unknown", strange=is_strange(word, known.vocabulary))
+        for word in tokens
     )
+
+
+def unread_of(
+    units: tuple[Node, ...], owners: list[int | None], shares: tuple[TokenShare, ...]
+) -> tuple[Unread, ...]:
+    """List the units that have words without a part, and no act."""
+    found: list[Unread] = []
+    for unit, owner in zip(units, owners, strict=True):
+        tokens = sorted({token for leaf in leaves_of(unit) for token in leaf.tokens})
+        if owner is None and any(shares[token].share == "unknown" for token in tokens):
+            words = tuple(shares[token].text for token in tokens)
+            found.append(Unread(words, unit.name.startswith(_ASKING)))
+    return tuple(found)

@@ -4,33 +4,68 @@ from typing import Any
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Doing, Elliptic, HowDecide, WhatIf
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    Doing,
+    Elliptic,
+    Fault,
+    HowDecide,
+    Peak,
+    Repair,
+    WhatIf,
+    Whether,
+    Which,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
     Described,
+    Destination,
     Ego,
     Event,
+    Exists,
+    Exit,
+    Feature,
     Happens,
+    Is,
+    Junction,
+    Lane,
+    Nobody,
+    Not,
     Pronoun,
+    Related,
+    Road,
+    That,
     Thing,
     Unknown,
     Unsaid,
     Vehicle,
+    Wanted,
 )
 
+_HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way"})
 _FORMS = frozenset({"it", "he", "she"})
 Owners = list[int | None]
 
 
 def fold(acts: list[Act], owners: Owners) -> tuple[list[Act], Owners]:
     """Put a thing that is named by itself into the next act, where a pronoun stands for it."""
+    moved: Owners
     for index in range(len(acts) - 1):
         later = acts[index + 1]
         under = _under(acts[index], later)
         if under is not None:
             rest = [*acts[:index], under, *acts[index + 2 :]]
             return fold(rest, [o - 1 if o is not None and o > index else o for o in owners])
-        if isinstance(getattr(acts[index], "thing", None), Unknown) and _topic_only(acts[index]):
-            moved: Owners = [
+        if _told_already(acts[index], later):
+            moved = [o - 1 if o is not None and o > index else o for o in owners]
+            return fold([*acts[: index + 1], *acts[index + 2 :]], moved)
+        spoken = getattr(acts[index], "thing", None)
+        place = isinstance(spoken, PLACES) and isinstance(later, Ask)
+        opinion = _is_opinion(acts[index]) and isinstance(later, Claim | Ask)
+        if opinion or ((place or isinstance(spoken, Unknown)) and _topic_only(acts[index])):
+            moved = [
                 None if o == index else o - 1 if o is not None and o > index else o for o in owners
             ]
             return fold([*acts[:index], *acts[index + 1 :]], moved)
@@ -46,8 +81,35 @@ def fold(acts: list[Act], owners: Owners) -> tuple[list[Act], Owners]:
 
 
 def _under(supposed: Act, later: Act) -> Act | None:
-    """Put "how would that have gone" under the supposition before it."""
+    """Put "how would that have gone", or "is that right?", to what was said before it."""
     match supposed, later:
+        case Ask(question=Why(suspect=None) as question), Ask(
+            question=Why(of=That(), suspect=suspect)
+        ) if suspect is not None:  # "why did you stop, is it because of the bus?"
+            return Ask(structs.replace(question, suspect=suspect))
+        case Ask(
+            question=Doing(actor=None, tense="present")
+            | Why(of=That() | Happens(event=Event(action="do")), suspect=None)
+        ), Ask(question=Why(of=Happens())):  # "what is the matter, why have we stopped?"
+            return later
+        case Ask(question=Why(of=Happens(event=Event(action="do")), suspect=None)), Elliptic(
+            event=Event() as event, thing=None, form="same"
+        ):  # "what are you doing that for, slowing down?"
+            return Ask(Why(Happens(event)))
+        case Claim(that=that), Ask(
+            question=Whether(that=Is(state="right", thing=None | Pronoun(), event=None))
+        ):
+            return Ask(Whether(that, tag=True))
+        case Claim(that=that), Ask(
+            question=Which(thing=Wanted(), such=Is(thing=Wanted(), event=None))
+        ):
+            return Ask(Whether(that, tag=True))  # "..., which is fine, isn't it?"
+        case Claim(that=Happens(event=Event(action=action, actor=Ego())) as that), Claim(
+            that=Related(thing=Nobody()) | Is(thing=Nobody()) | Not(content=Exists())
+        ) if action in _HELD:
+            return Ask(Why(that))  # "you braked although nobody was there"
+        case Claim(that=that), Elliptic() if later == Elliptic():
+            return Ask(Whether(that, tag=True))
         case Ask(question=WhatIf(then=None) as question), Ask(
             question=HowDecide(of=Happens(event=Event(action="go", actor=Pronoun())))
             | Doing(actor=None)
@@ -56,6 +118,22 @@ def _under(supposed: Act, later: Act) -> Act | None:
         case Ask(question=WhatIf(then=None) as question), Ask(question=Doing(actor=Ego()) as doing):
             return Ask(structs.replace(question, then=doing))
     return None
+
+
+PLACES = (Junction, Exit, Lane, Road, Feature, Destination)
+
+
+def _told_already(act: Act, later: Act) -> bool:
+    """Say whether a bare "and why", or an opinion, asks what the answer before it tells anyway."""
+    if isinstance(act, Claim) and _is_opinion(later):
+        return True
+    bare = later in (Repair(kind="why"), Elliptic(form="why"), Elliptic(form="when"))
+    return bare and isinstance(act, Ask) and isinstance(act.question, Peak)
+
+
+def _is_opinion(act: Act) -> bool:
+    """Say whether it is only said that what happened was unfair, rude or silly."""
+    return isinstance(act, Ask) and act.question == Fault(That())
 
 
 def _topic_only(act: Act) -> bool:

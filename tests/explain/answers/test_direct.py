@@ -8,6 +8,7 @@ from tests.explain.answers.test_factual import HALT, STOPS, place
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import (
     Counted,
+    Course,
     Declined,
     Identified,
     Located,
@@ -70,7 +71,7 @@ def test_an_event_named_for_its_speed_is_allowed_by_the_limit() -> None:
     assert isinstance(first, Priority)
     assert first.rule == "give-way"
     assert said(ride, Whether(Is("allowed"))) == (
-        "Yes, we are doing 36 km/h, and the limit here is 50 km/h."
+        "The law is not for me to judge, but we are doing 36 km/h, within the limit of 50 km/h."
     )
 
 
@@ -90,11 +91,11 @@ def test_another_exit_than_ours_is_not_taken() -> None:
     ride = made(BESIDE, 4.0, roads=ring)
     leave = Event("leave", object=Exit(1), tense="future")
     found = told(ride, Whether(Happens(leave)))
-    assert isinstance(found, Verdict)
+    assert isinstance(found, Course)
     assert found.holds is False
-    assert found.facts[0].value == 2.0  # type: ignore[union-attr]
+    assert found.steps[0].exit == 2
     assert said(ride, Whether(Happens(leave))) == (
-        "No, I will not take the first exit: we take the second exit of four."
+        "No, we go straight over the roundabout, by the second exit, in about 60 metres."
     )
 
 
@@ -118,8 +119,7 @@ def test_the_arrival_is_told_once() -> None:
 def test_the_exit_is_told_instead_of_a_straight_turn() -> None:
     ride = made(BESIDE, 4.0, roads=ring)
     text = said(ride, HowMuch(Measured("turn")))
-    assert "second exit of the roundabout" in text
-    assert "straight" not in text
+    assert "straight over the roundabout, by the second exit" in text
 
 
 def test_yields_to_nobody_in_particular_are_counted_for_all() -> None:
@@ -163,11 +163,11 @@ def test_a_request_is_met_with_what_bears_on_it() -> None:
     assert [m.attribute for m in ending.facts] == ["arrival-time"]
 
 
-def test_to_go_is_done_already_where_we_only_slow_down() -> None:
+def test_to_go_is_answered_by_why_we_slow_down() -> None:
     actors = {0: Actor(speeds(0.0, 0.0, STOPS)), 1: Actor(straight(20.0, 3.5, 14.0))}
     ride = made(actors, 6.0, roads=ring)
     going = told(ride, Request(Event("go", tense="present")))
-    assert going.already
+    assert going.cause is not None
     assert said(ride, Request(Event("go", tense="present"))).startswith("I mean to keep going")
     assert not told(ride, Request(Event("speed-up", tense="present"))).already
 

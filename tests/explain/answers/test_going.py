@@ -5,12 +5,12 @@ from tests.explain.causes.rides import recorded, story, told
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import Closeness, GoReason, PlaceReason, SignalReason, Unslowed
 from xavi_dialogue.domain.discourse import GroundedAct, Span
-from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Ask, Doing, WhatIf, Why
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Related, Vehicle
 from xavi_dialogue.explain.answers.engine import explain
 from xavi_dialogue.explain.answers.supposing import _asks_now
-from xavi_dialogue.explain.causes.going import bystanders, unslowed
+from xavi_dialogue.explain.causes.crossing import crossing
+from xavi_dialogue.explain.causes.going import bystanders
 from xavi_dialogue.explain.facts.world import World
 
 
@@ -42,8 +42,7 @@ def test_where_both_would_have_met_is_worked_out_from_the_recorded_ways():
         1: Actor(straight(50.0, -40.0, 8.0, heading=1.5708)),
     }
     ride = made(actors, 9.0)
-    deed = Episode(Ego(), "slow-down", 2.0, 4.0, speed_from=10.0, speed_to=5.0)
-    found = unslowed(ride, 1, deed)
+    found = crossing(ride, 1, 2.0, 10.0)
     assert found is not None
     assert abs(found.ours - 5.0) < 0.5  # 50 m at 10 m/s
     assert abs(found.theirs - 5.0) < 0.5  # 40 m at 8 m/s
@@ -54,8 +53,7 @@ def test_ways_that_do_not_meet_tell_nothing():
         0: Actor(speeds(0.0, 0.0, ((2.0, 10.0), (4.0, 5.0)))),
         1: Actor(straight(0.0, 30.0, 8.0)),
     }
-    deed = Episode(Ego(), "slow-down", 2.0, 4.0, speed_from=10.0, speed_to=5.0)
-    assert unslowed(made(actors, 9.0), 1, deed) is None
+    assert crossing(made(actors, 9.0), 1, 2.0, 10.0) is None
 
 
 def test_another_speed_is_answered_by_who_was_in_the_way():

@@ -11,7 +11,7 @@ from xavi_dialogue.domain.answers import (
     Compared,
     Grounds,
     Method,
-    NotApplicable,
+    MotionReason,
     Options,
     Pivot,
     SupposedOfOther,
@@ -74,10 +74,12 @@ def test_what_another_does_is_supposed_with_its_prior() -> None:
     assert denied.prior == pytest.approx(0.4)
 
 
-def test_our_speed_is_not_supposed_where_we_never_slowed_down() -> None:
+def test_where_we_never_slowed_down_it_is_told_why_we_drove_no_faster() -> None:
     ride = recorded("s1-0")
     fast = WhatIf(Happens(Event("enter", manner=("fast",))))
-    assert isinstance(told(ride, fast, 8.0), NotApplicable)
+    found = told(ride, fast, 8.0)
+    assert isinstance(found, MotionReason)
+    assert found.manner == "slowly"
 
 
 def test_options_are_listed_best_first_with_the_chosen_one() -> None:

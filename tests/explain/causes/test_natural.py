@@ -59,8 +59,7 @@ def test_without_a_map_no_direction_is_known_to_be_the_way():
         (
             ("exit-left",),
             OutcomeEstimate("dead", 1.0),
-            "I plan to turn right, because that is the way to our destination; "
-            "turning left would not take us there.",
+            "I plan to turn right, because that is the way to our destination.",
         ),
     ],
 )

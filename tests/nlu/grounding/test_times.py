@@ -210,9 +210,15 @@ def test_a_past_value_is_of_the_episode_in_focus() -> None:
     assert question_of(found).of.time == Between(12.0, 14.0)  # type: ignore[union-attr]
 
 
-def test_a_value_during_an_event_is_of_its_time() -> None:
+def test_a_value_during_an_event_is_of_its_beginning() -> None:
     turning = Relative("during", Event("change-left"))
     found = asked(HowMuch(Measured("speed", time=turning, tense="past")), RIDE)
+    assert question_of(found).of.time == At(22.0)  # type: ignore[union-attr]
+
+
+def test_an_extreme_during_an_event_is_of_all_of_it() -> None:
+    turning = Relative("during", Event("change-left"))
+    found = asked(HowMuch(Measured("speed", time=turning, tense="past"), "highest"), RIDE)
     assert question_of(found).of.time == Between(22.0, 24.0)  # type: ignore[union-attr]
 
 

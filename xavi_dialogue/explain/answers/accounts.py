@@ -20,8 +20,10 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Is,
+    Junction,
     That,
     Thing,
+    Unsaid,
     Vehicle,
     Vehicles,
     WholeRide,
@@ -31,6 +33,7 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import history_of
 from xavi_dialogue.explain.answers.comfort import stretch
 from xavi_dialogue.explain.answers.conditions import handed
+from xavi_dialogue.explain.answers.decisions import decided_at
 from xavi_dialogue.explain.answers.findings import known as valued
 from xavi_dialogue.explain.answers.mistakes import mistakes
 from xavi_dialogue.explain.answers.moments import SHORT, Window, window
@@ -42,9 +45,10 @@ from xavi_dialogue.explain.answers.occasions import (
     occasions,
     overlaps,
 )
-from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.places import gone, time_to_go
 
 TOLD = 6  # episodes of a summary at most
+APPROACH = 4.0  # [s] between what belongs to one junction
 LEADING = 5.0  # [s] before the last thing that happened which belongs to it
 LISTED = 40  # of a list
 MACROS: frozenset[ActionName] = frozenset(
@@ -84,10 +88,20 @@ def listing(question: Listing, asked: Asked) -> Answer:
             raise Unanswered(NotRecorded("not-recorded", about=question.of))
         case "capabilities":
             return Helpful()
+    if question.of == "decisions" and about.instant:
+        return decided_at(asked, about.middle)
     actor = _actor(asked, question.about)
+    if question.event is not None:
+        return _of_kind(asked, question.event, about)
     return Happenings(
         "list", _listed(asked, question.of, actor, about), actor, about.begin, about.end
     )
+
+
+def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
+    """List all that was such an event in a stretch of the ride."""
+    found = tuple(e for e in occasions(asked, event) if overlaps(asked, e, about))
+    return Happenings("list", found, event.actor, about.begin, about.end, asked=event)
 
 
 def summarise(question: Summarise, asked: Asked) -> Answer:
@@ -102,13 +116,33 @@ def summarise(question: Summarise, asked: Asked) -> Answer:
         if found is None:
             raise did_not_happen(asked, question.about)
         return summary(asked, None, stretch(asked, found).widened(2.0))
+    if isinstance(question.about, Vehicle) and isinstance(question.time, Unsaid):
+        look = asked.world.look(question.about.number, asked.now)
+        if look is not None and not look.in_view and asked.past is None:
+            return gone(asked, question.about)
     if isinstance(question.time, WholeRide):
         about = Window(asked.world.begin, asked.now)
-    return summary(asked, question.about, about)
+    if isinstance(question.about, Junction):
+        about = _with_approach(asked, about)
+    ride = isinstance(question.time, WholeRide | Unsaid) and number(question.about) is None
+    return summary(asked, question.about, about, ride=ride and about.end >= asked.now)
 
 
-def summary(asked: Asked, about: Thing | None, time: Window) -> Happenings:
-    """Give the episodes that matter of a stretch of the ride, or of a vehicle in it."""
+def _with_approach(asked: Asked, about: Window) -> Window:
+    """Add to the stretch of a junction how we waited or slowed down on the way to it."""
+    begin = about.begin
+    halts: tuple[ActionName, ...] = ("give-way", "wait", "stop", "stand", "brake")
+    for episode in reversed(asked.world.episodes(Ego(), halts, end=about.begin)):
+        end = asked.now if episode.end is None else episode.end
+        if end >= begin - APPROACH:
+            begin = min(begin, episode.begin)
+    return Window(begin, about.end, about.said)
+
+
+def summary(
+    asked: Asked, about: Thing | None, time: Window, *, ride: bool = False
+) -> Happenings:
+    """Give the episodes that matter of a stretch of the ride, of all of it, or of a vehicle."""
     near = time.widened(2.0) if time.instant else time
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     vehicle = number(about)
@@ -122,9 +156,10 @@ def summary(asked: Asked, about: Thing | None, time: Window) -> Happenings:
             told = list(asked.world.episodes(actor=Vehicle(vehicle), begin=begin, end=end))
     else:
         told = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)] or told
+    if ride:
+        told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
     chosen = select(asked, told, TOLD)
-    whole = end - begin > 0.8 * (asked.now - asked.world.begin)
-    measures = _of_ride(asked, begin, end) if whole and vehicle is None else ()
+    measures = _of_ride(asked, begin, end) if ride and vehicle is None else ()
     actor = about if vehicle is not None else None
     looks = taking_part(asked, chosen)
     if vehicle is not None and all(look.vehicle != vehicle for look in looks):
@@ -147,7 +182,7 @@ def select(asked: Asked, told: Sequence[Episode], most: int) -> tuple[Episode, .
     for episode in ranked:
         if len(chosen) < most and not any(_same(asked, episode, other) for other in chosen):
             chosen.append(episode)
-    return tuple(sorted(chosen, key=lambda e: e.begin))
+    return tuple(sorted(chosen, key=lambda e: (e.begin, e.action == "give-way")))
 
 
 def _weight(asked: Asked, episode: Episode) -> float:
@@ -163,6 +198,10 @@ def _same(asked: Asked, one: Episode, other: Episode) -> bool:
     """Tell whether two are one thing: of one actor at one time, slowing down or stopping."""
     slowing = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
     both = one.action in slowing and other.action in slowing
+    if one.object != other.object and one.action == other.action == "give-way":
+        return False
+    if {one.action, other.action} & {"give-way"} and {one.action, other.action} & {"brake"}:
+        both = False  # for whom, and how much
     return (
         one.actor == other.actor
         and (both or one.action == other.action)

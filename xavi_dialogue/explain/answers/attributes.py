@@ -11,13 +11,13 @@ from xavi_dialogue.domain.answers import (
     NotRecorded,
     Options,
 )
-from xavi_dialogue.domain.meaning import HowLong, HowMany, HowSure, Where, Whither, Why
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import HowMany, HowSure, Where, Whither, Why
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
     Happens,
-    Junction,
     Measured,
     Vehicle,
 )
@@ -29,12 +29,12 @@ from xavi_dialogue.explain.answers.comfort import asked_stretch, comfort
 from xavi_dialogue.explain.answers.counting import how_many
 from xavi_dialogue.explain.answers.durations import (
     cost_of,
-    how_long,
+    event_lasting,
     remaining_wait,
     stands,
     waited,
 )
-from xavi_dialogue.explain.answers.moments import SHORT, instant, is_ahead, window
+from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, was_said, window
 from xavi_dialogue.explain.answers.naming import (
     first_look,
     is_us,
@@ -42,6 +42,8 @@ from xavi_dialogue.explain.answers.naming import (
     number,
     somebodies,
 )
+from xavi_dialogue.explain.answers.occasions import did_not_happen
+from xavi_dialogue.explain.answers.onward import which_way
 from xavi_dialogue.explain.answers.places import locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
 
@@ -74,7 +76,7 @@ def _comfort(of: Measured, asked: Asked) -> Answer:
 
 
 def _duration(of: Measured, asked: Asked) -> Answer:
-    return how_long(HowLong(of.event or Event("do", of.thing, time=of.time)), asked)
+    return event_lasting(of.event or Event("do", of.thing, time=of.time), asked)
 
 
 def _delay(of: Measured, asked: Asked) -> Answer:
@@ -113,14 +115,30 @@ def _turn(of: Measured, asked: Asked) -> Answer:
     """Tell which way is taken next: of others, where they are thought to be going."""
     if number(of.thing) is not None:
         return whither(Whither(of.thing, of.time), asked)
+    return which_way(of, asked)
+
+
+def _speed_change(of: Measured, asked: Asked) -> Answer:
+    """Tell by how much the speed changed: over the time said, else in the latest change."""
     at = instant(asked, of.time, of.tense)
-    turn = asked.world.measure("turn", Ego(), at)
-    if at < asked.now - SHORT or turn.gap is not None:
-        return Measures((turn,))
-    exit_ = asked.world.measure("exit-number", Ego(), at)
-    ring = asked.world.measure("distance", Ego(), at, Junction("roundabout", 1))
-    near = ring.value is not None and turn.value is not None and ring.value <= turn.value + 1.0
-    return Measures((turn, exit_, ring) if near and exit_.gap is None else (turn,))
+    who = (somebodies(asked, of.thing, at) or (Ego(),))[0]
+    about = window(asked, of.time, of.tense)
+    if of.event is not None or about.instant or not was_said(asked, of.time):
+        changes: tuple[ActionName, ...] = ("slow-down", "brake", "speed-up", "stop")
+        wanted = changes if of.event is None else (of.event.action, "brake", "stop")
+        found = asked.world.episodes(actor=who, actions=wanted, end=about.end + SHORT)
+        if not found:
+            raise did_not_happen(asked, of.event or Event("slow-down", who))
+        last = max(found, key=lambda e: e.begin)
+        about = Window(last.begin, asked.now if last.end is None else last.end)
+    first, after = (asked.world.measure("speed", who, t) for t in (about.begin, about.end))
+    if first.value is None or after.value is None:
+        return Measures((first if first.value is None else after,))
+    change = Measure(
+        "speed-change", who, about.begin, value=after.value - first.value, until=about.end,
+        low=first.value, high=after.value,
+    )  # fmt: skip
+    return Measures((change,))
 
 
 def _count(of: Measured, asked: Asked) -> Answer:
@@ -144,6 +162,7 @@ def _origin(of: Measured, asked: Asked) -> Answer:
 
 SPECIAL: Mapping[Attribute, Callable[[Measured, Asked], Answer]] = {
     "waiting-time": _waiting,
+    "speed-change": _speed_change,
     "value": _options,
     "cost": _options,
     "comfort": _comfort,
@@ -157,5 +176,6 @@ SPECIAL: Mapping[Attribute, Callable[[Measured, Asked], Answer]] = {
     "origin": _origin,
     "route": _heading,
     "turn": _turn,
+    "exit-number": _turn,
     "count": _count,
 }

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from itertools import pairwise
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Answer, Beliefs, NotRecorded, Verdict
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.meaning import HowSure
@@ -27,6 +29,7 @@ from xavi_dialogue.explain.answers.occasions import occasion, occasions
 from xavi_dialogue.explain.answers.plans import foreseen
 
 UNSAID = Unsaid()
+LIKELY = 0.5  # probability from which something was expected
 MOVED = 0.08  # by which a probability has moved
 BACK = 8.0  # [s] before what a vehicle did in which its belief is asked about
 
@@ -93,6 +96,8 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
         share = current.expectations[0].probability if current and current.expectations else None
     else:
         share = chance(asked, event, at)
+    if current is not None and current not in history:
+        history = tuple(sorted((*history, current), key=lambda b: b.time))
     came = occasion(asked, told) if event is not None else None
     if came is None or came.begin < at - SHORT:
         came = came_of(asked, vehicle, at)
@@ -100,6 +105,25 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
     return Beliefs(
         vehicle, event, history, share, None if current is None else current.time, why, span, came
     )
+
+
+def since_when(asked: Asked, event: Event) -> Beliefs:
+    """Tell since when conduct of a vehicle has been held to be more likely than not.
+
+    Raises:
+        Unanswered: the vehicle was never seen, or nothing was believed of it.
+    """
+    found = beliefs_of(asked, event, event.time)
+    done = occasions(asked, event)
+    end = done[-1].begin if done else asked.now
+    since: Belief | None = None
+    for belief in asked.world.beliefs(found.vehicle, asked.world.begin, end):
+        likely = (_share(asked, belief, event) or 0.0) >= LIKELY
+        since = (since or belief) if likely else None
+    if since is None:
+        return found
+    share = _share(asked, since, event)
+    return replace(found, since=since.time, time=since.time, probability=share)
 
 
 def asked_time(asked: Asked, event: Event | None, time: Time, vehicle: int) -> float:
@@ -167,7 +191,9 @@ def _top(belief: Belief) -> tuple[str, ...]:
 def _conduct(asked: Asked, vehicle: int, span: tuple[float, float]) -> Episode | None:
     """Tell what the vehicle was doing while the belief moved most, that it had not done before."""
     found = asked.world.episodes(actor=Vehicle(vehicle), begin=span[0] - SHORT, end=span[1])
-    plain = ("move", "continue", "keep-lane", "follow", "see", "come")
+    plain = (
+        "move", "continue", "keep-lane", "follow", "see", "come", "appear", "disappear", "approach",
+    )  # fmt: skip
     fresh = [e for e in found if e.begin <= span[1] and e.action not in plain]
     return max(fresh, key=lambda e: e.begin, default=None)
 

@@ -3,7 +3,9 @@
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
-from xavi_dialogue.domain.answers import Answer
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, NeedRollout
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowAvoid,
@@ -18,10 +20,20 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.terms import Caused, Happens, Is, Proposition
-from xavi_dialogue.explain.answers import choices, deciding, knowing, reasons, supposing
-from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.reading import is_own, unwrapped
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    Wanted,
+)
+from xavi_dialogue.explain.answers import choices, deciding, knowing, possible, reasons, supposing
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import is_own, unwrapped, vehicle_in
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -37,15 +49,18 @@ QUESTIONS: Mapping[type, Explainer] = {
 }
 NEEDED = frozenset(("necessary", "worth-it", "better"))
 LISTED = frozenset(("options", "decisions"))
+#: What of ours is for something or somebody.
+HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
 REASONS = frozenset(("causes", "reasons"))
 
 
 def explainer(question: Question, scene: Asked) -> Explainer | None:
     """Find the explainer of a causal question; None where it asks for facts alone."""
-    del scene
     match question:
         case Whether(that):
-            return _of_whether(that)
+            return _of_whether(that, scene)
+        case Which(Wanted(), such) if _holds_us_up(such):
+            return _what_for
         case Which(such=such) if such is not None and isinstance(unwrapped(such)[0], Caused):
             return _who_caused
         case Compare(options) if options and all(_is_option(option) for option in options):
@@ -57,14 +72,69 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
     return QUESTIONS.get(type(question))
 
 
-def _of_whether(that: Proposition) -> Explainer | None:
-    of, _ = unwrapped(that)
+def _holds_us_up(such: Proposition | None) -> bool:
+    """Whether it is asked for what or whom we wait, slow down, stop or give way."""
+    of, negated = unwrapped(such)
+    if isinstance(of, Compares) and isinstance(of.left.thing, Wanted):
+        return of.left.attribute == "delay"
+    if not isinstance(of, Happens) or negated:
+        return False
+    event = of.event
+    if event.action == "block":
+        return isinstance(event.actor, Wanted) and is_own(event.object)
+    return is_own(event.actor) and event.action in HELD and isinstance(event.object, Wanted)
+
+
+def _what_for(question: Which, scene: Asked) -> Answer:
+    """For what or whom we wait or slow down: the reason."""
+    of, _ = unwrapped(question.such)
+    event = of.event if isinstance(of, Happens) else Event("block")
+    if isinstance(of, Compares):
+        event = replace(event, tense=of.left.tense, time=of.left.time)
+    if event.action == "block":
+        event = replace(event, action="wait", actor=Ego())
+    event = replace(event, object=None)
+    if event.action in ("stop", "stand", "wait") and event.tense == "present":
+        return reasons.why(Why(Not(Happens(Event("go", tense="present")))), scene)
+    return reasons.why(Why(Happens(event)), scene)
+
+
+def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
+    of, negated = unwrapped(that)
     if isinstance(of, Caused):
         return _was_cause
+    if not negated and _slowed_for(of, scene):
+        return _slowed_because
+    if possible.is_could(of):
+        return possible.could
+    if possible.is_must(of):
+        return possible.must
     if isinstance(of, Is) and of.state in NEEDED:
         about_us = of.event is None or is_own(of.event.actor)
         return deciding.needed if about_us and is_own(of.thing) else None
     return None
+
+
+def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
+    """Whether it is asked if we slowed for somebody, and we did slow, for whatever reason."""
+    if not isinstance(of, Happens) or not is_own(of.event.actor):
+        return False
+    event = of.event
+    if event.action not in ("brake", "slow-down", "stop") or vehicle_in(event.object) is None:
+        return False
+    try:
+        reasons.why(Why(Happens(replace(event, object=None))), scene)
+    except Unanswered as unanswered:
+        return isinstance(unanswered.result, NeedRollout)
+    return True
+
+
+def _slowed_because(question: Whether, scene: Asked) -> Answer:
+    """Whether we slowed for somebody: the reason, with a word on that vehicle."""
+    of, _ = unwrapped(question.that)
+    assert isinstance(of, Happens)
+    event = replace(of.event, object=None)
+    return reasons.why(Why(Happens(event), suspect=of.event.object), scene)
 
 
 def _is_option(option: object) -> bool:

@@ -7,7 +7,9 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
+    Contrast,
     DidNotHappen,
+    MotionCause,
     MotionReason,
     NotApplicable,
 )
@@ -23,6 +25,7 @@ from xavi_dialogue.explain.causes.actions import (
     names_of,
     to_macros,
 )
+from xavi_dialogue.explain.causes.blocking import blocking
 from xavi_dialogue.explain.causes.contrast import (
     SameAsPlan,
     alone,
@@ -31,7 +34,7 @@ from xavi_dialogue.explain.causes.contrast import (
     contrast,
     factual,
 )
-from xavi_dialogue.explain.causes.natural import natural, on_way, other_way
+from xavi_dialogue.explain.causes.natural import STAYING, natural, on_way, other_way
 from xavi_dialogue.explain.causes.options import free
 from xavi_dialogue.explain.causes.premise import (
     Premise,
@@ -63,13 +66,28 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
         foil = named_foil(scene, other, found) or ()
     if not foil:
         against = natural(scene.ride, found.trace, found.node)
-        return ChoiceReason("why", deed_of(scene, found), against, past=_over(scene, event, found))
+        return _reason(scene, event, found, against)
     try:
         against = contrast(scene.ride, found.trace, foil, found.node)
         against = on_way(found.trace, against, found.node)
     except SameAsPlan:  # the contrast that the question draws is none
         against = natural(scene.ride, found.trace, found.node)
-    return ChoiceReason("why", deed_of(scene, found), against, past=_over(scene, event, found))
+    return _reason(scene, event, found, against)
+
+
+def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast) -> ChoiceReason:
+    """The reason for what was chosen, with whom a lane was left for."""
+    past = _over(scene, event, found)
+    ahead = _left_for(scene, found, against)
+    return ChoiceReason("why", deed_of(scene, found), against, past=past, ahead=ahead)
+
+
+def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
+    """Who stood or crept in the lane that was left, where one was."""
+    first = against.fact[:1]
+    if found.node or not first or first[0] not in CHANGES:
+        return None
+    return blocking(scene.ride, scene.world, against.decided, first[0])
 
 
 def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
@@ -94,7 +112,9 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
             raise Unanswered(DidNotHappen(event, told)) from None
         foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
         against = contrast(scene.ride, found.trace, foil)
-    return ChoiceReason("why-not", deed_of(scene, found), against, past=_over(scene, event, found))
+    past = _over(scene, event, found) or is_past(scene, event)
+    ahead = _left_for(scene, found, against) if foil == STAYING else None
+    return ChoiceReason("why-not", deed_of(scene, found), against, past=past, ahead=ahead)
 
 
 def straight(scene: Asked) -> Answer:
@@ -150,7 +170,10 @@ def needed(event: Event | None, scene: Asked, form: Form = "necessary") -> Answe
     found = free(scene.ride, premise(scene.ride, subject(scene, event)))
     ride, trace, node = scene.ride, found.trace, found.node
     model, plan = ride.model(trace), planned(trace)
-    here = factual(model, trace)
+    try:
+        here = factual(model, trace)
+    except Unanswered:
+        model, here = ride.evidence(trace, plan[: len(node) + 1])
     others = alternatives(model, plan[len(node)], node) if len(plan) > len(node) else []
     past = _over(scene, event, found)
     if not others:
@@ -174,6 +197,8 @@ def with_suspect(found: Answer, suspect: int | None) -> Answer:
         return found
     if isinstance(found, ChoiceReason):
         named = [cause.vehicle for cause in found.contrast.causes]
+        if found.ahead is not None and found.ahead.vehicle == suspect:
+            named = [suspect]
         part = _part(named, suspect)
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
@@ -206,6 +231,8 @@ def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
     """Whether it is told as past: what was asked so, or has ended."""
     if found.deed is None:
         return is_past(scene, event) and found.trace is not scene.ride.latest
+    if found.deed.ended is None and (event is None or event.tense != "future"):
+        return False
     return is_past(scene, event) or found.deed.ended is not None
 
 

@@ -9,7 +9,7 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.foreseen import collision_chance
 from xavi_dialogue.explain.answers.moments import SHORT, Window
 
-How = Literal["safe", "dangerous", "close", "hit"]
+How = Literal["safe", "dangerous", "close", "hit", "room"]
 URGENT = 10.0  # [s] beyond which a time to collision says nothing
 
 

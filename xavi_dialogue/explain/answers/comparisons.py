@@ -20,12 +20,14 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Quantity,
     Thing,
+    Unsaid,
     Vehicle,
+    WholeRide,
 )
-from xavi_dialogue.domain.vocabulary import Attribute, Comparator
+from xavi_dialogue.domain.vocabulary import Attribute, Comparator, Extreme
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
-from xavi_dialogue.explain.answers.measures import best_of, value_at
+from xavi_dialogue.explain.answers.measures import best_of, value_at, values
 from xavi_dialogue.explain.answers.moments import Window, instant, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     check_sense,
@@ -140,7 +142,7 @@ def compares(of: Compares, asked: Asked) -> Finding:
 
 def _compared(of: Compares, asked: Asked) -> Finding:
     at = instant(asked, of.left.time, of.left.tense)
-    left = best_of(asked, of.left, at)
+    left = _left_side(of, asked, at)
     right = _other_side(of, asked, left)
     if left.value is None or right is None or right.value is None:
         gap = left.gap or (None if right is None else right.gap) or "not-recorded"
@@ -153,9 +155,31 @@ def _compared(of: Compares, asked: Asked) -> Finding:
     return Finding(holds, (replace(left, reference=right.value),))
 
 
+def _left_side(of: Compares, asked: Asked, at: float) -> Measure:
+    """Give the left side: where all of the ride is meant, its extreme in question."""
+    whole = isinstance(of.left.time, WholeRide) or (
+        isinstance(of.left.time, Unsaid) and of.left.tense in ("past", "perfect")
+    )
+    about = window(asked, of.left.time, of.left.tense)
+    limit = isinstance(of.right, Measured) and of.right.attribute == "limit"
+    if not whole or about.instant or not (limit or isinstance(of.right, Quantity)):
+        return best_of(asked, of.left, at)
+    which: Extreme = "lowest" if of.comparator in ("less", "at-most") and not limit else "highest"
+    things = somebodies(asked, of.left.thing, at) or (of.left.thing,)
+    return asked.world.extreme(
+        of.left.attribute, things[0], which, about.begin, about.end, of.left.to
+    )
+
+
 def _other_side(of: Compares, asked: Asked, left: Measure) -> Measure | None:
     """Tell what the left side is held against: the limit, where nothing was named."""
     match of.right:
+        case Measured(attribute="limit", thing=thing) if left.extreme is not None:
+            return asked.world.measure("limit", thing, left.time)
+        case Measured(thing=Everyone()):
+            found = [m for m in values(asked, of.right) if m.value is not None]
+            most = 1.0 if of.comparator == "more" else -1.0
+            return max(found, key=lambda m: most * (m.value or 0.0), default=None)
         case Measured():
             return best_of(asked, of.right, left.time)
         case Quantity(value=value):

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Mapping
 
-from xavi_dialogue.domain.answers import Answer, NotApplicable
+from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
 from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Is, Thing, Vehicle
+from xavi_dialogue.domain.terms import Destination, Ego, Event, Happens, Is, Lane, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -14,11 +14,12 @@ from xavi_dialogue.explain.answers.beliefs import how_sure
 from xavi_dialogue.explain.answers.closeness import How, closeness
 from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.durations import remaining_wait, stands
+from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.foreseen import macros
 from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.limits import fast, within_limit
-from xavi_dialogue.explain.answers.mistakes import wrong
+from xavi_dialogue.explain.answers.mistakes import broken_down, wrong
 from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     first_look,
@@ -29,8 +30,13 @@ from xavi_dialogue.explain.answers.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, taken_place
-from xavi_dialogue.explain.answers.places import time_to_go
-from xavi_dialogue.explain.answers.priority import fault, right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.places import time_to_go, to_go
+from xavi_dialogue.explain.answers.priority import (
+    lawful,
+    owed,
+    right_of_way,
+    where_rule_holds,
+)
 from xavi_dialogue.explain.answers.room import free
 from xavi_dialogue.explain.history.thresholds import STANDING
 
@@ -77,7 +83,9 @@ def _about(of: Is, asked: Asked) -> Window:
 
 
 def _safe(of: Is, asked: Asked) -> Finding:
-    how: How = "safe" if of.state == "safe" else "dangerous"
+    if of.state == "roomy" and isinstance(of.thing, Lane):
+        return free(of, asked)
+    how: How = "room" if of.state == "roomy" else "safe" if of.state == "safe" else "dangerous"
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
         taken_place(asked, of.event)
@@ -101,13 +109,19 @@ def _comfortable(of: Is, asked: Asked) -> Finding:
 def _allowed(of: Is, asked: Asked) -> Finding:
     """Tell what the rules of the road say: of speed the limit, of going first the right of way."""
     event = of.event
+    if event is None and of.thing is None:
+        about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
+        return Finding(None, answer=lawful(asked, about))
     if event is not None and event.action in RIGHT_OF_WAY and not _of_speed(event):
         about = _about(of, asked)
         past = is_past(asked, of.time, of.tense)
         about = where_rule_holds(asked, of, about) if past else about
         found = right_of_way(asked, event.object, event.actor, about)
         if found.rule != "none" or "first" in event.manner:
-            return Finding(None, answer=found)
+            return owed(found, ours_yield=not is_us(event.actor))
+    if event is not None and is_us(event.actor) and not _of_speed(event):
+        about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
+        return Finding(None, answer=lawful(asked, about))
     return within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)
 
 
@@ -176,6 +190,8 @@ def _still(of: Is, asked: Asked) -> Finding:
 
 
 def _close(of: Is, asked: Asked) -> Finding:
+    if isinstance(of.thing, Destination):
+        return Finding(None, answer=Measures(to_go(asked, asked.now)))
     vehicle = number(actor(of))
     past = is_past(asked, of.time, of.tense)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
@@ -187,9 +203,13 @@ def _close(of: Is, asked: Asked) -> Finding:
     gap, headway, distance = (
         asked.world.measure(a, Ego(), asked.now, other) for a in ("gap", "headway", "distance")
     )
+    if distance.value is None and of.state == "far" and not asked.ride.arrived:
+        return Finding(None, answer=Measures(to_go(asked, asked.now)))  # "is it a long way?"
     if distance.value is None:
         return unknown(distance.gap or "out-of-view")
     if headway.value is not None:
+        if of.too and NEAR_GAP / 2.0 <= headway.value < NEAR_GAP:
+            return Finding(None, answer=Measures(known(gap, headway)))  # a matter of opinion
         near = headway.value < (NEAR_GAP if not of.too else NEAR_GAP / 2.0)
         return Finding(near == (of.state == "close"), known(gap, headway))
     return Finding((distance.value < NEAR) == (of.state == "close"), known(distance))
@@ -223,7 +243,7 @@ def _over(of: Is, asked: Asked) -> Finding:
 
 def _late(of: Is, asked: Asked) -> Finding:
     """Tell whether we are late: no record has a time by which we are to be there."""
-    return unknown("not-recorded", *known(time_to_go(asked, asked.now)))
+    return unknown("unknown-plans", *known(time_to_go(asked, asked.now)))
 
 
 def _stuck(of: Is, asked: Asked) -> Finding:
@@ -249,7 +269,7 @@ def _sure(of: Is, asked: Asked) -> Finding:
 def _at_fault(of: Is, asked: Asked) -> Finding:
     about = None if of.event is None else Happens(of.event)
     question = Fault(about, of.thing)
-    return Finding(None, answer=handed(question, asked) or fault(question, asked))
+    return Finding(None, answer=handed(question, asked) or blamed(question, asked))
 
 
 def _first(of: Is, asked: Asked) -> Finding:
@@ -282,7 +302,7 @@ def _constant(holds: bool | None, gap: Gap | None = None) -> Callable[[Is, Asked
 
 
 STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
-    "safe": _safe, "dangerous": _safe,
+    "safe": _safe, "dangerous": _safe, "roomy": _safe,
     "comfortable": _comfortable, "uncomfortable": _comfortable,
     "allowed": _allowed, "necessary": _judged, "worth-it": _judged, "better": _judged,
     "possible": _possible, "free": free,
@@ -294,7 +314,7 @@ STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
     "first": _first, "last": _first, "big": _big, "busy": _busy,
     "normal": _constant(None, "not-recorded"),
     "dirty": _constant(None, "not-sensed"),
-    "faulty": _constant(None, "not-recorded"),
+    "faulty": broken_down,
     "awake": _constant(None, "others-thoughts"),
     "autonomous": _constant(True),
 }  # fmt: skip

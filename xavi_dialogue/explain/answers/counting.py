@@ -21,8 +21,16 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.moments import SHORT, Window, window
-from xavi_dialogue.explain.answers.naming import ANY, check_sense, first_look, of_kind, somebodies
+from xavi_dialogue.explain.answers.naming import (
+    ANY,
+    check_sense,
+    first_look,
+    is_us,
+    of_kind,
+    somebodies,
+)
 from xavi_dialogue.explain.answers.occasions import merged, within
+from xavi_dialogue.explain.answers.onward import WAYS, junctions_left, turns_left
 from xavi_dialogue.explain.answers.places import told
 
 
@@ -33,9 +41,13 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
         Unanswered: it is of what the record does not hold.
     """
     if isinstance(question.of, Event):
-        return _events(asked, question.of)
+        event = question.of
+        if event.tense == "future" and event.action in WAYS and is_us(event.actor):
+            return turns_left(asked, event)
+        return _events(asked, event)
     check_sense(question.of)
-    return _things(asked, question.of)
+    found = _things(asked, question.of)
+    return replace(found, such=question.such) if isinstance(found, Counted) else found
 
 
 def _events(asked: Asked, event: Event) -> Counted:
@@ -102,5 +114,4 @@ def _junctions(asked: Asked, of: Exit | Junction) -> Answer:
         if ring is None or ring.exits is None:
             return Measures((Measure("exit-number", Ego(), asked.moment, gap="not-applicable"),))
         return Counted(of, ring.exits)
-    ahead = [s for s in road.route if of.form == "junction" or s.kind == "roundabout"]
-    return Counted(of, len(ahead), at_least=len(road.route) >= 8)
+    return junctions_left(asked, of)

@@ -1,5 +1,6 @@
 """Deciding: options and comparisons, whether it was needed, what would change it, how to avoid."""
 
+import dataclasses
 from typing import Literal
 
 from msgspec.structs import replace
@@ -17,10 +18,12 @@ from xavi_dialogue.domain.answers import (
     Pivot,
 )
 from xavi_dialogue.domain.meaning import Compare, HowAvoid, Listing, WhatWouldChange, Whether
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Is, Proposition, Thing
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, foils, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.reading import event_of, is_past, subject, unwrapped
 from xavi_dialogue.explain.causes import avoidance, options, pivot
 from xavi_dialogue.explain.causes.actions import DRIVING, is_macro, names_of, same, to_macros
@@ -44,11 +47,26 @@ def needed(question: Whether, scene: Asked) -> Answer:
     state = of.state if isinstance(of, Is) else "necessary"
     form: Literal["necessary", "worth-it"] = "necessary" if state == "necessary" else "worth-it"
     if event is not None and not choices.is_choice(event):
-        found = motions.motion(event, scene)
+        found = _moved(event, scene)
         if isinstance(found, MotionReason):
             return replace(found, form="necessary")
         return found
     return choices.needed(event, scene, form)
+
+
+def _moved(event: Event, scene: Asked) -> Answer:
+    """Why we drove so: at the time meant, or at whatever time we did where none was said.
+
+    Raises:
+        Unanswered: we did not; or rollouts are needed.
+    """
+    try:
+        return motions.motion(event, scene)
+    except Unanswered as unanswered:
+        said = scene.past is not None and scene.past.said
+        if said or not isinstance(unanswered.result, DidNotHappen):
+            raise
+        return motions.motion(event, dataclasses.replace(scene, span=None))
 
 
 def listed(question: Listing, scene: Asked) -> Answer:
@@ -74,6 +92,10 @@ def compared(question: Compare, scene: Asked) -> Answer:
     events = [event for option in named if (event := _own_event(option)) is not None]
     if not events:
         return listed(Listing("options"), scene)
+    single = len(question.options) == 1 and not _was_done(scene, events[0])
+    if single and question.by in ("time", "speed", "best", "safety"):
+        form: Asking = "safer" if question.by == "safety" else "quicker"
+        return of_us(replace(events[0], tense="past"), scene, form)
     found, fact, foil = _sides(scene, events)
     ride = scene.ride
     against = contrast(ride, found.trace, foil, found.node)

@@ -3,7 +3,6 @@
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Happenings, Measures
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import HowLong
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
@@ -25,19 +24,20 @@ from xavi_dialogue.explain.history.thresholds import STANDING
 WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
 
 
-def how_long(question: HowLong, asked: Asked) -> Answer:
+def event_lasting(event: Event, asked: Asked) -> Answer:
     """Tell how long something lasted, has lasted so far, or is expected to last.
 
     Raises:
         Unanswered: it did not happen.
     """
-    event = question.of
     if event.action == "arrive" or (
         event.action in ("do", "happen", "move") and is_us(event.actor)
     ):
         return _ride_time(asked, event)
-    ahead = is_ahead(asked, event.time, event.tense)
-    if ahead and event.action in HALTS and is_us(event.actor) and stands(asked):
+    ahead = is_ahead(asked, event.time, event.tense) or (
+        event.modal == "must" and event.tense == "present"
+    )
+    if ahead and event.action in HALTS and is_us(event.actor) and _waits(asked):
         return Measures((remaining_wait(asked),))
     found = occasion(asked, event)
     if found is None and event.action in HALTS:
@@ -101,6 +101,12 @@ def stands(asked: Asked) -> bool:
     """Tell whether our car stands now."""
     motion = asked.ride.motion(EGO)
     return bool(motion.speed) and motion.speed[-1] < STANDING
+
+
+def _waits(asked: Asked) -> bool:
+    """Tell whether our car stands, or is about to wait."""
+    on = asked.world.episodes(actor=Ego(), actions=WAITS, begin=asked.now - 0.5)
+    return stands(asked) or any(e.end is None for e in on)
 
 
 def _standing(asked: Asked, event: Event) -> Episode | None:

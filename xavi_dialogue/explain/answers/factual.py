@@ -5,7 +5,9 @@ from typing import Any, TypeAlias
 
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import (
+    Changed,
     Claim,
+    Compare,
     Doing,
     Fault,
     Feel,
@@ -15,6 +17,7 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Identify,
     Listing,
+    Peak,
     Request,
     Summarise,
     When,
@@ -27,13 +30,17 @@ from xavi_dialogue.explain.answers.accounts import listing, summarise
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.beliefs import how_sure
 from xavi_dialogue.explain.answers.counting import how_many
-from xavi_dialogue.explain.answers.durations import how_long
+from xavi_dialogue.explain.answers.decisions import changed
+from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.happenings import doing, when
 from xavi_dialogue.explain.answers.identify import identify, which
+from xavi_dialogue.explain.answers.lasting import how_long
 from xavi_dialogue.explain.answers.measures import how_much
 from xavi_dialogue.explain.answers.places import where, whither
-from xavi_dialogue.explain.answers.priority import fault
-from xavi_dialogue.explain.answers.talk import feel, request
+from xavi_dialogue.explain.answers.requests import request
+from xavi_dialogue.explain.answers.rivals import rivals
+from xavi_dialogue.explain.answers.summits import peak
+from xavi_dialogue.explain.answers.talk import feel
 from xavi_dialogue.explain.answers.verdicts import claim, whether
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
@@ -51,9 +58,12 @@ QUESTIONS: Mapping[type, Explainer] = {
     Whither: whither,
     Doing: doing,
     Listing: listing,
+    Peak: peak,
+    Changed: changed,
     Summarise: summarise,
     HowSure: how_sure,
-    Fault: fault,
+    Fault: blamed,
+    Compare: rivals,
 }
 #: By type of act beside `Ask`.
 ACTS: Mapping[type, Explainer] = {Claim: claim, Request: request, Feel: feel}

@@ -54,7 +54,8 @@ def foil_at(
         found = about_foil(scene.ride, about, names[:1])
     else:
         found = premise(scene.ride, about)
-    later = tuple(name for step in sequence(event)[1:] for name in settled(scene, step)[:1])
+    steps = (name for step in sequence(event)[1:] for name in settled(scene, step)[:1])
+    later = tuple(name for name in steps if means(name))
     foil = to_macros(scene.ride.model(found.trace), (names[0], *later), found.node)
     return found, foil
 

@@ -1,5 +1,7 @@
 """Foreseen: how probable an event was for the car at a time, by its beliefs and its plan."""
 
+from msgspec.structs import replace
+
 from planner.trace import Action, HeldUp, TrajectoryPrediction
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
@@ -44,6 +46,7 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
         return None
     if event.action in ("collide", "nearly-collide"):
         return collision_chance(asked, at, vehicle)
+    event = _alongside(asked, event, vehicle, at)
     trace = asked.ride.at(at, vehicle)
     known = None if trace is None else prediction(trace, vehicle)
     if trace is None or known is None:
@@ -59,13 +62,26 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
     return min(total, 1.0) if any_known else None
 
 
+def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
+    """Take "pull out" and "cut in" of who drives the same way for a change to our side."""
+    look = asked.world.look(vehicle, at)
+    if event.action not in ("pull-out", "cut-in") or look is None or look.speed < MOVING:
+        return event
+    if look.oncoming or look.bearing.partition("-")[0] not in ("ahead", "behind", "beside"):
+        return event
+    if event.action == "pull-out" and look.bearing in ("ahead", "behind"):
+        return replace(event, action="change-lane")  # from before or behind us, to another lane
+    return replace(event, action="change-right" if look.left > 0.0 else "change-left")
+
+
 def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
     """Tell whether a predicted way contains an event; None where ways tell nothing of such."""
     action = sided(event)
     if action in YIELDS:
         return _yields(way.held_up, event) or (action == "wait" and foresees(way, "stop"))
     if action in ("stop", "stand"):
-        return foresees(way, "stop")
+        stands = bool(way.speed) and way.speed[0] < MOVING  # and stays where it lets us go first
+        return foresees(way, "stop") or (stands and _yields(way.held_up, event))
     if action == "brake":
         return foresees(way, "slow-down")
     if action in ("slow-down", "speed-up"):
@@ -134,8 +150,8 @@ def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belie
         came: whether it did.
     """
     vehicle = number(event.actor)
-    if vehicle is None or not macros(event):
-        return None
+    if vehicle is None or not macros(event) or event.action == "overtake":
+        return None  # who drives past in his own lane was not foreseen to leave it
     known = asked.world.beliefs(vehicle, max(about.begin - BEFORE, asked.world.begin), about.end)
     for belief in reversed(known):
         first = belief.expectations[0] if belief.expectations else None

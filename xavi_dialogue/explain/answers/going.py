@@ -1,25 +1,20 @@
-"""Going: why we went when we did, and what can be said of not having slowed down."""
+"""Going: why we went when we did."""
 
 from msgspec import structs
 
 from xavi_dialogue.domain.answers import (
     Answer,
     Contrast,
-    DidNotHappen,
     GoReason,
-    MotionReason,
-    NotApplicable,
-    Unslowed,
 )
 from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers import choices, motions
-from xavi_dialogue.explain.answers.asked import LEEWAY, Asked, Unanswered
-from xavi_dialogue.explain.answers.reading import is_past, manner_of
-from xavi_dialogue.explain.causes.actions import NO_SPEED
+from xavi_dialogue.explain.answers import choices
+from xavi_dialogue.explain.answers.asked import LEEWAY, Asked
+from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
+from xavi_dialogue.explain.causes.actions import CHANGES
 from xavi_dialogue.explain.causes.contrast import contrast
 from xavi_dialogue.explain.causes.going import bystanders
-from xavi_dialogue.explain.causes.going import unslowed as crossing_at
 from xavi_dialogue.explain.causes.premise import Premise, Subject, is_open, premise
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
@@ -27,6 +22,7 @@ from xavi_dialogue.explain.history.ride import ROUNDING, planned
 CROSSING = frozenset[ActionName](("exit-left", "exit-right", "exit-straight", "continue-next-exit"))
 BEGUN = 0.5  # [s] since when what was begun is told as past
 LATELY = 10.0  # [s] since when a junction that was crossed may be meant
+JUST = 4.0  # [s] since when a change of lanes is what "going" means
 SOON = 4.0  # [s] before we went within which waiting was the other choice
 
 
@@ -38,20 +34,29 @@ def went(event: Event, scene: Asked) -> Answer:
     """
     past = is_past(scene, event)
     found = premise(scene.ride, Subject(event, (), past, scene.span))
+    changed = found.deed is not None and found.deed.action in CHANGES
+    if found.deed is not None and changed and _lately(scene, found.deed):
+        return choices.why(structs.replace(event, action=found.deed.action), scene)
     if found.deed is None or found.deed.action not in CROSSING:
-        found = Premise(found.trace, _crossed(scene))
-    begun = scene.moment if found.deed is None else found.deed.time
+        found = Premise(found.trace, crossed(scene))
+    open_ = found.deed is None or found.deed.committed is None
+    begun = scene.moment if found.deed is None or open_ else found.deed.time
     against = _waiting(scene, begun)
     others = bystanders(scene.ride, scene.world, begun)
+    asked = vehicle_in(event.object)
+    others = tuple(one for one in others if one.vehicle == asked) or others
     trace = scene.ride.at(begun)
     unknown = trace is None or trace.road is None  # who has right of way
     if not others and (found.deed is None or unknown):
         return choices.why(None, scene)
     past = past or (found.deed is not None and begun < scene.now - BEGUN)
-    return GoReason(choices.deed_of(scene, found), others, against, past=past)
+    deed = choices.deed_of(scene, found)
+    if deed is not None and open_:
+        deed = structs.replace(deed, begin=begun)
+    return GoReason(deed, others, against, past=past)
 
 
-def _crossed(scene: Asked) -> Deed | None:
+def crossed(scene: Asked) -> Deed | None:
     """The last junction that we went into up to the moment asked about."""
     before = [
         deed
@@ -59,7 +64,13 @@ def _crossed(scene: Asked) -> Deed | None:
         if deed.action in CROSSING and deed.time <= scene.moment + LEEWAY
     ]
     inside = [deed for deed in before if deed.ended is None or deed.ended >= scene.moment - LATELY]
-    return inside[-1] if inside else None
+    after = [d for d in scene.ride.deeds if d.action in CROSSING and d not in before]
+    return inside[-1] if inside else next(iter(after), None)
+
+
+def _lately(scene: Asked, deed: Deed) -> bool:
+    """Whether a deed goes on at the moment asked about, or was over shortly before."""
+    return deed.ended is None or deed.ended >= scene.moment - JUST
 
 
 def _waiting(scene: Asked, time: float) -> Contrast | None:
@@ -72,32 +83,3 @@ def _waiting(scene: Asked, time: float) -> Contrast | None:
         and planned(trace)[:1] != ("stop",)
     ]
     return contrast(scene.ride, open_[-1], ("stop",)) if open_ else None
-
-
-def unslowed(event: Event, scene: Asked) -> Answer:
-    """What can be said of not having slowed down: who was in the way, and how close it was.
-
-    Raises:
-        Unanswered: we did not slow down or wait; or rollouts are needed.
-    """
-    name: ActionName = event.action if event.action in motions.KINDS else "slow-down"
-    asked = structs.replace(event, action=name, object=None, manner=(), tense="past")
-    try:
-        found = motions.motion(asked, scene)
-    except Unanswered as unanswered:
-        if isinstance(unanswered.result, DidNotHappen):
-            raise Unanswered(NotApplicable((), NO_SPEED, scene.moment)) from None
-        raise
-    if not isinstance(found, MotionReason):
-        return found
-    cause = next(iter(found.causes), None)
-    crossing = None
-    if cause is not None and cause.vehicle and cause.kind == "right-of-way":
-        crossing = crossing_at(scene.ride, cause.vehicle, found.deed)
-    return Unslowed(
-        found.deed,
-        cause,
-        ours=None if crossing is None else crossing.ours,
-        theirs=None if crossing is None else crossing.theirs,
-        going=manner_of(event, "fast", "slowly") is None,
-    )

@@ -15,18 +15,22 @@ from xavi_dialogue.domain.answers import (
     Verdict,
 )
 from xavi_dialogue.domain.facts import Episode, Fact, Look, Measure
-from xavi_dialogue.domain.meaning import Doing, When
+from xavi_dialogue.domain.meaning import Doing, When, Whither
 from xavi_dialogue.domain.terms import (
     At,
+    Believed,
     Ego,
     Event,
     Happens,
     Not,
     Proposition,
+    Related,
     Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.explain.answers.accounts import TOLD, select, summary, taking_part
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import since_when
 from xavi_dialogue.explain.answers.findings import known as valued
 from xavi_dialogue.explain.answers.foreseen import chance
 from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, window
@@ -37,9 +41,12 @@ from xavi_dialogue.explain.answers.occasions import (
     duration,
     occasion,
 )
-from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.onward import leaves_when
+from xavi_dialogue.explain.answers.places import time_to_go, whither
 from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.reaching import reaching
 from xavi_dialogue.explain.answers.weighing import weigh
+from xavi_dialogue.explain.causes.announced import announced
 
 
 def when(question: When, asked: Asked) -> Answer:
@@ -52,9 +59,15 @@ def when(question: When, asked: Asked) -> Answer:
     if not isinstance(of, Happens):
         return _first_held(of, asked)
     event = of.event
+    soon = reaching(asked, event) if is_ahead(asked, event.time, event.tense) else None
+    if soon is not None:
+        return soon
     if event.action == "arrive" and is_us(event.actor) and not asked.ride.arrived:
         arrival = asked.world.measure("arrival-time", Ego(), asked.now)
         return Measures(valued(arrival) or (time_to_go(asked, asked.now),))
+    leaving = leaves_when(asked, event)
+    if leaving is not None:
+        return leaving
     ahead = is_ahead(asked, event.time, event.tense)
     under_way = occasion(asked, replace(event, tense="present")) if ahead else None
     if ahead and under_way is None:
@@ -79,7 +92,7 @@ def doing(question: Doing, asked: Asked) -> Answer:
         about = window(asked, question.time, question.tense)
         if question.tense == "present" and about.end >= asked.now:
             return activity(asked, Ego(), asked.now)
-        return summary(asked, None, about)
+        return summary(asked, None, about, ride=isinstance(question.time, WholeRide))
     ahead = is_ahead(asked, question.time, question.tense)
     at = asked.now if ahead else instant(asked, question.time, question.tense)
     who = somebodies(asked, question.actor, at)
@@ -89,10 +102,23 @@ def doing(question: Doing, asked: Asked) -> Answer:
         return _several(asked, who, at)
     if ahead and is_us(who[0]):
         return plan_ahead(asked)
+    if ahead and isinstance(who[0], Vehicle) and question.tense != "present":
+        return intent(asked, who[0].number)
     about = window(asked, question.time, question.tense)
-    if question.tense in ("past",) and not about.instant and not ahead:
+    if question.tense in ("past", "perfect") and not about.instant and not ahead:
         return _did(asked, who[0], about)
     return activity(asked, who[0], at)
+
+
+def intent(asked: Asked, vehicle: int) -> Answer:
+    """Tell what somebody else is up to: what its indicator announces, else what is expected."""
+    lit = [
+        e
+        for e in asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",))
+        if e.begin <= asked.now and e.end is None
+    ]
+    told = announced(asked.ride, asked.world, vehicle, lit[-1], asked.now) if lit else None
+    return told or whither(Whither(Vehicle(vehicle)), asked)
 
 
 def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
@@ -155,6 +181,14 @@ def _planned(asked: Asked, event: Event) -> float | None:
 
 def _first_held(of: Proposition, asked: Asked) -> Answer:
     """Tell when a state or relation held first, of the moments at which we decided."""
+    match of:
+        case Believed(content=Happens(event=event)) if number(event.actor) is not None:
+            return since_when(asked, event)
+        case Related(relation="can-see", thing=thing, to=Vehicle(number=seen)) if is_us(thing):
+            first = first_look(asked, seen, asked.world.begin)
+            if first is not None:
+                sight = Episode(Ego(), "see", first.time, first.time, Vehicle(seen))
+                return Happenings("when", (sight,), Ego(), looks=(first,))
     about = window(asked)
     for trace in asked.ride.traces:
         at = trace.sim_time

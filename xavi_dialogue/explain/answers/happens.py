@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace as with_fields
 
-from xavi_dialogue.domain.answers import Located
+from xavi_dialogue.domain.answers import Bound, Course
 from xavi_dialogue.domain.facts import Episode, Fact, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Exit, Happens, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Exit, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.closeness import closeness
@@ -23,17 +23,13 @@ from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, num
 from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.places import to_go, told
 from xavi_dialogue.explain.answers.plans import foreseen
+from xavi_dialogue.explain.answers.sight import comes, sees
 
-#: What a driver does for another one whom he sees.
-KIND: tuple[ActionName, ...] = (
-    "give-way",
-    "let-go",
-    "wait",
-    "slow-down",
-    "brake",
-    "stop",
-    "swerve",
-)
+#: What is asked of somebody who is about to do it: "is he pulling out?"
+INTENDED: tuple[ActionName, ...] = ("pull-out", "let-go", "give-way", "enter", "cross")
+RECENT = 2.0  # [s] for which it may still be told what somebody who is hidden is going to do
+NEARLY = 10.0  # [s] before we are there from which on we are nearly there
+AT_HAND = 100.0  # [m] likewise
 SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
 
 
@@ -48,16 +44,38 @@ def happens(of: Happens, asked: Asked) -> Finding:
     if event.action in BEYOND and event.action != "u-turn" and not is_us(event.actor):
         return unknown("not-sensed")
     if event.action == "see":
-        return _sees(asked, event)
+        return sees(asked, event)
     if event.action == "arrive" and is_us(event.actor):
         return _arrived(asked, event)
     if event.action == "block" and is_us(event.actor) and number(event.object) is None:
         return _blocks(asked, event)
     if event.action in ("collide", "nearly-collide"):
         return _collides(asked, event)
-    if is_ahead(asked, event.time, event.tense):
+    if event.action == "come" and event.tense == "present":
+        coming = comes(asked, event)
+        if coming is not None:
+            return coming
+    ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
+    if ahead or _intended(asked, event):
         return _to_come(asked, event)
     return _has_been(asked, event)
+
+
+def _all_the_way(event: Event) -> bool:
+    """Tell whether "do we stay in this lane all the way?" asks of what is still to come."""
+    kept = event.action in ("keep-lane", "continue") and is_us(event.actor)
+    return kept and event.tense == "present" and isinstance(event.time, WholeRide)
+
+
+def _intended(asked: Asked, event: Event) -> bool:
+    """Tell whether "is he turning off?" asks of somebody what he has not begun: what comes."""
+    if event.tense != "present" or not isinstance(event.time, Unsaid | Now):
+        return False
+    if number(event.actor) is None or asked.past is not None:
+        return False
+    meant = bool(macros(event)) or event.action in INTENDED
+    begun = occasion(asked, event) if meant else None
+    return meant and begun is None and chance(asked, event, asked.now) is not None
 
 
 def _has_been(asked: Asked, event: Event) -> Finding:
@@ -95,6 +113,9 @@ def _to_come(asked: Asked, event: Event) -> Finding:
         other = _other_exit(asked, event)
         if other is not None:
             return Finding(False, (other,))
+        nearing = _nearing(asked, event)
+        if nearing is not None:
+            return nearing
         found = foreseen(asked, event)
         if found is None and event.action in ("continue", "keep-lane"):
             moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
@@ -112,10 +133,24 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     look = look_of(asked, event.actor, now)
     belief = asked.world.belief(vehicle, now)
     share = chance(asked, event, now)
-    if look is not None and not look.in_view:
+    if share is None and belief is not None and (look is None or look.in_view):
+        return Finding(None, (), "in-future", answer=Bound(Vehicle(vehicle), belief))
+    if look is not None and not look.in_view and now - (look.seen or now) > RECENT:
         return Finding(None, (look,), "out-of-view", () if belief is None else (belief,))
-    facts = (*going, *(() if look is None else (look,)))
-    return expected(share, *facts, believed=() if belief is None else (belief,))
+    return expected(share, *going, believed=() if belief is None else (belief,))
+
+
+def _nearing(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether we are going to reach somebody in front: by how fast we both are now."""
+    look = look_of(asked, event.object, asked.now) if event.object is not None else None
+    if event.action not in ("approach", "pass") or look is None or not look.in_view:
+        return None
+    if look.oncoming or look.ahead <= 0.0:
+        return None
+    speeds = known(*(asked.world.measure("speed", who, asked.now)
+                     for who in (Ego(), Vehicle(look.vehicle))))  # fmt: skip
+    ours = next((m.value for m in speeds if isinstance(m.thing, Ego)), None)
+    return None if ours is None else Finding(ours > look.speed, speeds)
 
 
 def _other_exit(asked: Asked, event: Event) -> Measure | None:
@@ -143,39 +178,6 @@ def _anybody(asked: Asked, event: Event) -> Finding:
     return expected(share, *(() if look is None else (look,)))
 
 
-def _sees(asked: Asked, event: Event) -> Finding:
-    """Tell whether we saw somebody; of others it can only be told how they behaved towards us."""
-    if is_us(event.actor):
-        vehicle = number(event.object)
-        at = window(asked, event.time, event.tense).end
-        if vehicle is None:
-            seen = somebodies(asked, event.object, at)
-            return Finding(bool(seen)) if seen else unknown("not-sensed")
-        first = first_look(asked, vehicle, asked.world.begin)
-        now = asked.world.look(vehicle, at)
-        if event.tense == "present" and now is not None:
-            lost = Located(Vehicle(vehicle), (now,), gap="out-of-view")
-            return Finding(now.in_view, (now,), answer=None if now.in_view else lost)
-        return Finding(first is not None and first.time <= at, () if first is None else (first,))
-    vehicle = number(event.actor)
-    if vehicle is None:
-        return unknown("others-thoughts")
-    return others_mind(asked, vehicle)
-
-
-def others_mind(asked: Asked, vehicle: int) -> Finding:
-    """Tell what bears on what a driver knows of us: what he did for us, and where he was."""
-    behaved = [
-        e
-        for e in asked.world.episodes(actor=Vehicle(vehicle), actions=KIND)
-        if e.action in ("slow-down", "brake", "stop") or isinstance(e.object, Ego)
-    ]
-    for_us = [e for e in behaved if isinstance(e.object, Ego)]
-    look = asked.world.look(vehicle, asked.now)
-    facts: tuple[Fact, ...] = (*(for_us or behaved)[-1:], *(() if look is None else (look,)))
-    return unknown("others-thoughts", *facts)
-
-
 def _arrived(asked: Asked, event: Event) -> Finding:
     """Tell whether we are there, or are going to be."""
     if is_ahead(asked, event.time, event.tense) and not asked.ride.arrived:
@@ -185,7 +187,12 @@ def _arrived(asked: Asked, event: Event) -> Finding:
     if asked.ride.arrived:
         times = [e.sim_time for e in asked.ride.events if e.kind == "arrived"]
         return Finding(True, (Episode(Ego(), "arrive", times[0], times[0]),))
-    return Finding(False, told(to_go(asked, asked.now)))
+    facts = told(to_go(asked, asked.now))
+    soon = next((m.value for m in facts if m.attribute == "time-to-go"), None)
+    left = next((m.value for m in facts if m.attribute == "distance-to-go"), None)
+    if soon is not None and soon <= NEARLY and (left or 0.0) <= AT_HAND:
+        return Finding(None, facts, answer=Course("nearly", (), left=left, soon=soon))
+    return Finding(False, facts)
 
 
 def _collides(asked: Asked, event: Event) -> Finding:
@@ -265,8 +272,9 @@ def _under_way(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]
     """Tell what the actor is about at that time."""
     who = somebodies(asked, event.actor, about.end)
     near = about.widened(0.5)
+    speed = asked.world.measure("speed", who[0], about.end).value if who else None
     return tuple(
-        e
+        with_fields(e, action="stand") if speed == 0.0 and e.action == "stop" else e
         for actor in who[:1]
         for e in asked.world.episodes(actor=actor, begin=near.begin, end=near.end)
         if e.action not in (event.action, "signal") and (e.end is None or e.end >= about.end - 0.5)

@@ -24,9 +24,10 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.domain.vocabulary import ActionName, Kind
+from xavi_dialogue.domain.vocabulary import ActionName, Bearing, Kind, Relation
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import time_of
+from xavi_dialogue.explain.answers.duties import who_first
 from xavi_dialogue.explain.answers.findings import Finding, known
 from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import (
@@ -44,6 +45,7 @@ from xavi_dialogue.explain.answers.weighing import weigh
 Term = TypeVar("Term", bound=Value)
 MOST = 4  # vehicles of whom it is told what they do
 BESIDE = 2.0  # [m] sideways from which somebody is in another lane
+STRAIGHT: dict[Relation, Bearing] = {"ahead-of": "ahead", "behind": "behind"}
 REACH = 30.0  # [m] behind us from which somebody is about to pass
 GOING: tuple[ActionName, ...] = ("go", "move", "enter", "cross", "turn", "continue")
 LIKELY = 0.3  # probability from which somebody may be meant by who is going to do something
@@ -87,6 +89,9 @@ def which(question: Which, asked: Asked) -> Answer:
     such = question.such
     if such is None:
         return identified(asked, question.thing, asked.moment)
+    first = who_first(asked, such)
+    if first is not None:
+        return first
     if isinstance(such, Happens) and "first" in such.event.manner and such.event.action in GOING:
         such = Is("first", such.event.actor, time=such.event.time, tense=_tense(such.event))
     if isinstance(such, Happens) and not is_ahead(asked, such.event.time, such.event.tense):
@@ -191,8 +196,13 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
         if lost:
             return Located(Vehicles(_numbers(lost)), lost, gap="out-of-view")
         return Identified((), such, none=True)
+    many = isinstance(such, Related) and such.relation not in STRAIGHT and len(seen) > MOST
+    if many or (_seen_merely(such) and len(seen) > 1):
+        return Identified(tuple(sorted(seen, key=lambda look: look.distance)))
     if isinstance(such, Related):
         seen = _plainest(such, seen)
+        if such.relation in STRAIGHT and not getattr(question.thing, "plural", False):
+            seen = seen[:1]
     facts = tuple(f for _, _, one in found for f in (*one.facts, *one.believed))
     shown = {look.vehicle for look in seen}
     facts = tuple(f for f in facts if not isinstance(f, Look | Relating))
@@ -202,9 +212,19 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     return Identified(seen, such, facts[: 2 * MOST], none=not seen and not ours)
 
 
+def _seen_merely(such: Proposition) -> bool:
+    """Tell whether it is asked who is there at all."""
+    match such:
+        case Is(state="present" | "visible"):
+            return True
+        case Related(relation="near" | "can-see"):
+            return True
+    return False
+
+
 def _plainest(such: Related, seen: tuple[Look, ...]) -> tuple[Look, ...]:
     """Choose of those at a place who is straight there, if anybody is; the nearest first."""
-    bearing = {"ahead-of": "ahead", "behind": "behind"}.get(such.relation)
+    bearing = STRAIGHT.get(such.relation)
     straight = [look for look in seen if look.bearing == bearing]
     return tuple(sorted(straight or seen, key=lambda look: look.distance))
 

@@ -2,6 +2,8 @@
 
 from itertools import pairwise
 
+from msgspec.structs import replace
+
 from planner.trace import PlanTrace
 from xavi_dialogue.domain.answers import (
     Answer,
@@ -16,6 +18,8 @@ from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
 from xavi_dialogue.domain.terms import Event, Proposition, Vehicle
 from xavi_dialogue.explain.answers import choices, foils
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import since_when
+from xavi_dialogue.explain.answers.foreseen import chance
 from xavi_dialogue.explain.answers.motions import motion
 from xavi_dialogue.explain.answers.reading import (
     check_seen,
@@ -48,6 +52,9 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
     of, _ = unwrapped(question.of)
     event = event_of(of)
     vehicle = _whom(scene, of, event)
+    yields = event is not None and event.action in YIELDS | {"wait"}
+    if vehicle is not None and event is not None and yields and not is_own(event.actor):
+        return since_when(scene, event)
     if vehicle is not None:
         names = () if event is None or is_own(event.actor) else conduct_names(event)
         return grounds(scene.ride, vehicle, names, scene.moment)
@@ -67,7 +74,9 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     if vehicle is not None:
-        return beliefs(scene, vehicle, None if event is None or is_own(event.actor) else event)
+        of_it = event is not None and not is_own(event.actor) and event.action != "do"
+        found = beliefs(scene, vehicle, event if of_it else None)
+        return replace(found, changed=question.changed)
     return certain(scene, event, negated=negated)
 
 
@@ -93,6 +102,18 @@ def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Cert
     return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
 
 
+def _in_order(rows: tuple[Belief, ...]) -> tuple[Belief, ...]:
+    return tuple(sorted(rows, key=lambda belief: belief.time))
+
+
+def _held(scene: Asked, vehicle: int, event: Event, trace: PlanTrace) -> float:
+    """Tell how probable conduct was for a decision, as when it is asked whether it comes."""
+    found = chance(scene, replace(event, actor=Vehicle(vehicle)), trace.sim_time)
+    if found is not None:
+        return found
+    return probability(scene.ride, trace, vehicle, conduct_names(event))
+
+
 def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     """Tell what was believed of a vehicle, how it moved, and what came of it.
 
@@ -106,15 +127,16 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     names = () if event is None else conduct_names(event)
     trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]
     rows = [belief_of(ride, t, vehicle) for t in known]
-    chances = [probability(ride, t, vehicle, names) if names else 0.0 for t in known]
+    current = belief_of(ride, trace, vehicle)
+    chances = [0.0 if event is None else _held(scene, vehicle, event, t) for t in known]
     moved = _moved(rows, chances, asked=bool(names))
     told = _turning(rows, chances, asked=bool(names))
     done = () if event is None else scene.world.holds(event, 0.0, scene.now)
     return Beliefs(
         vehicle=vehicle,
         of=event,
-        history=moved,
-        probability=probability(ride, trace, vehicle, names) if names else None,
+        history=moved if current in moved else _in_order((*moved, current)),
+        probability=None if event is None else _held(scene, vehicle, event, trace),
         time=trace.sim_time,
         why=None if told is None else _meanwhile(scene, vehicle, told),
         turning=told,

@@ -1,18 +1,21 @@
 """Measures: how much, of whom, when: values, extremes, ranges over a stretch of the ride."""
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import (
     Answer,
     Measures,
     NotRecorded,
 )
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import HowMuch
+from xavi_dialogue.domain.meaning import Compare, HowMuch
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
     Junction,
     Measured,
+    Relative,
     Thing,
     Vehicle,
 )
@@ -20,7 +23,7 @@ from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.attributes import SPECIAL
 from xavi_dialogue.explain.answers.comfort import stretch
-from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, is_past, window
+from xavi_dialogue.explain.answers.moments import RECENT, Window, instant, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     check_sense,
     look_of,
@@ -29,8 +32,9 @@ from xavi_dialogue.explain.answers.naming import (
     number,
     somebodies,
 )
-from xavi_dialogue.explain.answers.occasions import taken_place
+from xavi_dialogue.explain.answers.occasions import did_not_happen, taken_place
 from xavi_dialogue.explain.answers.places import told
+from xavi_dialogue.explain.answers.rivals import rivals
 
 #: Attributes that change from moment to moment and are numbers.
 NUMBERS: frozenset[Attribute] = frozenset(
@@ -41,6 +45,8 @@ NUMBERS: frozenset[Attribute] = frozenset(
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
 #: Of two: the other one is ours where none is said.
 MUTUAL: frozenset[Attribute] = frozenset(("gap", "headway", "distance", "time-to-collision"))
+#: Whose extreme is over all vehicles where none is named.
+ANYBODY: frozenset[Attribute] = frozenset(("distance", "time-to-collision"))
 #: Answered of our own way, whatever thing was named.
 OURS: frozenset[Attribute] = frozenset(("distance-to-go", "time-to-go", "arrival-time"))
 
@@ -54,6 +60,10 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
     of = question.of
     check_sense(of.thing)
     check_sense(of.to)
+    if isinstance(of.time, Relative) and isinstance(of.time.anchor, Event):
+        raise did_not_happen(asked, of.time.anchor)
+    if of.attribute == "speed" and of.to is not None:
+        return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)
     special = SPECIAL.get(of.attribute)
     if special is not None:
         return special(of, asked)
@@ -154,6 +164,8 @@ def _besides(
 
 def _over(asked: Asked, of: Measured, thing: Thing, about: Window) -> tuple[Measure, ...]:
     """Give the range of a measure over a stretch: from the lowest to the highest, and the mean."""
+    if not about.said and asked.now - about.end <= RECENT:
+        about = Window(about.begin, asked.now)
     one, other = sides(asked, of, thing, about.end)
     if of.attribute in ("deceleration", "jerk"):
         return (_extreme(asked, of.attribute, one, "highest", about, other),)
@@ -192,9 +204,15 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
         about = Window(asked.world.begin, asked.now)
     found: list[Measure] = []
     for thing in things_of(asked, of, about.end):
+        if of.attribute in ANYBODY and isinstance(thing, Ego) and of.to is None:
+            found.append(_of_anybody(asked, of.attribute, which, about))
+            continue
         one, other = sides(asked, of, thing, about.end)
         most = "highest" if of.attribute in UPWARDS else which
         found.append(_nearest(asked, of.attribute, one, most, about, other))
+    part = about.begin > asked.world.begin + 0.5 or about.end < asked.now - 0.5
+    if part:
+        found = [replace(m, until=about.end) if m.until is None else m for m in found]
     marked = (
         isinstance(of.thing, Ego)
         and which in ("highest", "lowest")
@@ -206,6 +224,17 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
             step = Junction(road.route[0].kind, 1, found[0].time)
             found += told((asked.world.measure("distance", Ego(), found[0].time, step),))
     return tuple(m for m in found if m.gap is None) or tuple(found)
+
+
+def _of_anybody(asked: Asked, attribute: Attribute, which: str, about: Window) -> Measure:
+    """Give the extreme of a measure between us and whichever vehicle it is with."""
+    each = (
+        _extreme(asked, attribute, Ego(), which, about, Vehicle(v)) for v in asked.world.vehicles
+    )
+    told = [m for m in each if m.gap is None and m.value is not None]
+    if not told:
+        return Measure(attribute, Ego(), about.end, gap="not-applicable")
+    return min(told, key=lambda m: (m.value or 0.0) * (1 if which == "lowest" else -1))
 
 
 def _extreme(

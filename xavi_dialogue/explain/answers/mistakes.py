@@ -1,13 +1,15 @@
 """Mistakes: what we expected of others that came otherwise, and whether anything was amiss."""
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.comfort import HARD, stretch
-from xavi_dialogue.explain.answers.findings import Finding, unknown
+from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.foreseen import came_of, wrong_belief
-from xavi_dialogue.explain.answers.moments import Window, window
+from xavi_dialogue.explain.answers.moments import SHORT, Window, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import overlaps, taken_place
 
@@ -64,12 +66,14 @@ def wrong(of: Is, asked: Asked) -> Finding:
 def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
     """Tell what we believed of a vehicle, where it came so or is yet to be seen."""
     whole = asked.past is None and not about.instant
-    belief = asked.world.belief(vehicle, asked.now if whole else about.begin)
+    ways = asked.world.episodes(actor=Vehicle(vehicle), actions=WAYS)
+    at = ways[-1].begin - SHORT if whole and ways else asked.now if whole else about.begin
+    belief = asked.world.belief(vehicle, at)
     if belief is None:
         return unknown("not-recorded")
     came = came_of(asked, vehicle, belief.time)
     if came is None or came.action == "stop":
-        return Finding(None, () if came is None else (came,), "in-future", (belief,))
+        return Finding(None, (belief, *(() if came is None else (came,))), "in-future")
     return Finding(of.state == "right", (came,), None, (belief,))
 
 
@@ -80,3 +84,25 @@ def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
     near = [e for e in crashed if overlaps(asked, e, stretch(asked, found).widened())]
     amiss = bool(near) or (found.peak or 0.0) >= HARD
     return Finding(amiss == (of.state == "wrong"), (found, *near))
+
+
+def broken_down(of: Is, asked: Asked) -> Finding:
+    """Tell what shows of whether a vehicle has broken down: since when it stands, and for whom."""
+    who = number(of.thing)
+    if who is None:
+        return unknown("not-recorded")
+    speed = asked.world.measure("speed", Vehicle(who), asked.now).value
+    if speed is None:
+        return unknown("out-of-view")
+    if speed > 0.0:
+        return Finding(False, known(asked.world.measure("speed", Vehicle(who), asked.now)))
+    waits: tuple[ActionName, ...] = ("give-way", "wait")
+    on = [e for e in asked.world.episodes(actor=Vehicle(who), actions=waits) if e.end is None]
+    if on:
+        return Finding(False, tuple(on[-1:]))
+    stands = [
+        replace(e, action="stand")
+        for e in asked.world.episodes(actor=Vehicle(who), actions=("stand", "stop"))
+        if e.end is None
+    ]
+    return unknown("not-sensed", *stands[-1:])

@@ -4,6 +4,8 @@ import dataclasses
 
 from msgspec.structs import replace
 
+from planner.trace import PlanTrace
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
@@ -43,6 +45,7 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
 }
 STILL: tuple[ActionName, ...] = ("stop", "stand")
 STANDING = 0.3  # [m/s]
+BEGUN = 0.3  # [s] after which the decision that led to it was in force
 WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
 
 
@@ -79,9 +82,14 @@ def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
 
 
 def _time(scene: Asked, event: Event | None) -> float:
-    """When [s] a state is asked about: now where the question is in the present."""
-    present = event is not None and event.tense == "present"
-    return scene.now if present else scene.moment
+    """When [s] a state is asked about: now in the present, or where what is asked of goes on."""
+    if event is not None and event.tense == "present":
+        return scene.now
+    past = scene.past
+    perfect = event is not None and event.tense == "perfect"
+    if past is not None and perfect and (not past.said or past.end >= scene.now - when.RECENT):
+        return scene.now
+    return scene.moment
 
 
 def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) -> Answer:
@@ -92,7 +100,13 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
     """
     found = slowness(scene.ride, scene.world, _time(scene, event))
     speed = found.deed.speed_to
-    if not any(cause.vehicle for cause in found.reasons.causes) and found.is_slow is not False:
+    found = _picking_up(scene, found)
+    rising = found.reasons.causes[:1] == (MotionCause("picking-up"),)
+    if (
+        not rising
+        and found.is_slow is not False
+        and not any(cause.vehicle for cause in found.reasons.causes)
+    ):
         found = _slowed_for(scene, found)
     if speed is not None and speed < STANDING and manner == "slowly":
         return standing_or_slow(scene)
@@ -106,6 +120,17 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
         limit=found.limit,
         cleared=found.reasons.cleared,
     )
+
+
+def _picking_up(scene: Asked, found: Slowness) -> Slowness:
+    """With picking up speed for the limit, where that is the reason and we are well below it."""
+    causes = found.reasons.causes
+    alone = bool(causes) and all(cause.kind in ("limit", "plan") for cause in causes)
+    motion = scene.ride.motion(EGO).until(found.deed.begin)
+    if not found.is_slow or not alone or motion.trend != "speeding-up":
+        return found
+    reasons = dataclasses.replace(found.reasons, causes=(MotionCause("picking-up"),))
+    return dataclasses.replace(found, reasons=reasons)
 
 
 def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
@@ -168,7 +193,8 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
     reasons = reasons_for(scene.ride, scene.world, deed)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
-    if not ours and deed.action in STILL and chose(reasons.trace, "stop"):
+    stopping = deed.action in (*STILL, *SLOWING) and _chose_stop(scene, deed, reasons.trace)
+    if not ours and stopping:
         contrast = against_best(scene.ride, reasons.trace)
         if contrast.decisive is not None and not contrast.close:
             past = is_past(scene, event)
@@ -182,7 +208,14 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         manner=next(iter(event.manner), None),
         limit=limit_at(scene.ride, deed.begin),
         cleared=reasons.cleared,
+        past=event.tense == "past",
     )
+
+
+def _chose_stop(scene: Asked, deed: Episode, trace: PlanTrace) -> bool:
+    """Whether stopping was what had been decided when it began."""
+    begun = scene.ride.at(deed.begin + BEGUN)
+    return chose(trace, "stop") or (begun is not None and chose(begun, "stop"))
 
 
 def _state(scene: Asked, event: Event, named: ActionName) -> Answer:

@@ -21,12 +21,15 @@ PLAIN: frozenset[ActionName] = frozenset(
     ("continue", "move", "follow", "keep-lane", "keep-distance", "approach", "head", "see", "come",
      "appear", "disappear", "signal", "go")
 )  # fmt: skip
+#: What is of our seeing a vehicle rather than of its driving.
+SIGHT: tuple[ActionName, ...] = ("see", "appear", "disappear", "signal")
 #: What else an event may be told by, where there is none of its own name.
 OTHERWISE: dict[ActionName, tuple[ActionName, ...]] = {
     "let-go": ("give-way", "wait"),
     "exit-right": ("leave",),
     "turn": ("leave",),
     "pass": ("cross",),
+    "overtake": ("pass",),
     "cross": ("exit-straight", "turn"),
 }
 #: Actions of one family: what was done instead is looked for there first.
@@ -139,8 +142,13 @@ def did_not_happen(
 
 def instead(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:
     """Tell what the actor of an event did then: what is most like it, in order of time."""
-    mine = [e for e in asked.world.episodes(actor=_actor(event.actor)) if e.action != event.action]
-    alike = [e for e in mine if _family(e.action) is not None and _akin(e.action, event.action)]
+    seen = () if event.action in SIGHT else SIGHT
+    mine = [
+        e
+        for e in asked.world.episodes(actor=_actor(event.actor))
+        if e.action != event.action and e.action not in seen
+    ]
+    alike = [e for e in mine if _akin(e.action, event.action) and e.action not in PLAIN]
     other = [e for e in mine if e.action not in PLAIN and e not in alike]
     plain = [e for e in mine if e.action in PLAIN]
     for group in (alike, other, plain):

@@ -122,10 +122,10 @@ def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
-    """Whom it let go first, where it was seen to do that and was asked about then."""
-    if event.action not in YIELDS:
+    """Tell whom it let go first, where it was seen to do that and was asked about then."""
+    if event.action not in YIELDS | STILL:
         return None
-    found = _last(scene, vehicle, ("give-way",), event)
+    found = _last(scene, vehicle, ("give-way", "wait"), event)
     whom = None if found is None else found.object
     if found is None or not isinstance(whom, Ego | Vehicle):
         return None
@@ -233,7 +233,16 @@ def _told(
     time: float,
 ) -> OtherReason:
     causes: tuple[MotionCause, ...] = hindered.causes
-    return OtherReason(vehicle, deed, asked, causes, _goal(scene, vehicle, time), hindered.evidence)
+    goal = _goal(scene, vehicle, time)
+    if deed is not None and deed.action in STILL | SLOWING and not _turns(goal):
+        goal = None  # nobody stops or slows for going straight on
+    return OtherReason(vehicle, deed, asked, causes, goal, hindered.evidence)
+
+
+def _turns(goal: Belief | None) -> bool:
+    """Tell whether it was thought to be turning off."""
+    steps = goal.expectations[0].actions if goal is not None and goal.expectations else ()
+    return any(step in ("exit-left", "exit-right", "stop") for step in steps)
 
 
 def _goal(scene: Asked, vehicle: int, time: float) -> Belief | None:

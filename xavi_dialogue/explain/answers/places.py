@@ -29,6 +29,10 @@ from xavi_dialogue.explain.answers.occasions import taken_place
 from xavi_dialogue.explain.answers.plans import current_plan, plan_ahead
 
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
+#: What somebody did of whom it is asked where he has gone.
+LEAVING: frozenset[ActionName] = frozenset(
+    ("go", "move", "head", "leave", "disappear", "turn", "continue")
+)
 WAY: tuple[Attribute, ...] = ("turn", "exit-number", "distance-to-go", "time-to-go")
 
 
@@ -38,10 +42,12 @@ def where(question: Where, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is unknown, or did not take place.
     """
-    if isinstance(question.of, Event):
-        return took_place(asked, question.of)
-    at = instant(asked, question.time)
-    return locate(asked, question.of, at)
+    of = question.of
+    if isinstance(of, Event):
+        if isinstance(of.actor, Vehicle) and of.action in LEAVING and of.object is None:
+            return gone(asked, of.actor)
+        return took_place(asked, of)
+    return locate(asked, of, instant(asked, question.time))
 
 
 def locate(asked: Asked, thing: Thing, at: float) -> Answer:
@@ -86,7 +92,13 @@ def whither(question: Whither, asked: Asked) -> Answer:
     went = came_of(asked, vehicle, at) if past or lost else None
     if went is None and lost:
         went = _last_way(asked, vehicle)
-    return Bound(found[0], belief, went)
+    return Bound(found[0], belief, went, look if lost or past else None)
+
+
+def gone(asked: Asked, who: Vehicle) -> Bound:
+    """Tell where a vehicle has gone: which way it took last, and where it is or was seen last."""
+    look = asked.world.look(who.number, asked.now)
+    return Bound(who, None, _last_way(asked, who.number), look)
 
 
 def our_way(asked: Asked, at: float) -> Answer:
@@ -96,7 +108,10 @@ def our_way(asked: Asked, at: float) -> Answer:
     if at < asked.now - SHORT:
         return Bound(Ego(), measures=told(measured(asked, ("distance-to-go",), at)))
     ring = junction(asked, Junction("roundabout", 1), at)
-    return Bound(Ego(), measures=told((*measured(asked, WAY, at), ring)))
+    known = measured(asked, WAY, at)
+    if ring.gap is not None:  # what exit was taken is past
+        known = tuple(m for m in known if m.attribute != "exit-number")
+    return Bound(Ego(), measures=told((*known, ring)))
 
 
 def next_turn(asked: Asked, at: float) -> PlanAhead:

@@ -4,12 +4,11 @@ The rule follows from the road (`RoadFacts`), and from whom way was given to in 
 who had to yield and who did; whose fault something is, is not.
 """
 
-import math
-from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
+
+from msgspec.structs import replace as changed
 
 from planner.road import RoadFacts
-from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody
 from xavi_dialogue.domain.meaning import Fault
@@ -17,11 +16,23 @@ from xavi_dialogue.domain.terms import Ego, Happens, Proposition, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.comfort import HARD, stretch
+from xavi_dialogue.explain.answers.crossings import (
+    NEAR,
+    crossing_now,
+    entries,
+    met_about,
+    stood,
+    went_first,
+)
+from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.naming import known, number
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, overlaps
+from xavi_dialogue.explain.history.ride import planned
 
-Rule: TypeAlias = Literal["priority", "give-way", "equal", "depends", "none"]
+Rule: TypeAlias = Literal[
+    "priority", "give-way", "equal", "depends", "none", "we-change", "it-changes"
+]
 CROSSINGS: tuple[ActionName, ...] = (
     "exit-left",
     "exit-right",
@@ -31,9 +42,11 @@ CROSSINGS: tuple[ActionName, ...] = (
     "turn",
 )
 MINOR: tuple[ActionName, ...] = ("speed-up", "change-plan", "leave")
-NEAR = 6.0  # [s] before and after a crossing in which way is given for it
-MEETING = 2.5  # [m] within which two lines meet
-MOVING = 0.5  # [m/s] from which a vehicle drives along its line
+#: Whether it is us who have to let the other one go first.
+YIELDS: dict[str, bool] = {
+    "priority": False, "give-way": True, "we-change": True, "it-changes": False,
+}  # fmt: skip
+CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
 LEAD = 3.0  # [s] before a crossing at which its rule is read off
 
 
@@ -49,9 +62,27 @@ def fault(question: Fault, asked: Asked) -> Answer:
     vehicle = number(question.suspect)
     if vehicle is None and event is not None:
         vehicle = number(event.actor) or number(event.object)
-    if episode is None and _whole(asked, about):
-        about = _last_crossing(asked, about)
-    return priority_at(asked, vehicle, about, blame=True)
+    whole = episode is None and _whole(asked, about)
+    near = _last_crossing(asked, about) if whole else about
+    found = priority_at(asked, vehicle, near, blame=True)
+    if not question.legal:
+        return found
+    driver = number(question.suspect)
+    limit = _limit(asked, about, Ego() if driver is None else Vehicle(driver))
+    return changed(found, legal=True, limit=limit)
+
+
+def lawful(asked: Asked, about: Window | None) -> Priority:
+    """Tell what bears on whether we may do what we do, or did: the limit, and who goes first.
+
+    Raises:
+        Unanswered: the record does not hold it.
+    """
+    near = Window(asked.now, asked.now) if about is None else about
+    whole = about is not None and _whole(asked, about)
+    crossing = _last_crossing(asked, near) if whole else near
+    found = priority_at(asked, None, crossing, blame=True)
+    return changed(found, legal=True, limit=_limit(asked, near, Ego()), deeds=())
 
 
 def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Window) -> Priority:
@@ -74,12 +105,19 @@ def priority_at(
     """
     if vehicle is not None:
         known(asked, Vehicle(vehicle), about.end)
-    time = _rule_time(asked, about)
+    if vehicle is None:
+        present = about.instant and about.end >= asked.now - 0.1
+        vehicle = crossing_now(asked) if present else met_about(asked, about)
+    met = None if vehicle is None else rule_between(asked, vehicle, about)
+    time = _rule_time(asked, about) if met is None else met[0]
     near = Window(time - NEAR, max(about.end, time) + NEAR)
     waited = _waited(asked, vehicle, near)
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
-    rule = rule_for(asked.world.road(time), vehicle, waited is not None)
+    rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
+    rule = rule if met is None else met[1]
+    if rule == "none" and vehicle is not None:
+        rule = _changing(asked, vehicle, about) or rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -87,9 +125,56 @@ def priority_at(
     return Priority(
         time, rule or "none", vehicle, first, waited, blame,
         conflict=_conflict(asked, vehicle, near) if blame else None,
-        limit=_limit(asked, about) if blame else None,
         deeds=_deeds(asked, vehicle, about) if blame else (),
+        stood=vehicle is not None and isinstance(first, Ego) and stood(asked, vehicle, near),
     )  # fmt: skip
+
+
+def owed(found: Priority, *, ours_yield: bool) -> Finding:
+    """Give what a rule says of a claim that we, or the others, have to yield."""
+    yields = YIELDS.get(found.rule)
+    if yields is None:
+        told = changed(found, holds=False if found.rule == "none" else None)
+        return Finding(None, answer=told)
+    holds = yields == ours_yield
+    return Finding(holds, answer=changed(found, holds=holds))
+
+
+def rule_between(asked: Asked, vehicle: int, about: Window) -> tuple[float, Rule] | None:
+    """Give the rule between us and a vehicle, and when [s] it held, closest to a stretch.
+
+    None where their ways never met, or not near the moment that is asked about.
+    """
+    found = [
+        (trace.sim_time, fact.who)
+        for trace in asked.ride.traces
+        if trace.road is not None and trace.sim_time <= asked.now
+        for fact in trace.road.priority
+        if fact.vehicle == vehicle
+    ]
+    settled = [one for one in found if one[1] != "depends"] or found
+    near = about.widened(NEAR) if about.instant else about
+    inside = [one for one in settled if near.begin <= one[0] <= near.end]
+    if not inside:
+        return None
+    last = about.end
+    time, who = min(inside, key=lambda one: (abs(one[0] - last), -one[0]))
+    return time, _WHO[who]
+
+
+def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
+    """Tell who of both changed lanes about then, or is about to."""
+    near = about.widened(NEAR)
+    for who, rule in ((Ego(), "we-change"), (Vehicle(vehicle), "it-changes")):
+        found = asked.world.episodes(actor=who, actions=CHANGES)
+        if any(overlaps(asked, e, near) for e in found):
+            return cast(Rule, rule)
+    trace = asked.ride.at(about.end)
+    meant = () if trace is None else planned(trace)
+    return "we-change" if any(step in CHANGES for step in meant) else None
+
+
+_WHO: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way", "depends": "depends"}
 
 
 def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rule | None:
@@ -98,88 +183,18 @@ def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rul
         return "give-way" if gave_way else None
     for fact in road.priority:
         if fact.vehicle == vehicle:
-            rules: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way"}
-            return rules.get(fact.who, "depends")
+            return _WHO[fact.who]
     if vehicle is not None and gave_way:
         return "give-way"
-    if _same_way(road, vehicle):
-        return "none"
-    if vehicle is not None and road.places.get(vehicle) is not None:
+    if vehicle is not None:
         return "none"
     return road.route[0].rule if road.route else "none"
-
-
-def _same_way(road: RoadFacts, vehicle: int | None) -> bool:
-    """Tell whether a vehicle drives on our road, in our direction, outside junctions."""
-    ours, theirs = road.places.get(EGO), None if vehicle is None else road.places.get(vehicle)
-    if ours is None or theirs is None or ours.in_junction:
-        return False
-    return ours.edge == theirs.edge
-
-
-def went_first(
-    asked: Asked, vehicle: int | None, near: Window, waited: Episode | None
-) -> Somebody | None:
-    """Tell who went first: where their lines meet, else out of the junction; else who waited."""
-    if vehicle is None:
-        return None
-    mine, theirs = line_order(asked, vehicle, near) or (
-        _left(asked, EGO, near), _left(asked, vehicle, near)
-    )  # fmt: skip
-    if mine is not None or theirs is not None:
-        ours = theirs is None or (mine is not None and mine < theirs)
-        if ours and not any(near.begin <= t for t in entries(asked)):
-            return None
-        return Ego() if ours else Vehicle(vehicle)
-    over = waited is not None and waited.end is not None and waited.standing
-    return Vehicle(vehicle) if over else None
-
-
-def line_order(asked: Asked, vehicle: int, near: Window) -> tuple[float, float] | None:
-    """Tell when [s] we and a vehicle came to where our lines meet; None where they do not."""
-    ours, other = asked.ride.motion(EGO), asked.ride.motion(vehicle)
-    mine = [k for k in ours.within(near.begin, near.end) if ours.speed[k] > MOVING]
-    theirs = [k for k in other.within(near.begin, near.end) if other.speed[k] > MOVING]
-    meetings = [
-        (math.dist(ours.position[i], other.position[k]), ours.time[i], other.time[k])
-        for i in mine
-        for k in theirs
-    ]
-    close = [m for m in meetings if m[0] <= MEETING]
-    if not close:
-        return None
-    _, first, second = min(close, key=lambda m: min(m[1], m[2]))
-    return first, second
 
 
 def where_rule_holds(asked: Asked, of: Proposition | None, about: Window) -> Window:
     """Give the stretch of the ride whose right of way is asked about: the last crossing, or now."""
     del of
     return _last_crossing(asked, about) if _whole(asked, about) else about
-
-
-def _inside(asked: Asked, vehicle: int, near: Window) -> list[tuple[float, bool]]:
-    """Tell whether a vehicle was inside a junction, at each decision of a stretch of the ride."""
-    found = []
-    for trace in asked.ride.traces:
-        if trace.road is not None and near.begin <= trace.sim_time <= near.end:
-            place = trace.road.places.get(vehicle)
-            if place is not None:
-                found.append((trace.sim_time, place.in_junction or place.roundabout))
-    return found
-
-
-def _left(asked: Asked, vehicle: int, near: Window) -> float | None:
-    """Tell when [s] a vehicle was first seen out of a junction or roundabout that it was in."""
-    pairs = pairwise(_inside(asked, vehicle, near))
-    return next((later[0] for before, later in pairs if before[1] and not later[1]), None)
-
-
-def entries(asked: Asked) -> list[float]:
-    """Tell when [s] we were first seen inside each junction that we crossed so far."""
-    inside = _inside(asked, EGO, Window(asked.world.begin, asked.now))
-    first = [inside[0][0]] if inside and inside[0][1] else []
-    return first + [later[0] for before, later in pairwise(inside) if later[1] and not before[1]]
 
 
 def _rule_time(asked: Asked, about: Window) -> float:
@@ -224,18 +239,21 @@ def _conflict(asked: Asked, vehicle: int | None, near: Window) -> bool | None:
     return max(values) >= HARD if values else None
 
 
-def _limit(asked: Asked, about: Window) -> Measure | None:
-    """Give our highest speed then, beside the limit."""
+def _limit(asked: Asked, about: Window, who: Somebody) -> Measure | None:
+    """Give somebody's highest speed then, beside the limit."""
     near = about.widened() if about.instant else about
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
-    found = asked.world.extreme("speed", Ego(), "highest", begin, end)
+    if about.instant and about.end >= asked.now:
+        found = asked.world.measure("speed", who, asked.now)
+    else:
+        found = asked.world.extreme("speed", who, "highest", begin, end)
     if found.gap is not None or found.reference is not None:
         return found if found.gap is None else None
-    limit = asked.world.measure("limit", Ego(), found.time)
+    limit = asked.world.measure("limit", who, found.time)
     if limit.gap is not None:
         return None
     return Measure(
-        "speed", Ego(), found.time, value=found.value, extreme="highest", reference=limit.value
+        "speed", who, found.time, value=found.value, extreme="highest", reference=limit.value
     )
 
 

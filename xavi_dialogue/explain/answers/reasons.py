@@ -20,8 +20,16 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
 )
-from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation, State
-from xavi_dialogue.explain.answers import choices, deciding, going, motions, others
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Manner, Relation, Side, State
+from xavi_dialogue.explain.answers import (
+    choices,
+    deciding,
+    going,
+    motions,
+    others,
+    refraining,
+    signalling,
+)
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reading import (
     check_able,
@@ -33,19 +41,28 @@ from xavi_dialogue.explain.answers.reading import (
     unwrapped,
     vehicle_in,
 )
-from xavi_dialogue.explain.causes.actions import HALTS
 from xavi_dialogue.explain.causes.driving import ego_speed
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
 #: Names for going somewhere, that ask for the way where a place or side is said.
 WAY = frozenset[ActionName](("go", "move", "head", "come", "pass"))
+#: Names for coming in among others: a change of lanes, or a turn into a road.
+JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
 CROSSINGS = frozenset[ActionName](
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
 )
 SLOW = frozenset[State](("slow", "late", "stuck", "stationary"))
 PLACES = frozenset[Relation](("ahead-of", "behind", "left-of", "right-of", "beside", "near"))
+#: What one does who does not leave his lane.
+KEEPING = frozenset[ActionName](
+    ("follow", "keep-distance", "approach", "keep-lane", "wait", "stand", "move", "slow-down")
+)
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
+SIDES: dict[str, Side] = {"left": "left", "right": "right"}
+#: How long something of ours takes, which waiting explains.
+LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 STANDING = 0.3  # [m/s]
+AGO = 2.0  # [s] since when a giving way is still what keeps us from going
 
 
 def why(question: Why, scene: Asked) -> Answer:
@@ -75,6 +92,8 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
             return _related(of, scene, question)
         case Compares(left=left) if is_own(left.thing) and left.attribute == "speed":
             return motions.fast(scene) if of.comparator == "more" else motions.slow(scene)
+        case Compares(left=left) if left.attribute in LASTING and vehicle_in(left.thing) is None:
+            return motions.motion(Event("wait", tense=left.tense, time=left.time), scene)
         case Compares(left=left) if left.attribute in ("gap", "headway", "distance"):
             return motions.slow(scene, "close")
         case Has(attribute="lane") if is_own(of.thing):
@@ -105,12 +124,21 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
             return motions.standing_or_slow(scene, event)
         if manner_of(event, "fast") is not None:
             return motions.fast(scene)
+    other = event_of(instead)
+    if other is not None and choices.is_choice(other) and event.action in KEEPING:
+        return choices.why_not(other, scene)
+    if event.action == "signal":
+        return signalling.why_signal(event.side, scene, past=is_past(scene, event))
     if event.action in HOLDING:
         return motions.slow(scene, manner_of(event, "close", "far") or "slowly", event)
     if event.action == "continue" and not is_past(scene, event):
         return choices.straight(scene)
     if event.action == "keep-lane":
         return choices.in_lane(scene)
+    ahead = event.where is not None and event.where.relation == "ahead-of"
+    ahead |= vehicle_in(event.object) is not None
+    if event.action in JOINING or (ahead and event.action in CROSSINGS):
+        return _joined(event, scene, instead)
     if event.action in WAY and _tells_way(event):  # the way that we take
         return choices.why(structs.replace(event, action="do"), scene, instead)
     if event.action in CROSSINGS and manner_of(event, "suddenly", "early", "late") is not None:
@@ -124,6 +152,19 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     if not choices.is_choice(event) or event.action in ("block", "avoid"):
         return motions.motion(event, scene)
     return choices.why(event, scene, instead)
+
+
+def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
+    """Why we moved in, pulled out or entered: the lane change, or the junction that it was."""
+    other = event.object if event.where is None else event.where.to
+    if vehicle_in(other) is not None and going.crossed(scene) is not None:
+        return going.went(structs.replace(event, action="go", object=other, where=None), scene)
+    try:
+        return choices.why(event, scene, instead)
+    except Unanswered as unanswered:
+        if not isinstance(unanswered.result, DidNotHappen) or going.crossed(scene) is None:
+            raise
+    return going.went(structs.replace(event, action="go"), scene)
 
 
 def _tells_way(event: Event) -> bool:
@@ -142,13 +183,11 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return motions.standing_or_slow(scene)
     if event.action in GOING:
         return _not_going(event, scene)
-    if event.action in ("slow-down", "brake") or (
-        event.action in HALTS and event.action != "stop" and is_past(scene, event)
-    ):
-        return _not_slowing(event, scene)
-    if event.action in HALTS:
-        foil = Event("stop", tense=event.tense, time=event.time)
-        return choices.why_not(foil, scene)
+    if refraining.is_refraining(event):
+        return refraining.refrained(event, scene)
+    left = refraining.left_lane(event, scene)
+    if left is not None:
+        return choices.why_not(Event("keep-lane"), scene, left)
     instead = None if question is None else event_of(question.instead)
     return choices.why_not(event, scene, instead)
 
@@ -158,31 +197,20 @@ def _not_going(event: Event, scene: Asked) -> Answer:
     speed = ego_speed(scene.ride, scene.moment)
     if not is_past(scene, event) and (speed is None or speed < STANDING):
         return motions.motion(Event("stand", tense="present"), scene)
-    try:
-        return motions.motion(Event("give-way", tense=event.tense, object=event.object), scene)
-    except Unanswered as unanswered:
-        if not isinstance(unanswered.result, DidNotHappen):
-            raise
+    if event.action in WAY and _tells_way(event):
+        return choices.why_not(event, scene)
+    asked = Event("give-way", tense=event.tense, object=event.object)
+    past = scene.past
+    begin, end = (scene.now - AGO, scene.now) if past is None else (past.begin, past.end)
+    if is_past(scene, event) or scene.world.holds(asked, begin, end):
+        try:
+            return motions.motion(asked, scene, asked="wait")
+        except Unanswered as unanswered:
+            if not isinstance(unanswered.result, DidNotHappen):
+                raise
     if event.action in ("go", "move") and event.side is None:
         return motions.slow(scene)
     return choices.why_not(event, scene)
-
-
-def _not_slowing(event: Event, scene: Asked) -> Answer:
-    """Why we did not brake or wait: we did, or stopping would have been no better."""
-    done = scene.world.holds(event, *_bounds(scene))
-    if done:
-        answer = motions.motion(event, scene)
-        raise Unanswered(DidNotHappen(event, done[-1:], answer=answer))
-    foil = Event("stop", tense=event.tense, time=event.time)
-    return choices.why_not(foil, scene)
-
-
-def _bounds(scene: Asked) -> tuple[float, float]:
-    past = scene.past
-    if past is not None:
-        return past.begin, past.end
-    return scene.now - 2.0, scene.now
 
 
 def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
@@ -235,8 +263,11 @@ def _related(of: Related, scene: Asked, question: Why) -> Answer:
 
 
 def _signalling(of: Has, scene: Asked) -> Answer:
+    if is_own(of.thing) and of.attribute == "brake-lights":
+        return motions.motion(Event("brake", tense=of.tense), scene)
     if is_own(of.thing):
-        return choices.why(None, scene)
+        side = SIDES.get(of.value)
+        return signalling.why_signal(side, scene, past=of.tense != "present")
     event = Event("signal", of.thing, tense=of.tense)
     return others.why(event, scene, negated=False)
 

@@ -1,14 +1,17 @@
 """Relations: whether two things stand, stood or ever stood in a relation."""
 
-from xavi_dialogue.domain.facts import Fact, Relating
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Thing, Vehicle
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import Fact, Look, Relating
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Road, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
-from xavi_dialogue.explain.answers.happens import happens, others_mind
+from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, looks, number, somebodies
-from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.priority import owed, right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.sight import others_mind
 
 STEP = 0.5  # [s] between the moments at which a relation is tried over a stretch
 COMPARING: dict[Relation, Attribute] = {
@@ -30,6 +33,11 @@ def related(of: Related, asked: Asked) -> Finding:
     about = window(asked, of.time, of.tense)
     if of.relation in ("has-priority-over", "must-yield-to"):
         return _right_of_way(of, asked, about)
+    other = number(of.thing) or number(of.to)
+    road = of.to.which if isinstance(of.to, Road) and of.relation in ("on", "from") else None
+    if road in ("main", "side") and other is not None:
+        first: Relation = "has-priority-over" if road == "main" else "must-yield-to"
+        return _right_of_way(replace(of, relation=first, to=Ego()), asked, about)
     if of.relation == "waiting-for":
         return _waiting(of, asked)
     if of.relation == "can-see" and not is_us(of.thing) and number(of.thing) is not None:
@@ -71,6 +79,9 @@ def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) 
     near = about if is_past(asked, of.time, of.tense) else Window(asked.now, asked.now)
     holds, at = holds_over(asked, of.relation, thing, to, near)
     facts = _facts(of, asked, thing, to, at)
+    if holds is False and is_us(to) and of.relation in ("behind", "ahead-of"):
+        side = "behind" if of.relation == "behind" else "ahead"
+        holds = any(isinstance(f, Look) and f.bearing.startswith(side) for f in facts)
     if holds is None:
         lost = any(look.in_view is False for look in facts if hasattr(look, "in_view"))
         return unknown("out-of-view" if lost else "not-recorded", *facts)
@@ -96,10 +107,7 @@ def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
     past = is_past(asked, of.time, of.tense)
     near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
     found = right_of_way(asked, of.thing, of.to, near)
-    rules = {"priority": True, "give-way": False}
-    first = rules.get(found.rule)
-    holds = None if first is None else first == ours
-    return Finding(holds, answer=found)
+    return owed(found, ours_yield=not ours)
 
 
 def _waiting(of: Related, asked: Asked) -> Finding:

@@ -1,10 +1,8 @@
-"""Talk: requests to drive otherwise, and feelings, each with what bears on it."""
+"""Talk: feelings, each with what bears on it."""
 
-from msgspec.structs import replace
-
-from xavi_dialogue.domain.answers import Answer, Comforting, Declined, Measures
+from xavi_dialogue.domain.answers import Answer, Comforting, Measures
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Feel, Request
+from xavi_dialogue.domain.meaning import Feel
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -19,102 +17,22 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Vehicle,
 )
-from xavi_dialogue.domain.vocabulary import BEYOND, ActionName, FeelingKind
+from xavi_dialogue.domain.vocabulary import FeelingKind
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.closeness import closeness
 from xavi_dialogue.explain.answers.comfort import BRAKING, HARD, comfort_of
 from xavi_dialogue.explain.answers.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.findings import known
-from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, macros, sided
 from xavi_dialogue.explain.answers.happenings import activity
 from xavi_dialogue.explain.answers.moments import RECENT, Window, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.places import time_to_go
-from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
 
-#: Requests to be told how fast we are, and those to be told when we are there.
-SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
-ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
-SOON = 3.0  # [s] within which what is planned is as good as begun
 NEAR = 8.0  # [m] within which a vehicle may be what startles somebody
 FRIGHT: frozenset[FeelingKind] = frozenset(("afraid", "nervous", "startled", "distrustful"))
 HASTE: frozenset[FeelingKind] = frozenset(("impatient", "bored", "annoyed", "angry", "tired"))
 PUZZLED: frozenset[FeelingKind] = frozenset(("surprised", "confused"))
-TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
-
-
-def request(act: Request, asked: Asked) -> Answer:
-    """Decline to drive as told, with what the car is about to do anyway, or why it cannot.
-
-    Raises:
-        Unanswered: it is of what is unknown.
-    """
-    event = act.event
-    able = event.action not in BEYOND
-    now = activity(asked, Ego(), asked.now)
-    if not asked.ride.traces:
-        return Declined(act, able, doing=now)
-    already = able and _doing(asked, event, now.trend)
-    soon = _coming(asked, event) if able and not already else None
-    cannot = _cannot(asked, event) if able and not already and soon is None else None
-    ahead = plan_ahead(asked)
-    ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
-    facts = _instead(asked, event)
-    return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts)
-
-
-def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
-    """Tell what bears on a request: our speed, when we drive on, when we are there."""
-    action = sided(event)
-    if action in SPEEDS or "fast" in event.manner or "slowly" in event.manner:
-        found = _speed(asked)
-        return found.measures if isinstance(found, Measures) else ()
-    if action in ENDING:
-        return known(asked.world.measure("arrival-time", Ego(), asked.now))
-    if action in STARTS | {"continue"} and stands(asked):
-        return known(remaining_wait(asked))
-    return ()
-
-
-def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
-    """Tell whether the car is just doing what it is told to do."""
-    action = sided(event)
-    if action in TREND:
-        return trend == TREND[action]
-    if action in HALTS:
-        return stands(asked)
-    if action in STARTS | {"continue"} and action not in ("enter", "cross"):
-        halting = foreseen(asked, Event("stop"))
-        going = halting is None or halting.share < 0.5
-        return not stands(asked) and going and not macros(event)
-    found = occasion(asked, replace(event, actor=Ego(), tense="present"))
-    return found is not None and found.end is None
-
-
-def _coming(asked: Asked, event: Event) -> float | None:
-    """Tell when [s] the plan comes to it, where that is shortly."""
-    if sided(event) in ("continue", "do", "happen"):
-        return None
-    if sided(event) in STARTS and not stands(asked):
-        return None
-    found = foreseen(asked, replace(event, actor=Ego()))
-    if found is None or found.share < 0.5 or found.moment > asked.now + SOON:
-        return None
-    return max(found.moment, asked.now)
-
-
-def _cannot(asked: Asked, event: Event) -> str | None:
-    """Tell why the plan cannot have it, as the last decision found; None where it can."""
-    trace = asked.ride.latest
-    names = macros(event)
-    options = {o.action for o in asked.world.options(asked.now)}
-    if not names or any(name in options for name in names):
-        return None
-    reasons = [n.reason for n in trace.not_applicable if not n.node and n.action in names]
-    if len(reasons) < len(names) and trace.under_way is None:
-        return None
-    return next(iter(reasons), None)
 
 
 def feel(act: Feel, asked: Asked) -> Answer:
@@ -138,7 +56,7 @@ def _bearing(act: Feel, asked: Asked) -> Answer | None:
         past = window(asked) if asked.past is not None else time
         return closeness(asked, vehicle, past if near else time, "safe")
     if speedy:
-        return _speed(asked)
+        return speed_of(asked)
     if event is not None:
         return _of_event(act, asked, event)
     if act.feeling == "sick":
@@ -191,7 +109,7 @@ def _recent(asked: Asked) -> Window:
     return Window(max(asked.now - RECENT, asked.world.begin), asked.now)
 
 
-def _speed(asked: Asked) -> Answer:
+def speed_of(asked: Asked) -> Answer:
     """Tell how fast we drive, beside the limit."""
     speed = asked.world.measure("speed", Ego(), asked.now)
     limit = asked.world.measure("limit", Ego(), asked.now)
@@ -222,7 +140,7 @@ def _fright(asked: Asked, time: Window) -> Answer:
     hard = comfort_of(asked, time)
     if hard.peak.value is not None and hard.peak.value >= HARD / 2.0:
         return hard
-    return _speed(asked)
+    return speed_of(asked)
 
 
 def _waiting(asked: Asked) -> Answer:

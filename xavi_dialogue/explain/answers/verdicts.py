@@ -1,11 +1,34 @@
 """Verdicts: yes or no questions, and claims checked against the record."""
 
-from xavi_dialogue.domain.answers import Answer, Verdict
-from xavi_dialogue.domain.meaning import Claim, Whether
-from xavi_dialogue.domain.terms import Caused, Happens, Is, Not, Proposition
+from dataclasses import replace as refound
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Priority, Verdict
+from xavi_dialogue.domain.meaning import Claim, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Caused,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    Related,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.conditions import handed
 from xavi_dialogue.explain.answers.findings import Finding
+from xavi_dialogue.explain.answers.naming import first_look, is_us
+from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.onward import whether_ours
 from xavi_dialogue.explain.answers.weighing import weigh
+
+#: Manners that are a matter of opinion: what we did so is met with its reason.
+JUDGED = frozenset(("late", "early", "long"))
+PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
+DRIVING = frozenset(("move", "go", "turn", "exit-left", "exit-right", "enter", "pass"))
 
 
 def whether(question: Whether, asked: Asked) -> Answer:
@@ -14,8 +37,48 @@ def whether(question: Whether, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
     """
-    found = weigh(question.that, asked)
-    return found.answer if found.answer is not None else found.verdict(question.that)
+    ours = whether_ours(question, asked)
+    if ours is not None:
+        return ours
+    that = _as_state(_as_it_was(_affirmed(question.that), asked))
+    if (why := _disputed(that, asked)) is not None:
+        return why
+    found = _seen_since(that, weigh(that, asked), asked)
+    if question.tag and that != question.that and found.holds and found.answer is None:
+        told = _seen_since(Not(that), found.negated(), asked)
+        return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open
+    return found.answer if found.answer is not None else found.verdict(that)
+
+
+def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
+    """Take overtaking of somebody who stood or came towards us for driving past."""
+    if not isinstance(that, Happens) or that.event.action != "overtake":
+        return that
+    world, passed = asked.world, replace(that.event, action="pass")
+    if world.holds(that.event, world.begin, asked.now):
+        return that
+    return Happens(passed) if world.holds(passed, world.begin, asked.now) else that
+
+
+def _as_state(that: Proposition) -> Proposition:
+    """Take "he is going too fast" for what it says of him: that he is fast."""
+    match that:
+        case Not(content=content):
+            return Not(_as_state(content))
+        case Happens(event=event) if event.action in ("go", "move") and event.modal is None:
+            state = next((PACES[m] for m in event.manner if m in PACES), None)
+            if state is not None and (state == "fast" or not is_us(event.actor)):
+                return Is(state, event.actor, time=event.time, tense=event.tense)
+    return that
+
+
+def _affirmed(that: Proposition) -> Proposition:
+    """Take the negation and "do you think" off a question: "yes" affirms the fact as such."""
+    while (isinstance(that, Not) and not that.lexical) or (
+        isinstance(that, Believed) and that.tense == "present"
+    ):
+        that = that.content
+    return that
 
 
 def claim(act: Claim, asked: Asked) -> Answer:
@@ -24,10 +87,35 @@ def claim(act: Claim, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is of what is unknown, or rollouts are needed.
     """
-    found = weigh(act.that, asked)
+    act = replace(act, that=_as_state(act.that))
+    if (why := _disputed(act.that, asked)) is not None:
+        return why
+    found = _seen_since(act.that, weigh(act.that, asked), asked)
+    if isinstance(found.answer, Priority):
+        return replace(found.answer, claim=True)
     if found.answer is not None and (found.holds is None or _own_type(act.that)):
         return found.answer
     return _checked(found, act)
+
+
+def _disputed(that: Proposition, asked: Asked) -> Answer | None:
+    """Give the reason for what we did, where it is said to have been late, early or long."""
+    match that:
+        case Happens(event=event) if event.modal is None and is_us(event.actor):
+            slow = "slowly" in event.manner and event.action in DRIVING
+            judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
+            return handed(Why(that), asked) if slow or judged else None
+    return None
+
+
+def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:
+    """Put when we first saw a vehicle in the place of where it is, where seeing it is denied."""
+    match that:
+        case Not(content=Related(relation="can-see", to=Vehicle(number=vehicle))):
+            first = first_look(asked, vehicle, asked.world.begin)
+            if first is not None and found.holds is False:
+                return refound(found, facts=(first,))
+    return found
 
 
 def _checked(found: Finding, act: Claim) -> Verdict:

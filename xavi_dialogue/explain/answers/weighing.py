@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Measures
-from xavi_dialogue.domain.facts import Fact
-from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.answers import Beliefs, Measures, Verdict
+from xavi_dialogue.domain.facts import Fact, Look
+from xavi_dialogue.domain.meaning import Whither, Why
 from xavi_dialogue.domain.terms import (
     Believed,
     Both,
@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Measured,
+    Nobody,
     Not,
     Proposition,
     Related,
@@ -30,6 +31,8 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.beliefs import time_of
 from xavi_dialogue.explain.answers.comparisons import compares, exists, has
 from xavi_dialogue.explain.answers.conditions import condition, handed
+from xavi_dialogue.explain.answers.conduct import conduct
+from xavi_dialogue.explain.answers.duties import duty, is_owed
 from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, unknown
 from xavi_dialogue.explain.answers.foreseen import chance, macros
 from xavi_dialogue.explain.answers.happens import happens
@@ -37,7 +40,7 @@ from xavi_dialogue.explain.answers.measures import values
 from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
-from xavi_dialogue.explain.answers.places import locate
+from xavi_dialogue.explain.answers.places import locate, whither
 from xavi_dialogue.explain.answers.relations import related
 from xavi_dialogue.explain.history.ride import planned
 
@@ -54,8 +57,10 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
         Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
     """
     match of:
-        case Happens():
-            return happens(of, asked)
+        case Happens(event=event):
+            return duty(asked, event) or conduct(asked, event) or happens(of, asked)
+        case Related(thing=Nobody(described=None)):
+            return _nobody(of, asked)
         case Related():
             return related(of, asked)
         case Is():
@@ -78,12 +83,27 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
             return unknown("not-recorded")
 
 
+def _nobody(of: Related, asked: Asked) -> Finding:
+    """Tell whether nobody stands in a relation, or who does."""
+    at = instant(asked, of.time, of.tense)
+    each = [related(replace(of, thing=Vehicle(v)), asked) for v in asked.world.in_view(at)]
+    seen = [fact for one in each if one.holds for fact in one.facts if isinstance(fact, Look)]
+    if not seen:
+        return Finding(True)
+    nearest = min(seen, key=lambda look: look.distance)
+    there = Not(replace(of, thing=Vehicle(nearest.vehicle)))
+    return Finding(False, answer=Verdict(there, False, (nearest,), claim=True))
+
+
 def _contrary(found: Finding) -> Finding:
     return found.negated() if found.holds is not None or found.answer is None else found
 
 
 def _joined(of: Both, asked: Asked) -> Finding:
     """Give several together: all must hold, or one of them."""
+    owed = next((part for part in of.contents if is_owed(part)), None)
+    if owed is not None:
+        return weigh(owed, asked)  # the rule decides, also over what goes with it
     if of.join == "or" and (chosen := either(of, asked)) is not None:
         return chosen
     found = [weigh(part, asked) for part in of.contents]
@@ -111,12 +131,29 @@ def either(of: Both, asked: Asked) -> Finding | None:
             measured = Measured(first.attribute, first.thing, time=first.time, tense=first.tense)
             return Finding(None, answer=Measures(values(asked, measured)))
     found = [(part, weigh(part, asked)) for part in of.contents]
+    if isinstance(first, Compares) and all(one.holds is False for _, one in found):
+        same = replace(first, comparator="same")  # "is it shrinking or growing?"
+        told = Finding(True, found[0][1].facts)
+        return Finding(True, told.facts, answer=replace(told.verdict(same), either=True))
     likely = [(p, one) for p, one in found if one.holds]
     if len(likely) != 1:
-        return None
+        return _way_of(of, asked)
     part, one = likely[0]
     answer = one.answer or replace(one.verdict(part), either=True)
     return Finding(True, one.facts, answer=answer)
+
+
+def _way_of(of: Both, asked: Asked) -> Finding | None:
+    """Tell where another vehicle is going, where it is asked which of several ways it takes."""
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    ahead = all(event.tense in ("present", "future") for event in events)
+    actors = {event.actor for event in events}
+    actor = next(iter(actors), None)
+    if len(events) < len(of.contents) or len(actors) != 1 or not ahead or asked.past is not None:
+        return None
+    if not isinstance(actor, Vehicle):
+        return None
+    return Finding(None, answer=whither(Whither(actor), asked))
 
 
 def _placed(of: Proposition, thing: Thing) -> bool:
@@ -193,7 +230,9 @@ def _expected_of(asked: Asked, event: Event, time: Time) -> Finding:
     if share is None:
         look = first_look(asked, number(event.actor) or 0, at)
         return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
-    return Finding(share >= EXPECTED, facts, None, shown, probability=share)
+    told = Beliefs(number(event.actor) or 0, event, shown, probability=share, time=at)
+    answer = told if came is None else None
+    return Finding(share >= EXPECTED, facts, None, shown, probability=share, answer=answer)
 
 
 def _planned(asked: Asked, event: Event, time: Time) -> Finding:

@@ -91,6 +91,8 @@ def motion_cause(
 ) -> MotionCause:
     """Tell a vehicle that held us up as a reason for how we drove."""
     how = cause.mechanism.how if cause.mechanism is not None else "leader"
+    if how in ("leader", "cut-in") and _goes_first(trace, cause.vehicle):
+        how = "right-of-way"  # it will be ahead of us only once we have let it go first
     since = world.episodes(Vehicle(cause.vehicle), SINCE, trace.sim_time, ride.now)
     since = tuple(e for e in since if e.begin >= trace.sim_time)
     speeds = ride.motion(cause.vehicle).until(time).speed
@@ -103,6 +105,12 @@ def motion_cause(
         did=since[0] if since else None,
         necessary=cause.necessary,
     )
+
+
+def _goes_first(trace: PlanTrace, vehicle: int) -> bool:
+    """Whether a vehicle whose way crosses ours has right of way."""
+    facts = () if trace.road is None else trace.road.priority
+    return any(fact.vehicle == vehicle and fact.who == "vehicle" for fact in facts)
 
 
 def _waited(ride: Ride, deed: Episode, end: float) -> RideEvent | None:

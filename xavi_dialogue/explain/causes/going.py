@@ -1,44 +1,40 @@
-"""Going: why the ego went when it did, and how close it would have been had it not slowed down.
+"""Going: why the ego went when it did: who had right of way at that moment, and what they did."""
 
-The first is told by who had right of way at that moment, and by what they did. The second is no
-simulation: it puts our recorded way, driven on at the speed before we slowed, beside the recorded
-motion of the other.
-"""
-
-import math
-from dataclasses import dataclass
-from itertools import accumulate, pairwise
-
+from planner.events import Event as RideEvent
 from planner.trace import PlanTrace
-from sim.scene import EGO
 from xavi_dialogue.domain.answers import Bystander
-from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import Ride
 
+NEXT = 18.0  # [m] within which one who was given way to is just passing
+APART = 3.0  # [m] by which one who goes away is farther
+MOVING = 0.5  # [m/s] from which a vehicle is on its way
 PASSED = 6.0  # [s] before a deed within which way was given for it
-MEETING = 2.5  # [m] within which two lines meet
-MOVING = 0.5  # [m/s] from which a vehicle drives along its line
-
-
-@dataclass(frozen=True, slots=True)
-class Crossing:
-    """When two would have been where their ways meet."""
-
-    ours: float  # [s] had we kept our speed
-    theirs: float  # [s] as recorded
 
 
 def bystanders(ride: Ride, world: World, time: float) -> tuple[Bystander, ...]:
     """Tell of those whose way crossed ours at a moment who goes first, and what they did."""
     trace = ride.at(time)
     found = [] if trace is None else [_one(ride, world, trace, time, v) for v in _met(trace)]
-    known = {one.vehicle for one in found}
     waits = [e for e in ride.events if e.kind == "gave-way" and e.vehicle is not None]
-    let_go = [e.vehicle for e in waits if time - PASSED <= e.sim_time <= time]
-    gone = [v for v in dict.fromkeys(let_go) if v is not None and v not in known]
-    return (*(Bystander(v, first="vehicle", gone=True) for v in gone), *found)
+    let_go = [e for e in waits if time - PASSED <= e.sim_time <= time]
+    past = {e.vehicle for e in let_go if e.vehicle is not None and _parts(world, e, time)}
+    known = {one.vehicle for one in found}
+    others = [e.vehicle for e in let_go if e.vehicle is not None and e.vehicle not in known]
+    gone = dict.fromkeys((*others, *(v for v in known if v in past)))
+    still = tuple(one for one in found if one.vehicle not in gone)
+    return (*(Bystander(v, first="vehicle", gone=True) for v in gone), *still)
+
+
+def _parts(world: World, wait: RideEvent, time: float) -> bool:
+    """Whether one that was given way to is farther from us at a time [s] than it was then."""
+    assert wait.vehicle is not None
+    first, last = world.look(wait.vehicle, wait.sim_time), world.look(wait.vehicle, time)
+    if first is None or last is None:
+        return first is not None
+    if last.speed < MOVING:
+        return False  # it waits for somebody else
+    return last.distance > first.distance + APART or last.distance < NEXT
 
 
 def _met(trace: PlanTrace) -> tuple[int, ...]:
@@ -51,33 +47,3 @@ def _one(ride: Ride, world: World, trace: PlanTrace, time: float, vehicle: int) 
     look = world.look(vehicle, time)
     motion = ride.motion(vehicle).until(time)
     return Bystander(vehicle, first, motion.trend, None if look is None else look.distance)
-
-
-def unslowed(ride: Ride, vehicle: int, deed: Episode) -> Crossing | None:
-    """Tell when we, had we not slowed, and a vehicle would have been where our ways meet.
-
-    None where the record does not have both ways up to there.
-    """
-    speed = deed.speed_from
-    ours, other = ride.motion(EGO), ride.motion(vehicle)
-    start = ours.index(deed.begin)
-    if speed is None or speed < MOVING or start is None:
-        return None
-    along = _along(ours, start)
-    met = [
-        (math.dist(ours.position[i], other.position[k]), along[i - start], other.time[k])
-        for i in range(start, len(ours.time))
-        for k in other.within(deed.begin - PASSED, ride.now)
-        if other.speed[k] > MOVING
-    ]
-    close = [one for one in met if one[0] <= MEETING]
-    if not close:
-        return None
-    _, distance, theirs = min(close, key=lambda one: (one[1], one[0]))
-    return Crossing(deed.begin + distance / speed, theirs)
-
-
-def _along(motion: Motion, start: int) -> list[float]:
-    """The distance [m] driven since a sample, at each one from it on."""
-    steps = [math.dist(a, b) for a, b in pairwise(motion.position[start:])]
-    return list(accumulate(steps, initial=0.0))

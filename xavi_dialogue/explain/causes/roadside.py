@@ -31,7 +31,7 @@ def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCaus
     if deed.action == "speed-up":
         return speeding_up(ride, deed)
     junction = [_from_here(ride, deed, cause) for cause in _junction(trace, deed)]
-    found = [*_destination(ride, trace, deed), *_lower_limit(ride, deed), *junction]
+    found = [*_destination(ride, trace, deed), *junction, *_lower_limit(ride, deed)]
     return tuple(found[:2] or _bend(ride, trace, deed)) or (MotionCause("plan"),)
 
 
@@ -129,7 +129,10 @@ def _from_here(ride: Ride, deed: Episode, cause: MotionCause) -> MotionCause:
     route = () if trace is None or trace.road is None else trace.road.route
     if deed.end is not None or not route or route[0].distance < CLOSE:
         return replace(cause, value=None)
-    return cause if cause.value is None else replace(cause, value=route[0].distance)
+    if cause.value is None:
+        return cause
+    passed = route[0].distance > cause.value + CLOSE
+    return replace(cause, value=None if passed else route[0].distance)
 
 
 def is_turning(trace: PlanTrace) -> bool:

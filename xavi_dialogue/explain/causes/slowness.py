@@ -70,11 +70,40 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
 
 def leader(ride: Ride, world: World, time: float) -> Look | None:
     """Find who drives or stands in front of the ego at a time, within some seconds; the nearest."""
-    speed = ego_speed(ride, time) or 0.0
-    reach = max(NEAR, HEADWAY * speed)
+    reach = max(NEAR, HEADWAY * (ego_speed(ride, time) or 0.0))
+    return next(iter(in_lane_ahead(ride, world, time, reach)), None)
+
+
+def in_lane_ahead(
+    ride: Ride, world: World, time: float, reach: float, at: float | None = None
+) -> list[Look]:
+    """List who is in front of the ego at a time within a distance [m], the nearest first.
+
+    Args:
+        ride: the record.
+        world: its facts.
+        time: [s] the moment.
+        reach: [m] how far.
+        at: [s] the moment whose lane of ours counts, where it is another.
+    """
+    lane_at = time if at is None else at
     looks = [look for v in world.in_view(time) if (look := world.look(v, time)) is not None]
-    ahead = [look for look in looks if _in_front(look, reach) and _same_lane(ride, look, time)]
-    return min(ahead, key=lambda look: look.distance, default=None)
+    if at is not None and at < time:
+        ahead = [look for look in looks if _was_lane(ride, look, lane_at, time, reach)]
+    else:
+        ahead = [look for look in looks if _in_front(look, reach) and _same_lane(ride, look, time)]
+    return sorted(ahead, key=lambda look: look.distance)
+
+
+def _was_lane(ride: Ride, look: Look, before: float, time: float, reach: float) -> bool:
+    """Whether a vehicle is ahead in the lane that was ours before, as the road is recorded."""
+    first, then = ride.at(before), ride.at(time)
+    ours = None if first is None or first.road is None else first.road.places.get(EGO)
+    theirs = None if then is None or then.road is None else then.road.places.get(look.vehicle)
+    if ours is None or theirs is None or look.oncoming:
+        return False
+    on_it = ours.edge == theirs.edge and ours.lane == theirs.lane
+    return on_it and look.ahead > 0.0 and look.distance <= reach
 
 
 def _in_front(look: Look, reach: float) -> bool:

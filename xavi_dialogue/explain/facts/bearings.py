@@ -10,6 +10,7 @@ from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.explain.history.thresholds import OPPOSITE, SAME_LANE, SAME_WAY
 
 CORRIDOR = 8.0  # [m] sideways within which an oncoming vehicle is on our road
+LINE = 4.0  # [m] sideways up to which it is straight ahead or behind
 AHEAD, ABREAST = 15.0, 65.0  # [deg] directions up to which it is ahead, and not abreast
 
 
@@ -62,9 +63,9 @@ def bearing(
         theirs: the other's.
     """
     if seen.opposite:
-        return "oncoming" if oncoming(seen) else _side(seen)
+        return "oncoming" if oncoming(seen) else aside(seen)
     if not seen.same_way:
-        return "crossing-left" if seen.left > 0.0 else "crossing-right"
+        return _across(seen)
     side = lane_side(seen, mine, theirs)
     if side == 0:
         return "ahead" if seen.ahead > 0.0 else "behind"
@@ -75,17 +76,29 @@ def bearing(
     return "behind-left" if side > 0 else "behind-right"
 
 
+def _across(seen: Offset) -> Bearing:
+    """The word for a vehicle that heads across our way: where it comes from, or where it is.
+
+    It comes from a side while it heads for our line from there; then it is on the other side.
+    """
+    nears = seen.left * math.sin(seen.turn) < 0.0
+    if not nears or seen.ahead < -seen.clear:
+        return aside(seen)
+    return "crossing-left" if seen.left > 0.0 else "crossing-right"
+
+
 def oncoming(seen: Offset) -> bool:
     """Whether a vehicle comes towards us, on our road or one that leads into it."""
     return seen.opposite and seen.ahead > 0.0 and abs(seen.left) <= max(CORRIDOR, seen.ahead / 2.0)
 
 
-def _side(seen: Offset) -> Bearing:
+def aside(seen: Offset) -> Bearing:
     """The direction in which a vehicle is, whichever way it heads."""
     angle = math.degrees(math.atan2(seen.left, seen.ahead))
-    if abs(angle) <= AHEAD:
+    straight = abs(seen.left) <= LINE
+    if abs(angle) <= AHEAD and straight:
         return "ahead"
-    if abs(angle) >= 180.0 - AHEAD:
+    if abs(angle) >= 180.0 - AHEAD and straight:
         return "behind"
     if abs(angle) < ABREAST:
         return "ahead-left" if angle > 0.0 else "ahead-right"

@@ -52,7 +52,7 @@ ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue"))  # not of 
 OF_OURS: Names = frozenset(
     (
         *("stop", "stand", "wait", "give-way", "change-left", "change-right", "exit-left"),
-        *("exit-right", "exit-straight", "enter", "leave", "overtake", "cut-in", "pull-out"),
+        *("exit-right", "exit-straight", "enter", "leave", "overtake", "pull-out"),
         *("collide", "nearly-collide", "arrive"),
     )
 )
@@ -63,7 +63,6 @@ TOLD_BY: dict[ActionName, Names] = {
     "go": frozenset(("give-way", "wait", "stop", "stand")),
     "stop": frozenset(("give-way", "wait")),
     "stand": frozenset(("give-way", "wait")),
-    "brake": frozenset(("give-way",)),
     "slow-down": frozenset(("give-way", "exit-left", "exit-right", "enter")),
     "signal": frozenset(("change-left", "change-right", "exit-left", "exit-right", "leave")),
     "exit-left": frozenset(("leave",)),

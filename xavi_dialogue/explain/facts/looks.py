@@ -9,18 +9,22 @@ from planner.road import RoadPlace
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.vocabulary import Kind
-from xavi_dialogue.explain.facts.bearings import bearing, offset, oncoming
+from xavi_dialogue.explain.facts.bearings import aside, bearing, offset, oncoming
 from xavi_dialogue.explain.facts.bodies import distance
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON
 
 _Places: TypeAlias = tuple[RoadPlace | None, RoadPlace | None]
 
+STILL = 0.3  # [m/s] below which a vehicle stands
+VAN = (5.0, 8.0)  # [m] lengths of a lorry that is called a van
 KINDS: dict[str, Kind] = {kind: kind for kind in get_args(Kind)}
 
 
 def kind_of(state: VehicleState) -> Kind:
-    """What a passenger sees a vehicle to be."""
+    """Tell what a passenger sees a vehicle to be: a short lorry is a van."""
+    if state.kind == "truck" and VAN[0] < state.length < VAN[1]:
+        return "van"
     return KINDS.get(state.kind, "vehicle")
 
 
@@ -66,13 +70,17 @@ def _seen(
 ) -> Look:
     """See a vehicle from our car; `places` on the road are ours and its own."""
     where = offset(ego, state)
+    if state.speed < STILL and not (where.same_way or where.opposite):
+        place = aside(where)  # it does not come from there
+    else:
+        place = bearing(where, *places)
     return Look(
         vehicle,
         time,
         kind_of(state),
         state.colour,
         state.length,
-        bearing(where, *places),
+        place,
         round(distance(ego, state), 2),
         round(where.ahead, 2),
         round(where.left, 2),

@@ -2,12 +2,23 @@
 
 from collections.abc import Iterator
 
+from planner.trace import SAMPLE_PERIOD, Action, Rollout
+from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
-from xavi_dialogue.explain.history.thresholds import BRAKING, CHANGED, MOVING, STANDING
+from xavi_dialogue.explain.history.thresholds import (
+    BEGINNING,
+    BRAKING,
+    CHANGED,
+    MOVING,
+    STANDING,
+)
 
+FRESH = 1.5  # [s] how old a decision may be whose plan tells what is going on now
+SOON = 0.5  # [s] after now in which what begins counts as begun
 GROWS = 0.2  # [m/s] in a second from which a speed grows
 
 
@@ -23,7 +34,39 @@ def _speeds(states: States, vehicle: int) -> list[Episode]:
         if sighting.action in ("slow-down", "speed-up"):
             found.append(_changed(states, vehicle, motion, sighting))
     found += _standstills(states, vehicle, motion)
+    if vehicle == EGO and not any(e.end is None and e.action != "speed-up" for e in found):
+        found += underway(states)
     return found
+
+
+def underway(states: States) -> Iterator[Episode]:
+    """Slowing down of the ego that began after the record's last sample, as its plan has it."""
+    ride = states.ride
+    trace = ride.traces[-1] if ride.traces else None
+    if trace is None or ride.ended or ride.now - trace.sim_time > FRESH:
+        return
+    plan = tuple(step.action for step in trace.plan)
+    driven = (r for r in trace.rollouts if r.speed and _drives(r, plan[:1]))
+    speed = next((r.speed for r in driven if r.speed), ())
+    ahead = speed[: round((ride.now + SOON - trace.sim_time) / SAMPLE_PERIOD) + 1]
+    if len(ahead) < 2 or ahead[0] - ahead[-1] < BEGINNING:
+        return
+    first = next(k for k in range(len(ahead) - 1) if ahead[k + 1] < ahead[k])
+    begin = trace.sim_time + first * SAMPLE_PERIOD
+    peak = (ahead[first] - ahead[-1]) / max(ride.now + SOON - begin, SOON)
+    action: ActionName = "brake" if peak >= BRAKING else "slow-down"
+    yield Episode(
+        named(EGO),
+        action,
+        begin,
+        speed_from=ahead[first],
+        speed_to=ahead[-1],
+        peak=round(peak, 2),
+    )
+
+
+def _drives(rollout: Rollout, plan: tuple[Action, ...]) -> bool:
+    return tuple(timed.action for timed in rollout.actions)[: len(plan)] == plan
 
 
 def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -> Episode:

@@ -143,6 +143,11 @@ class World:
         trace = self.states.trace(at)
         return () if trace is None else planned(trace)
 
+    def decided(self, number: int) -> float | None:
+        """When [s] the decision of a number was taken; None where the record has none."""
+        found = (t.sim_time for t in self.ride.traces if t.decision == number)
+        return next(found, None)
+
     def options(self, at: float) -> tuple[OptionValue, ...]:
         """What the last decision up to a time could choose from, with values; best first."""
         return options.options(self.ride, at)

@@ -20,6 +20,7 @@ from sim.scene import Point
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.history.thresholds import (
     ALONG,
+    BEGINNING,
     BEGUN,
     BROKEN,
     CHANGED,
@@ -136,7 +137,8 @@ class Motion:
         foot = start = best = 0  # where it is measured from; where it leaves that; its end so far
         for k in range(1, len(self.speed) + 1):
             if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER:
-                if sign * (self.speed[best] - self.speed[foot]) >= CHANGED:
+                least = BEGINNING if k == len(self.speed) else CHANGED
+                if sign * (self.speed[best] - self.speed[foot]) >= least:
                     yield Sighting(action, self.time[start], self.time[best])
                 foot = start = best = min(k, len(self.speed) - 1)
                 continue

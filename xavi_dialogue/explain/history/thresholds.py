@@ -6,6 +6,7 @@ import math
 STANDING = 0.14  # [m/s] below which a vehicle stands
 MOVING = 1.0  # [m/s] from which one that stood is under way again
 CHANGED = 1.5  # [m/s] by which a speed has changed
+BEGINNING = 0.4  # [m/s] likewise, of a change that is going on at the end of the record
 WAVER = 0.15  # [m/s] of speed that do not end a stretch of slowing down
 TREND_TIME = 1.0  # [s] over which a trend is judged
 TREND = 0.4  # [m/s2] from which it is one

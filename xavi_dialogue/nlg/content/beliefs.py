@@ -23,10 +23,18 @@ NAMED = 5  # options named
 def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
     """Plan what was believed of a vehicle, how that moved, and what came of it."""
     latest = answer.history[-1] if answer.history else None
-    details = [d for d in (_moved(answer, context), _came(answer, context)) if d is not None]
     at = answer.time if answer.time is not None else latest.time if latest else context.now
     past = context.now - at > PRESENT
+    moved, came = _moved(answer, context), _came(answer, context) if past else None
+    wanted = (moved, came) if answer.changed else (came,)
+    details = tuple(d for d in wanted if d is not None)
+    more = () if moved is None or answer.changed else (moved,)
     vehicle = Vehicle(answer.vehicle)
+    if answer.of is not None and answer.probability is not None and answer.since is not None:
+        clause = event_clause(answer.of, context.now, tense="future")
+        told = message("BELIEVED_SINCE", who=Who(vehicle, answer.since), of=clause,
+                       when=Moment(answer.since), chance=Chance(answer.probability))  # fmt: skip
+        return Plan((told,), () if moved is None else (moved,))
     if answer.of is not None and answer.probability is not None:
         clause = event_clause(answer.of, context.now, tense="future")
         first = message(
@@ -37,11 +45,11 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
             of=clause,
             chance=Chance(answer.probability),
         )
-        return Plan((first,), tuple(details))
+        return Plan((first,), details, more)
     if latest is None or not latest.expectations:
-        return Plan((message("NO_BELIEF", who=Who(vehicle)),), tuple(details))
+        return Plan((message("NO_BELIEF", who=Who(vehicle)),), details, more)
     chosen = min(answer.history, key=lambda b: abs(b.time - at))
-    return Plan((belief_message(chosen, context),), tuple(details))
+    return Plan((belief_message(chosen, context),), details, more)
 
 
 def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:

@@ -7,8 +7,11 @@ from xavi_dialogue.nlg.content.corrections import plan_did_not_happen
 from xavi_dialogue.nlg.content.going import plan_going, plan_unslowed
 from xavi_dialogue.nlg.content.motives import plan_motion
 from xavi_dialogue.nlg.content.others import plan_other, plan_place, plan_signal
+from xavi_dialogue.nlg.content.own_suppositions import plan_supposed_of_us
 from xavi_dialogue.nlg.content.plan import Planner
-from xavi_dialogue.nlg.content.reasons import plan_choice, plan_supposed_of_us
+from xavi_dialogue.nlg.content.reactions import plan_reaction
+from xavi_dialogue.nlg.content.reasons import plan_choice
+from xavi_dialogue.nlg.content.signals import plan_own_signal
 from xavi_dialogue.nlg.content.suppositions import plan_supposed_of_other
 
 CAUSES: dict[type, Planner] = {
@@ -18,9 +21,11 @@ CAUSES: dict[type, Planner] = {
     answers.Unslowed: plan_unslowed,
     answers.OtherReason: plan_other,
     answers.SignalReason: plan_signal,
+    answers.OwnSignal: plan_own_signal,
     answers.PlaceReason: plan_place,
     answers.SupposedOfUs: plan_supposed_of_us,
     answers.SupposedOfOther: plan_supposed_of_other,
+    answers.Reaction: plan_reaction,
     answers.Grounds: insights.plan_grounds,
     answers.Certainty: insights.plan_certainty,
     answers.Method: insights.plan_method,

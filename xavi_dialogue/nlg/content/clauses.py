@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Exit,
     Junction,
     Lane,
+    Nobody,
     Pronoun,
     Road,
     Thing,
@@ -82,6 +83,8 @@ def verb_phrase(
         head, _, tail = phrase.partition("{way}")
         owner = Who(target, time, ride=True) if target is not None else None
         return head.strip(), (Owned(owner, "way"), tail.strip()) if owner else ("the way",)
+    if action == "come" and isinstance(target, Ego):
+        return doing(action), ()
     head, mark, tail = phrase.partition("{}")
     if not mark or target is None:
         return phrase, ()
@@ -91,7 +94,7 @@ def verb_phrase(
 def subject_of(actor: Thing, action: ActionName | None = None, time: float | None = None) -> Who:
     """The subject of a clause: "we" where our car is taken along rather than acts."""
     ride = action is not None and bool(table("doings")["action"][action].get("ride"))
-    return Who(actor, time, ride=ride)
+    return Who(actor, time, ride=ride, placed=action != "come")
 
 
 def event_clause(
@@ -101,8 +104,10 @@ def event_clause(
     told, modal = event_tense(event, now)
     if tense is not None:
         told, modal = tense, None
+    negated = negated and not isinstance(event.actor, Nobody)  # "nobody does" denies by itself
     at = moment_of(event.time)
     verb, rest = verb_phrase(event.action, event.actor, event.object, event.side, time=at)
+    obliged = modal == "must"
     manners = table("doings")["manner"]
     told_by_verb = ("first",) if event.action == "let-go" else ()
     adverbs: tuple[object, ...] = tuple(
@@ -111,7 +116,8 @@ def event_clause(
     *head, last = verb.split(" ")
     if adverbs and rest and last in _PREPOSITIONS:  # "brake hard for"
         verb, adverbs = " ".join((*head, *map(str, adverbs), last)), ()
-    if event.where is not None and not isinstance(event.where.to, Unknown):
+    coming = event.action in ("come", "approach")  # that says itself that it is towards us
+    if event.where is not None and not coming and not isinstance(event.where.to, Unknown):
         place = word("doings", "relation", event.where.relation).lstrip("+!").partition(" ")[2]
         adverbs = (*adverbs, place, Who(event.where.to, at))
     if event.then is not None:
@@ -125,6 +131,8 @@ def event_clause(
         )
         adverbs = (*adverbs, "and then", Bare(after))
     lasting = told == "present" and modal is None and event.action not in STATES
+    if obliged:
+        verb, modal = f"have to {verb}", None
     adverb = next((m for m in event.manner if m in ("still", "already")), "")
     return Clause(
         subject_of(event.actor, event.action, at),

@@ -16,6 +16,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
 #: What says less than anything else that somebody does at the same time.
 AT_HAND = 4.0  # [m] below which a place is just ahead
+TOLD = 0.4  # probability from which an expectation is told beside what somebody does
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))
 CHANGES = frozenset(("slow-down", "speed-up"))
@@ -108,6 +109,8 @@ def _cause(cause: MotionCause | None, past: bool) -> Message | None:
 def _belief(answer: Activity, context: SpeechContext) -> Message | None:
     if answer.belief is None or not answer.belief.expectations:
         return None
+    if answer.belief.expectations[0].probability < TOLD:
+        return None
     return belief_message(answer.belief, context)
 
 
@@ -180,6 +183,20 @@ def _elsewhere(
     )
 
 
+def _gone(went: Episode | None, look: Look | None, context: SpeechContext) -> dict[str, object]:
+    """Tell which way somebody went, and where it is by now or was seen last."""
+    slots: dict[str, object] = {}
+    if went is not None:
+        slots["went"] = episode_message(went, context)
+    if look is not None:
+        slots["who"] = Who(Vehicle(look.vehicle), look.time, placed=False)
+        slots["where"] = word("vehicles", "place", look.bearing)
+        slots["far"] = Quantity(look.distance, "m")
+        seen = look.seen if look.seen is not None else look.time
+        slots["lost"] = None if look.in_view else Moment(seen)
+    return slots
+
+
 def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
     """Plan where somebody is going, or has gone."""
     measures = tuple(measure_message(m, context) for m in answer.measures)
@@ -197,9 +214,9 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
         when = Moment(times[0]) if times and len(answer.measures) == 1 else None
         first = message("BOUND_US", far=Quantity(far, "m") if far is not None else None, when=when)
         return Plan((first,), others)
-    went = answer.went
-    if went is not None:
-        return Plan((message("BOUND_WENT", went=episode_message(went, context)),), measures)
+    went, look = answer.went, answer.look
+    if went is not None or (look is not None and answer.belief is None):
+        return Plan((message("BOUND_WENT", **_gone(went, look, context)),), measures)
     if answer.belief is None:
         return Plan((message("BELIEF_NONE", who=Who(answer.actor)),), measures)
     return Plan((belief_message(answer.belief, context),), measures)

@@ -35,7 +35,6 @@ Kind: TypeAlias = Literal[
     "collision", "dead", "late", "unsure", "risk", "time", "ride", "effort", "close", "same",
     "alone",
 ]  # fmt: skip
-TELLING = ("collision", "risk", "time", "late")  # reasons that add something to that it is the way
 _BY_OUTCOME: dict[str, Kind] = {"collision": "collision", "dead": "dead", "termination": "late"}
 
 
@@ -51,13 +50,22 @@ def kind_of(contrast: Contrast) -> Kind:
     if contrast.decisive == "effort":
         return "effort"
     if contrast.close:
-        return "close"
+        more = contrast.collision - contrast.fact_collision >= RISK
+        return "risk" if more and contrast.collision >= RISK else "close"
     if contrast.decisive in ("dead", "late") and contrast.outcome.probability < SURE:
         return "unsure"
     reason = deciding(contrast)
     if reason is None:
         return "same"
-    return "time" if reason.component == "time" else "ride"
+    if reason.component == "time":
+        return "time"
+    return "effort" if _steers(contrast) else "ride"
+
+
+def _steers(contrast: Contrast) -> bool:
+    """Whether the foil is a change of lanes more, which is steering by itself."""
+    changes = [sum(a in CHANGES for a in plain(p)) for p in (contrast.foil, contrast.fact)]
+    return changes[0] > changes[1]
 
 
 def deciding(contrast: Contrast) -> Effect | None:
@@ -109,16 +117,20 @@ def consequence_slots(
         "struck": None if struck is None else Who(Vehicle(struck), contrast.decided),
         "waypoint": contrast.waypoint,
         "way": contrast.way,
-        "adds": kind in TELLING,
         "ride": None if reason is None or kind == "time" else reason.component,
         "worse": (contrast.value or 0.0) <= -WORSE,
         "risk_too": _folded(contrast, kind),
         "risk": Chance(contrast.collision) if contrast.collision >= RISK else None,
-        "fact_risk": Chance(contrast.fact_collision) if contrast.fact_collision >= RISK else None,
+        "fact_risk": Chance(contrast.fact_collision) if _tells_apart(contrast) else None,
         **_time(contrast, context, kind),
         **_effort(contrast),
         **_opposed(contrast, kind),
     }
+
+
+def _tells_apart(contrast: Contrast) -> bool:
+    """Whether the risk of the fact is worth telling beside that of the foil."""
+    return RISK <= contrast.fact_collision < contrast.collision - RISK
 
 
 def _folded(contrast: Contrast, kind: Kind) -> bool:
@@ -206,7 +218,8 @@ def told_cause(contrast: Contrast) -> Cause | None:
         if contrast.outcome is not None and contrast.outcome.collided_with is not None:
             struck = contrast.outcome.collided_with
         named = [c for c in contrast.causes if c.vehicle == struck or struck is None]
-        return named[0] if named and telling(named[0].actions) else None
+        sure = [c for c in named if c.probability >= EVEN and telling(c.actions)]
+        return sure[0] if sure else None
     return contrast.causes[0] if contrast.causes else None
 
 

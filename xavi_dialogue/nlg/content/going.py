@@ -1,35 +1,46 @@
 """Going: why we went when we did, and what can be said of not having slowed down."""
 
-from xavi_dialogue.domain.answers import Bystander, GoReason, Unslowed
+from xavi_dialogue.domain.answers import Bystander, GoReason, MotionCause, Unslowed
 from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses import doing
 from xavi_dialogue.nlg.content.contrasts import consequence_slots, kind_of
+from xavi_dialogue.nlg.content.driven import motion_cause
 from xavi_dialogue.nlg.content.manoeuvres import deed_clause
-from xavi_dialogue.nlg.content.motives import motion_cause
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_vehicle
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
-TOGETHER = 1.0  # [s] within which two are at a place at the same time
+TOGETHER = 1.2  # [s] within which two are at a place at the same time
+TIGHT = 3.0  # [s] within which one of two would have to brake for the other
+LEAST = 0.5  # [s] that is worth naming
 FAR = 60.0  # [m] from which somebody is far away
 #: Who is told of first: whom we let go, then who had right of way, then who had not.
-_ORDER = {"vehicle": 1, "depends": 2, "ego": 3}
+_ORDER = {"vehicle": 1, "depends": 2, "ego": 3, "none": 4}
 
 
 def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     """Plan why we went when we did."""
     past = answer.past
     deed = Clause(Who(), "go", (), "past" if past else "present", progressive=not past)
-    if answer.deed is not None and answer.deed.action != "continue":
+    if answer.refrained is not None:
+        verb = doing(answer.refrained, ego=True)
+        deed = Clause(Who(), verb, (), "past" if past else "present", negated=True)
+    elif answer.deed is not None and answer.deed.action not in ("continue", "continue-next-exit"):
         deed = deed_clause(answer.deed, context.now, past=past)
     time = None if answer.deed is None else answer.deed.begin
     ranked = sorted(answer.others, key=lambda one: (not one.gone, _ORDER[one.first]))
-    free = tuple(_free(one, time, past=past) for one in ranked[:2])
-    core = message("WENT", deed=deed, free=free, past=past)
+    gone = [one for one in ranked if one.gone][:2]
+    let_go = tuple(Who(Vehicle(one.vehicle), time) for one in gone)
+    told = [one for one in ranked if not one.gone][: 2 - len(gone[:1])]
+    first = (message("LET_GO", whos=let_go, past=past),) if gone else ()
+    free = (*first, *(_free(one, time, past=past) for one in told))
+    then = answer.refrained is None and past
+    core = message("WENT", deed=deed, free=free, past=past, then=then)
     proposed = about_vehicle(ranked[0].vehicle) if ranked else ()
     waiting = _waiting(answer, context)
-    return Plan((core,), () if waiting is None else (waiting,), (), (), proposed)
+    return Plan((core,), (), () if waiting is None else (waiting,), (), proposed)
 
 
 def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
@@ -38,7 +49,6 @@ def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
         "WAY_FREE",
         who=Who(Vehicle(one.vehicle), time),
         first=one.first,
-        gone=one.gone,
         trend=one.trend,
         far=None if one.distance is None else Quantity(one.distance, "m"),
         near=near,
@@ -55,27 +65,36 @@ def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
 
 
 def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
-    """Plan what can be said of not having slowed down."""
+    """Plan what can be said of not having slowed down, or of going now."""
     cause = answer.cause
-    who = None
-    if cause is not None and cause.vehicle:
-        who = Who(Vehicle(cause.vehicle), answer.deed.begin)
+    vehicle = answer.vehicle or (None if cause is None else cause.vehicle)
+    time = answer.deed.begin if answer.past else None
     ahead = None
     if answer.ours is not None and answer.theirs is not None:
         ahead = answer.theirs - answer.ours
-    core = message(
-        "UNSLOWED",
-        who=who,
-        kind=None if cause is None else cause.kind,
-        cause=None
-        if cause is None
-        else motion_cause(cause, answer.deed.begin, context, past=True, deed=answer.deed.action),
-        met=ahead is not None,
-        together=ahead is not None and abs(ahead) <= TOGETHER,
-        before=ahead is not None and ahead > 0.0,
-        gap=None if ahead is None else Quantity(abs(ahead), "s"),
-        simple=context.detail == "simpler",
-        going=answer.going,
-    )
-    proposed = about_vehicle(cause.vehicle) if cause is not None and cause.vehicle else ()
-    return Plan((core,), (message("NO_SIMULATION", speed=not answer.going),), (), (), proposed)
+    slots: dict[str, object] = {
+        "who": None if not vehicle else Who(Vehicle(vehicle), time),
+        "kind": None if cause is None else cause.kind,
+        "cause": None if cause is None else _cause_of(answer, cause, context),
+        "met": ahead is not None,
+        "together": ahead is not None and abs(ahead) <= TOGETHER,
+        "tight": ahead is not None and abs(ahead) <= TIGHT,
+        "before": ahead is not None and ahead > 0.0,
+        "gap": None if ahead is None else Quantity(abs(ahead), "s"),
+        "simple": context.detail == "simpler",
+        "past": answer.past,
+        "right": answer.right,
+        "form": answer.form,
+    }
+    timed = answer.form in ("arrival", "quicker")
+    if timed and answer.saved is not None and answer.arrival is not None:
+        coming = answer.arrival > context.now + LEAST
+        slots |= {"saved": Quantity(answer.saved, "s"), "none": answer.saved < LEAST,
+                  "arrival": Moment(answer.arrival) if coming else None}  # fmt: skip
+    core = Message("UNSLOWED", slots)
+    proposed = about_vehicle(vehicle) if vehicle else ()
+    return Plan((core,), (), (), (), proposed)
+
+
+def _cause_of(answer: Unslowed, cause: MotionCause, context: SpeechContext) -> Message:
+    return motion_cause(cause, answer.deed.begin, context, past=True, deed=answer.deed.action)

@@ -66,7 +66,7 @@ def _nothing(answer: Happenings, context: SpeechContext) -> Plan:
 
 def _list(answer: Happenings, context: SpeechContext) -> Plan:
     shown = answer.episodes[:LISTED]
-    items = [_item(e, context) for e in shown]
+    items = [_item(e, context, ends=answer.asked is not None) for e in shown]
     left = len(answer.episodes) - len(shown)
     if left:
         items.append(message("AND_MORE", number=str(left)))
@@ -74,9 +74,11 @@ def _list(answer: Happenings, context: SpeechContext) -> Plan:
     return Plan((*ride, message("LIST", items=tuple(items))))
 
 
-def _item(episode: Episode, context: SpeechContext) -> Message:
-    told = episode_message(episode, context, when=False)
-    return Message("EPISODE_ITEM", {**told.slots, "begin": Moment(episode.begin)})
+def _item(episode: Episode, context: SpeechContext, *, ends: bool = False) -> Message:
+    told = episode_message(episode, context, when=False, tense=_tense(episode, context))
+    until = episode.end if ends and episode.end is not None else None
+    end = None if until is None or until - episode.begin < SOON else Moment(until)
+    return Message("EPISODE_ITEM", {**told.slots, "begin": Moment(episode.begin), "end": end})
 
 
 def _summary(answer: Happenings, context: SpeechContext) -> Plan:
@@ -132,11 +134,11 @@ def _row(row: list[Episode], last: Episode | None, context: SpeechContext) -> Me
     groups = [list(group) for _, group in groupby(row, key=_alike)]
     first, *others = (_together(group) for group in groups)
     often = [times(len(group)) if len(group) > 1 else None for group in groups]
-    lead = episode_message(first, context, lead=True)
+    lead = episode_message(first, context, lead=True, tense=_tense(first, context))
     soon = last is not None and first.begin - last.begin < SOON
     parts = [Message("EPISODE_LEAD", {**lead.slots, "soon": soon, "often": often[0]})]
     for episode, count in zip(others, often[1:], strict=True):
-        told = episode_message(episode, context, when=False)
+        told = episode_message(episode, context, when=False, tense=_tense(episode, context))
         told = Message(told.rule, {**told.slots, "often": count})
         rule = "EPISODE_WHILE" if _tense(first, context) == "present" else "EPISODE_NEXT"
         parts.append(Message(rule, told.slots))
@@ -161,8 +163,9 @@ def _rides(episode: Episode, context: SpeechContext) -> bool:
     return isinstance(subject, Who) and subject.ride
 
 
-def _tense(episode: Episode, context: SpeechContext) -> str:
-    return episode_clause(episode, context.now).tense
+def _tense(episode: Episode, context: SpeechContext) -> Tense:
+    """Tell what is over as past, however lately it ended."""
+    return "past" if episode.end is not None else episode_clause(episode, context.now).tense
 
 
 def _ride(measures: tuple[Measure, ...]) -> tuple[Message, ...]:

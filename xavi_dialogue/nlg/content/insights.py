@@ -192,7 +192,7 @@ def plan_avoidance(answer: Avoidance, context: SpeechContext) -> Plan:
         told = cause_message(cause, contrast, context, past=True)
         details.append(message("PLAIN", it=told))
     time = _cost(contrast, context) if answer.possible else ()
-    return Plan((Message("AVOIDANCE", slots),), (*details[:1], *time), tuple(details[1:]))
+    return Plan((Message("AVOIDANCE", slots),), time, tuple(details))
 
 
 def _cost(contrast: Contrast | None, context: SpeechContext) -> tuple[Message, ...]:

@@ -1,20 +1,24 @@
 """Joint measures: several values told together, none of which says what another does."""
 
-from xavi_dialogue.domain.answers import Measures
+from xavi_dialogue.domain.answers import Lasted, Measures
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Ego, Junction, Vehicle
+from xavi_dialogue.domain.terms import Junction, Vehicle
 from xavi_dialogue.nlg.content.measures import measure_message
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.routes import way_messages
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Quantity, Who
+from xavi_dialogue.nlg.surface.values import Moment, Quantity, Who
 
+_FEW = 3  # vehicles whose speeds are told one by one
 _MANY = 2  # measures that go into one sentence
 
 
 def plan_measures(answer: Measures, context: SpeechContext) -> Plan:
     """Plan the values that were asked for."""
+    speeds = [m for m in answer.measures if m.attribute == "speed" and m.value is not None]
+    if len({str(m.thing) for m in speeds}) > _FEW:
+        return Plan((_range(speeds),))
     way = any(m.attribute == "turn" for m in answer.measures) and len(answer.measures) > 1
     told = way_messages(answer.measures, context) if way else None
     parts = tuple(told or measure_messages(answer.measures, context))
@@ -23,6 +27,27 @@ def plan_measures(answer: Measures, context: SpeechContext) -> Plan:
     if len(parts) == _MANY:
         return Plan((message("MEASURES", parts=parts, few=True),))
     return Plan(parts)
+
+
+def plan_lasted(answer: Lasted, context: SpeechContext) -> Plan:
+    """Plan how long a state lasted: so long, and since when."""
+    until = answer.now if answer.end is None else answer.end
+    return Plan((
+        message(
+            "HELD", length=Quantity(until - answer.begin, "s"), on=answer.end is None,
+            whole=answer.at_least, begin=Moment(answer.begin),
+            end=Moment(until),
+        ),
+    ))  # fmt: skip
+
+
+def _range(speeds: list[Measure]) -> Message:
+    """The speeds of many as from the slowest to the fastest."""
+    slow, fast = (pick(speeds, key=lambda m: m.value or 0.0) for pick in (min, max))
+    return message(
+        "ALL_SPEEDS", low=Quantity(slow.value or 0.0, "m/s"),
+        high=Quantity(fast.value or 0.0, "m/s"), slowest=Who(slow.thing), fastest=Who(fast.thing),
+    )  # fmt: skip
 
 
 def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> list[Message]:
@@ -40,9 +65,8 @@ def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> l
             parts.append(message("LAST_VALUE", who=Who(one.thing, placed=False), part=part))
             continue
         bare = (
-            (limits or rivals > 1)
-            and one.attribute in ("speed", "limit")
-            and isinstance(one.thing, Ego)
+            (limits and one.attribute in ("speed", "limit"))
+            or (rivals > 1 and one.attribute == "speed")
         )
         part = measure_message(one, context, bare=bare, when=one.time != said)
         seconds = _seconds_beside(one, measures)

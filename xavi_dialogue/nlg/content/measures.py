@@ -14,7 +14,7 @@ from xavi_dialogue.nlg.surface.tables import table, word
 from xavi_dialogue.nlg.surface.values import Moment, Number, Owned, Quantity, Unit, Who
 
 UNITS: Mapping[Attribute, Unit] = {
-    "speed": "m/s", "limit": "m/s", "excess": "m/s", "acceleration": "m/s2",
+    "speed": "m/s", "speed-change": "m/s", "limit": "m/s", "excess": "m/s", "acceleration": "m/s2",
     "deceleration": "m/s2", "comfort": "m/s2", "jerk": "m/s3", "gap": "m", "distance": "m",
     "headway": "s", "time-to-collision": "s", "size": "m", "distance-to-go": "m",
     "distance-driven": "m", "time-to-go": "s", "arrival-time": "clock", "time": "s",
@@ -32,6 +32,7 @@ BETWEEN = frozenset(("gap", "headway", "distance", "time-to-collision"))
 AT_HAND = 4.0  # [m] below which a place is just ahead
 OVER = 0.5  # [m/s] over the limit from which it is told
 STANDING = 0.3  # [m/s]
+EVEN_SPEED = 0.8  # [m/s] by which a speed that is told as one may vary
 EVEN = 0.3  # [m/s2] no acceleration to speak of
 GENTLE, FIRM, HARD = 1.5, 3.2, 4.0  # [m/s2] from which braking is called normal, firm, hard
 _UNPLACED = frozenset(("place", "heading"))
@@ -60,7 +61,7 @@ def measure_message(
         return Message("MEASURE_WORLD", slots)
     slots |= _valued(one, context)
     if bare:
-        slots["reference"] = None
+        slots |= {"reference": None, "above": False}
     return Message(f"MEASURE_{one.attribute.replace('-', '_').upper()}", slots)
 
 
@@ -98,7 +99,8 @@ def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
         "to": Who(one.to, at, placed=plain) if one.to is not None else None,
         "to_ego": isinstance(one.to, Ego), "to_place": _is_place(one.to),
         "place": _is_place(one.thing), "hidden_now": not told, "since": seen,
-        "extreme": one.extreme, "at_least": one.at_least, **verbs(told, many),
+        "extreme": one.extreme, "part": one.until is not None, "at_least": one.at_least,
+        **verbs(told, many),
     }  # fmt: skip
 
 
@@ -152,20 +154,29 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
     match one.attribute:
         case "speed":
             slots["standing"] = value < STANDING
+            if one.low is not None and one.high is not None:
+                slots |= {"ranged": one.high - one.low > EVEN_SPEED, "even": True,
+                          "low": Quantity(one.low, "m/s"), "high": Quantity(one.high, "m/s")}
             slots["above"] = one.reference is not None and value > one.reference + OVER
+        case "speed-change":
+            slots |= {"even": abs(value) < EVEN_SPEED, "slower": value < 0,
+                      "low": Quantity(one.low or 0.0, "m/s"),
+                      "high": Quantity(one.high or 0.0, "m/s")}
         case "excess":
             slots |= {"over": value > 0.3, "even": abs(value) <= 0.3}
         case "acceleration":
             slots |= {"even": abs(value) < EVEN, "slowing": value < 0, "degree": degree(value)}
         case "deceleration" | "comfort":
             slots |= {"even": value < EVEN, "degree": degree(value), "hard": value >= FIRM}
+            slots["braking"] = one.until is not None
             slots["adverb"] = "hard" if value >= HARD else "firmly"
         case "jerk":
             slots["degree"] = "smooth" if value < 1.0 else "normal" if value < 2.5 else "rough"
         case "delay":
             slots |= {"even": abs(value) < 0.5, "saved": value < 0}
         case "time-to-go":
-            slots["arrived"] = value <= 0.0
+            slots |= {"arrived": value <= 0.0, "level": isinstance(one.to, Vehicle),
+                      "reach": isinstance(one.to, Junction)}
             slots["bound"] = one.low is not None and one.high is None
     return slots
 
@@ -203,7 +214,7 @@ def _particular(one: Measure, value: float | None, context: SpeechContext) -> di
             pair = "we" if one.to is None else (Who(ride=True), Who(other)) if other else "we"
             return {"pair": pair}
         case "waiting-time":
-            lasts = one.extreme is None and one.until is not None and one.until > context.now
+            lasts = one.extreme is None and one.until is not None and one.until >= context.now
             return {"left": lasts, "soon": lasts and (value or 0.0) < SOON}
         case "duration":
             return {"going_on": one.until is None and one.at_least, "at_least": False}

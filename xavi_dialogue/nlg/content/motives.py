@@ -6,18 +6,22 @@ from xavi_dialogue.domain.answers import MotionCause, MotionReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses import episode_clause
-from xavi_dialogue.nlg.content.contrasts import SURE, chances, telling
+from xavi_dialogue.nlg.content.contrasts import chances, telling
+from xavi_dialogue.nlg.content.driven import STANDING, motion_cause, speed_told
 from xavi_dialogue.nlg.content.evidence import cleared, rests_on
 from xavi_dialogue.nlg.content.manoeuvres import denial, other_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
-from xavi_dialogue.nlg.content.reasons import suspected
+from xavi_dialogue.nlg.content.suspects import suspected
 from xavi_dialogue.nlg.content.tenses import PRESENT
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
 
-STANDING = 0.5  # [m/s]
+AT_LIMIT = 0.07  # of the limit, within which one drives at it
+YIELDS = frozenset(("give-way", "wait", "let-go"))
+CREEPING = 2.5  # [m/s] up to which one may speak of stopping
+STOPS = frozenset(("stop", "stand"))
 MARGIN = 0.5  # [m/s] over the limit that is no more than rounding
 #: Actions that exclude one another.
 WAYS = frozenset(("exit-left", "exit-right", "exit-straight", "change-left", "change-right"))
@@ -28,20 +32,24 @@ LESS = frozenset(("slow-down", "brake", "move", "follow", "go"))
 
 def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     """Plan why we drove as we did."""
-    past = is_past(answer.deed, context)
-    verdict = suspected(answer.suspect, answer.suspected, answer.cleared, answer.deed.begin)
+    past = answer.past or is_past(answer.deed, context)
     first = _driving(answer, context, past)
-    core = [one for one in (verdict, first) if one is not None]
-    details = [_expectation(c, answer, context, past=past) for c in answer.causes[:1]]
-    details += [_also(c, answer, context, past) for c in answer.causes[1:2]]
+    told = bool(answer.causes) and answer.causes[0].vehicle == answer.suspect
+    core = suspected(
+        first, answer.suspect, answer.suspected, answer.deed.begin, answer.cleared, told=told
+    )
+    first_of = answer.causes[0].vehicle if answer.causes else None
+    others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
+    details = [_also(c, answer, context, past) for c in others[:1]]
     more = [
-        *(_also(c, answer, context, past) for c in answer.causes[2:]),
+        *(_expectation(c, answer, context, past=past) for c in answer.causes[:1]),
+        *(_also(c, answer, context, past) for c in answer.causes[1:] if c not in others[:1]),
         *(_needed(c, answer, past=past) for c in answer.causes[:1]),
         cleared(answer.cleared, answer.deed.begin, past=past),
         rests_on(answer.evidence, None),
     ]
     return Plan(
-        tuple(core),
+        core,
         tuple(one for one in details if one is not None),
         tuple(one for one in more if one is not None),
         (),
@@ -59,13 +67,24 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
     causes = answer.causes or (MotionCause("plan"),)
     slots = {
         "past": past,
+        "yields": answer.deed.action in YIELDS and causes[0].kind == "right-of-way",
         "cause": motion_cause(
-            causes[0], answer.deed.begin, context, past=past, deed=answer.deed.action
+            replace(causes[0], value=None) if past and causes[0].kind != "limit" else causes[0],
+            _seen_at(causes[0], answer, context, past=past),
+            context,
+            past=past,
+            deed=answer.deed.action,
         ),
         "known": bool(answer.causes),
         "speed": speed_told(answer.deed.speed_to, context),
         "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
+        "at_limit": _at_limit(answer),
     }
+    if answer.form == "why" and slots["yields"] and answer.asked in ("let-go", "give-way"):
+        number = causes[0].vehicle
+        time = _seen_at(causes[0], answer, context, past=past)
+        who = None if number is None else Who(Vehicle(number), time)
+        return message("HAD_PRIORITY", who=who, past=past)
     pace = answer.deed.action in ("move", "follow", "go", "continue")
     if answer.form == "necessary":
         need = "own" if causes[0].kind in ("plan", "starting") else "yes"
@@ -78,10 +97,26 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         return message("PACE_CLOSE" if answer.manner != "slowly" else "PACE_SLOW", **slots)
     deed = _deed(answer, context, past)
     denied = None
-    if not answer.premise and answer.asked is not None and answer.asked != answer.deed.action:
+    if _misnamed(answer):
+        assert answer.asked is not None
         denied = denial(answer.asked, past=past)
         deed = _only(deed, answer)
-    return message("DRIVING", deed=deed, denied=denied, **slots)
+    return message("DRIVING", deed=deed, denied=denied, did=answer.form == "did", **slots)
+
+
+def _misnamed(answer: MotionReason) -> bool:
+    """Whether what we did is far from what the question called it: nowhere near a standstill."""
+    if answer.premise or answer.asked not in STOPS or answer.deed.action in STOPS:
+        return False
+    if any(cause.vehicle is not None for cause in answer.causes[:1]):
+        return False
+    return answer.deed.speed_to is None or answer.deed.speed_to > CREEPING
+
+
+def _at_limit(answer: MotionReason) -> bool:
+    """Whether we drove at the limit, but for rounding."""
+    speed, limit = answer.deed.speed_to, answer.limit
+    return speed is not None and limit is not None and abs(speed - limit) <= AT_LIMIT * limit
 
 
 def _over(answer: MotionReason) -> bool:
@@ -99,19 +134,13 @@ def _followed(answer: MotionReason) -> dict[str, object]:
     return {"other": Who(Vehicle(leader.vehicle), answer.deed.begin, placed=False)}
 
 
-def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
-    """The speed to be told; None where no numbers are wanted."""
-    if value is None or context.detail == "simpler":
-        return None
-    return Quantity(value, "m/s")
-
-
 def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
     """What we did; whom it was for is told by the reason."""
     deed = answer.deed
-    causes = {cause.vehicle for cause in answer.causes[:1]}
-    if isinstance(deed.object, Vehicle) and deed.object.number in causes:
+    if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
         deed = replace(deed, object=None)
+    if deed.action == "stop" and deed.end is None and not past:
+        deed = replace(deed, action="stand")
     if deed.action in ("move", "go", "continue") and deed.speed_to is not None:
         verb = "drive slowly" if context.detail == "simpler" else "drive at"
         rest = () if context.detail == "simpler" else (Quantity(deed.speed_to, "m/s"),)
@@ -127,49 +156,6 @@ def _only(deed: Clause, answer: MotionReason) -> Clause:
         return deed
     subject, verb, rest = deed.subject, deed.verb, deed.rest
     return Clause(subject, verb, rest, deed.tense, deed.progressive, adverb="only")
-
-
-# --- Causes ---------------------------------------------------------------------------------------
-
-
-def motion_cause(
-    cause: MotionCause, time: float, context: SpeechContext, *, past: bool, deed: str = ""
-) -> Message:
-    """Make the clause of one reason for how we drove.
-
-    Args:
-        cause: the reason.
-        time: [s] at which vehicles are described.
-        context: the situation.
-        past: it is past.
-        deed: what we did for that reason.
-    """
-    ahead = cause.kind in ("leader", "cut-in", "blocked")
-    who = None
-    if cause.vehicle is not None:
-        who = Who(Vehicle(cause.vehicle), time, placed=not ahead)
-    stands = cause.speed is not None and cause.speed < STANDING
-    unit = "m/s" if cause.kind == "limit" else "m"
-    value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
-    simple = context.detail == "simpler"
-    return message(
-        "DRIVEN_BY",
-        kind=cause.kind,
-        who=who,
-        past=past,
-        stands=stands,
-        speed=speed_told(cause.speed, context),
-        value=value,
-        number=None if simple else value,
-        lower=deed in ("slow-down", "brake"),
-        higher=deed == "speed-up",
-        foreseen=cause.kind == "cut-in" and cause.did is None and not _sure(cause),
-        **chances(cause.probability if cause.probability is not None else 1.0, context),
-    )
-
-
-def _sure(cause: MotionCause) -> bool:
-    return cause.probability is None or cause.probability >= SURE
 
 
 def _expectation(
@@ -202,7 +188,19 @@ def _also(
 ) -> Message | None:
     if cause.kind == "plan":
         return None
-    return message("ALSO_CAUSE", cause=motion_cause(cause, answer.deed.begin, context, past=past))
+    time = _seen_at(cause, answer, context, past=past)
+    return message("ALSO_CAUSE", cause=motion_cause(cause, time, context, past=past))
+
+
+def _seen_at(
+    cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
+) -> float:
+    """When [s] the vehicle of a reason is described: now where it goes on, if it is in view."""
+    times = (answer.deed.begin, context.now) if past else (context.now, answer.deed.begin)
+    if cause.vehicle is None:
+        return times[0]
+    looks = ((time, context.look(cause.vehicle, time)) for time in times)
+    return next((time for time, look in looks if look is not None and look.in_view), times[0])
 
 
 def _needed(cause: MotionCause, answer: MotionReason, *, past: bool) -> Message | None:

@@ -9,8 +9,9 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.nlg.content.clauses import doing, episode_clause, event_clause
 from xavi_dialogue.nlg.content.contrasts import EVEN, chances, telling
+from xavi_dialogue.nlg.content.driven import STANDING, speed_told
 from xavi_dialogue.nlg.content.manoeuvres import other_verbs
-from xavi_dialogue.nlg.content.motives import HALTS, STANDING, is_past, speed_told
+from xavi_dialogue.nlg.content.motives import HALTS, is_past
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause, about_vehicle
 from xavi_dialogue.nlg.content.tenses import PRESENT
@@ -50,12 +51,13 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         foreseen = answer.goal is not None and deed.action in answer.goal.expectations[0].actions
         core = Message(told.rule, {**told.slots, "foreseen": foreseen, "past": goal.slots["past"]})
         return Plan((core,), (), (), (), about_cause(answer))
-    details = () if goal is None else (goal,)
+    details = () if goal is None or cause is not None else (goal,)
     if deed is None and cause is None and goal is not None:
         return Plan((goal,), (message("MINDS_HIDDEN"),), (), (), about_cause(answer))
     core = Message("OTHER_DID", slots)
     more = [message("ALSO_THEIRS", cause=_their_cause(c, answer, context, past))
             for c in answer.causes[1:2]]  # fmt: skip
+    more += [goal] if goal is not None and cause is not None else []
     return Plan((core,), details, tuple(more), (), about_cause(answer))
 
 

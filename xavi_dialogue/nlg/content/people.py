@@ -83,7 +83,7 @@ def _one(
         event = eventful(answer.such) if answer.such is not None else None
         for fact, deed in zip(answer.facts, facts, strict=True):
             if event is not None and isinstance(fact, Episode) and fact.action == event.action:
-                return Plan((deed,), tuple(f for f in facts if f is not deed))
+                return Plan((deed,), _besides(fact, answer.facts, facts))
         conduct = {} if event is not None else conduct_slots(answer.facts, look, context)
         if conduct:
             return Plan((message("DID_CONDUCT", it=did, **conduct),))
@@ -105,6 +105,21 @@ def _one(
         standing=look.speed < STANDING,
     )
     return Plan((first,), () if lost else (details,))
+
+
+def _besides(
+    told: Episode, facts: tuple[Fact, ...], said: tuple[Message, ...]
+) -> tuple[Message, ...]:
+    """Tell of the other facts those that concern somebody else."""
+    whom = {told.object}
+    kept: list[Message] = []
+    for fact, one in zip(facts, said, strict=True):
+        target = fact.object if isinstance(fact, Episode) else None
+        if fact is told or (isinstance(fact, Episode) and target in whom):
+            continue
+        whom.add(target)
+        kept.append(one)
+    return tuple(kept)
 
 
 def conduct_slots(facts: tuple[Fact, ...], look: Look, context: SpeechContext) -> dict[str, object]:
@@ -203,8 +218,15 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
                         at_least=answer.at_least, whens=whens, one=answer.count == 1,
                         **span)  # fmt: skip
         return Plan((first,), () if whens else _listed(facts))
+    such = answer.such if isinstance(answer.such, Described) else None
+    amount = Number(answer.count, _noun(such or answer.of))
+    if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
+        rows = tuple(Who(Vehicle(f.vehicle)) for f in answer.facts[:MANY] if isinstance(f, Look))
+        did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
+        doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
+                        unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip
+        return Plan((doers,))
     past = answer.until is not None and context.now - answer.until > PRESENT
-    amount = Number(answer.count, _noun(answer.of))
     first = message("COUNTED_THINGS", past=past, number=amount, **_which(answer.of, context),
                     at_least=answer.at_least, **(span if past else {}))  # fmt: skip
     if len(facts) > FEW:

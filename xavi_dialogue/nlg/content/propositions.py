@@ -3,6 +3,7 @@
 import dataclasses
 from typing import assert_never, cast, get_args
 
+import msgspec
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.terms import (
@@ -18,6 +19,8 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
+    Lane,
     Measured,
     Nobody,
     Not,
@@ -27,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     That,
     Thing,
     Unknown,
+    Vehicle,
 )
 from xavi_dialogue.nlg.content.clauses import event_clause, relative_clause, state_word
 from xavi_dialogue.nlg.content.tenses import moment_of, tense_of
@@ -61,6 +65,9 @@ def clause_of(
             return _caused(that, now, negated, tense)
         case Believed():
             told = tense or tense_of(that.tense, that.time, now)
+            if isinstance(that.content, Happens) and isinstance(that.content.event.actor, Ego):
+                meant = clause_of(that.content, now, tense="future")
+                return Clause(Who(), "plan to", (values.Bare(meant),), told, negated=negated)
             content = clause_of(that.content, now)
             if told != "present" and content.tense == "future":
                 content = dataclasses.replace(content, tense="conditional")
@@ -86,22 +93,32 @@ def _related(that: Related, now: float, negated: bool, tense: Tense | None) -> C
     phrase = word("doings", "relation", that.relation)
     placed = that.relation not in PLACES
     modal = None
+    if phrase.startswith("!") and told == "future":
+        seeing = Who(that.thing, at, ride=True)
+        return Clause(seeing, phrase[1:], (Who(that.to, at), "again"), told, False, negated)
     if phrase.startswith("!"):
         modal, told = ("could", "present") if told == "past" else ("can", "present")
         phrase = phrase[1:]
     progressive = phrase.startswith("+") and told in ("present", "past")
     ride = that.relation != "can-see"
     subject = Who(that.thing, at, placed=placed, ride=ride)
-    other: object = Who(that.to, at, placed=placed or not isinstance(that.thing, Ego))
+    there = isinstance(that.to, Junction) and told != "future"
+    to = replace(that.to, rank=None) if there else that.to
+    other: object = Who(to, at, placed=placed or not isinstance(that.thing, Ego))
     if that.relation == "in-the-way-of":
         phrase, other = "be in", Owned(Who(that.to, at, ride=True), "way")
     return Clause(subject, phrase.lstrip("+"), (other,), told, progressive, negated, modal)
 
 
 def _is(that: Is, now: float, negated: bool, tense: Tense | None) -> Clause:
+    if that.state == "roomy" and isinstance(that.thing, Lane):
+        that = msgspec.structs.replace(that, state="free")
     told = tense or tense_of(that.tense, that.time, now)
     adjective = state_word(that.state, that.too)
     subject: Who | Clause | str
+    if isinstance(that.thing, Vehicle) and that.state in ("wrong", "right"):
+        about = Who(that.thing, moment_of(that.time))
+        return Clause(Who(), "be", (adjective, "about", about), told, negated=negated)
     if that.event is not None:
         subject = event_clause(that.event, now)
     elif that.thing is not None:
@@ -151,10 +168,30 @@ _FAR = {"more": "further away than", "less": "closer than", "same": "as far away
         "enough": "far enough away"}  # fmt: skip
 
 
+_FASTER = {"more": "faster", "less": "slower", "same": "just as fast"}
+_CLOSER = {"more": "further away", "less": "closer", "same": "just as far away"}
+_BIGGER = {"more": "bigger", "less": "smaller", "same": "the same"}
+
+
+def two_times(that: Proposition) -> bool:
+    """Tell whether a measure is compared with itself at another time."""
+    if not isinstance(that, Compares) or not isinstance(that.right, Measured):
+        return False
+    left, right = that.left, that.right
+    return (left.attribute, left.thing, left.to) == (right.attribute, right.thing, right.to)
+
+
 def _compares(that: Compares, now: float, negated: bool, tense: Tense | None) -> Clause:
     left = that.left
     told = tense or tense_of(left.tense, left.time, now)
     at = moment_of(left.time)
+    if two_times(that):
+        compared: Who | str = Who(left.thing, at, placed=False, ride=True)
+        if left.attribute not in ("speed", "distance"):
+            compared = f"the {word('doings', 'attribute', left.attribute)}"
+        table = {"speed": _FASTER, "distance": _CLOSER}.get(left.attribute, _BIGGER)
+        return Clause(compared, "be", (table.get(that.comparator, "the same"),), told,
+                      negated=negated)  # fmt: skip
     right = _right(that.right, at)
     owner = Who(left.thing, at, ride=True)
     by = (values.Quantity(that.by.value, that.by.unit),) if that.by is not None else ()
@@ -163,6 +200,8 @@ def _compares(that: Compares, now: float, negated: bool, tense: Tense | None) ->
         return Clause(owner, "be", (*by, words), told, negated=negated)
     if left.attribute == "speed" and not isinstance(that.right, Quantity):
         return Clause(owner, "be", (*by, _FAST[that.comparator], *right), told, negated=negated)
+    if left.attribute == "speed" and that.comparator == "same":
+        return Clause(owner, "do", right, told, True, negated=negated)
     if left.attribute in ("distance", "gap") and isinstance(left.to, Ego):
         subject = Who(left.thing, at, placed=False, ride=True)
         return Clause(subject, "be", (*by, _FAR[that.comparator], *right), told, negated=negated)
@@ -171,7 +210,8 @@ def _compares(that: Compares, now: float, negated: bool, tense: Tense | None) ->
         tail: tuple[object, ...] = ("to", Who(left.to, at))
         return Clause(f"the {noun}", "be", (*by, _DEGREES[that.comparator], *right, *tail), told,
                       negated=negated)  # fmt: skip
-    subject_noun = Owned(owner, noun)
+    ours = left.attribute == "limit" and isinstance(left.thing, Ego)
+    subject_noun: Owned | str = "the speed limit" if ours else Owned(owner, noun)
     return Clause(subject_noun, "be", (*by, _DEGREES[that.comparator], *right), told,
                   negated=negated)  # fmt: skip
 

@@ -209,6 +209,18 @@ def _listing(question: meaning.Listing, now: float) -> Asking:
     return Asking(*_LISTS[question.of])
 
 
+_PEAKS: Mapping[str, str] = {
+    "danger": "the most critical moment", "difficulty": "the hardest moment",
+    "closeness": "the closest moment", "braking": "the hardest braking",
+    "slowness": "the slowest moment", "speed": "the fastest moment",
+    "waiting": "the longest wait",
+}  # fmt: skip
+
+
+def _peak(question: meaning.Peak, now: float) -> Asking:
+    return Asking("subject", Clause("what", "be", (_PEAKS[question.of],)))
+
+
 def _summary(question: meaning.Summarise, now: float) -> Asking:
     return Asking("subject", Clause("what", "happen"))
 
@@ -258,6 +270,8 @@ _QUESTIONS: Mapping[type, Callable[[Any, float], Asking]] = {
     meaning.Doing: _doing,
     meaning.Compare: _compare,
     meaning.Listing: _listing,
+    meaning.Peak: _peak,
+    meaning.Changed: _literal("subject", Clause("what", "change")),
     meaning.Summarise: _summary,
     meaning.HowKnow: _how_know,
     meaning.HowSure: _how_sure,

@@ -1,10 +1,9 @@
 """Reasons: why we did or did not do something, and what would have come of doing otherwise."""
 
-from typing import Any, Literal
+from typing import Literal
 
-from xavi_dialogue.domain.answers import ChoiceReason, Contrast, SupposedOfUs
+from xavi_dialogue.domain.answers import ChoiceReason, Contrast
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import (
     cause_message,
     consequence_slots,
@@ -12,17 +11,23 @@ from xavi_dialogue.nlg.content.contrasts import (
     risks,
     told_cause,
 )
-from xavi_dialogue.nlg.content.evidence import continued, further
+from xavi_dialogue.nlg.content.driven import motion_cause
+from xavi_dialogue.nlg.content.evidence import further
 from xavi_dialogue.nlg.content.manoeuvres import deed_clause, own_verbs, planned_clause
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
+from xavi_dialogue.nlg.content.suspects import suspected
 from xavi_dialogue.nlg.context import SpeechContext
-from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
+HIGH = 0.05  # probability of a collision from which it is told though it did not decide
+CREEPING = 5.0  # [m/s] up to which one creeps
 GAIN = 0.5  # [s] from which something was worth it
 Need = Literal["forced", "needed", "not-strictly", "close", "no-choice", "way"]
 #: How a vehicle makes the foil worse only where it is done: no reason to be told before it.
+#: Reasons against which who was in our way is the better one to tell.
+WEAK = ("close", "same", "effort", "ride", "unsure", "late", "time", "alone")
 OF_FOIL = ("right-of-way", "collision", None)
 
 
@@ -35,47 +40,36 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         "denied": _denied(contrast, past=past),
         "need": _need(contrast),
         "worth": _worth(contrast),
-        "cause": _cause(contrast, context, past=past),
+        "cause": cause_of(contrast, context, past=past),
         "lead": _leads(contrast),
+        "ahead": _ahead(answer, context),
+        "hardly": _worth(contrast) != "yes" and not _creeps(answer),
+        "weak": _weak(answer),
     }
     rule = {
         "why": "WHY", "why-not": "WHY_NOT", "necessary": "NECESSARY", "worth-it": "WORTH_IT",
     }[answer.form]  # fmt: skip
-    verdict = suspected(answer.suspect, answer.suspected, contrast.cleared, contrast.decided)
     risk = risks(contrast, context, past=past)
-    core = [m for m in (verdict, risk, Message(rule, slots)) if m is not None]
+    first = Message(rule, slots)
     if context.detail == "less":
-        core = [_without_cause(m) for m in core]
+        first = _without_cause(first)
+    core = suspected(
+        first,
+        answer.suspect,
+        answer.suspected,
+        contrast.decided,
+        contrast.cleared,
+        told=_names(answer, answer.suspect) or context.detail == "less",
+    )
     more = further(contrast, context, past=past)
-    return Plan(tuple(core), _unsaid(answer, slots, context), more, (), about_cause(answer))
+    high = max(contrast.collision, contrast.fact_collision) >= HIGH
+    details = (risk,) if risk is not None and high else ()
+    more = more if risk is None or high else (risk, *more)
+    return Plan(core, details, more, (), about_cause(answer))
 
 
 def _without_cause(said: Message) -> Message:
-    return Message(said.rule, {**said.slots, "cause": None, "lead": False})
-
-
-def _unsaid(
-    answer: ChoiceReason, slots: dict[str, Any], context: SpeechContext
-) -> tuple[Message, ...]:
-    """What belongs to the reason and is not in its sentence: what the foil holds further."""
-    del slots, context
-    if answer.form in ("why", "why-not") and kind_of(answer.contrast) == "effort":
-        found = continued(answer.contrast, past=answer.past)
-        return () if found is None else (found,)
-    return ()
-
-
-def suspected(
-    suspect: int | None,
-    part: Literal["main", "part", "none"] | None,
-    cleared: tuple[int, ...] = (),
-    time: float | None = None,
-) -> Message | None:
-    """Make the verdict on the vehicle that the question takes for the cause."""
-    if suspect is None or part is None:
-        return None
-    who = Who(Vehicle(suspect), time)
-    return message("SUSPECTED", who=who, part=part, cleared=suspect in cleared)
+    return Message(said.rule, {**said.slots, "cause": None, "ahead": None, "lead": False})
 
 
 def _deed(answer: ChoiceReason, context: SpeechContext) -> Clause:
@@ -93,6 +87,41 @@ def _told_past(answer: ChoiceReason, context: SpeechContext) -> bool:
     return answer.past or ended
 
 
+def _weak(answer: ChoiceReason) -> bool:
+    """Whether who was ahead in the lane that we left is the better reason to tell."""
+    kind, ahead = kind_of(answer.contrast), answer.ahead
+    if ahead is None:
+        return False
+    cause = told_cause(answer.contrast)
+    how = None if cause is None or cause.vehicle != ahead.vehicle else cause.mechanism
+    if how is not None and not how.present:
+        return False  # what it was expected to do says more than where it was
+    struck = ahead.vehicle == answer.contrast.collided_with
+    return kind in WEAK or (kind == "risk" and struck)
+
+
+def _creeps(answer: ChoiceReason) -> bool:
+    """Whether the one ahead in the lane that we left stood or crept."""
+    speed = None if answer.ahead is None else answer.ahead.speed
+    return speed is not None and speed < CREEPING
+
+
+def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
+    """Whether the reason names a vehicle."""
+    cause = told_cause(answer.contrast)
+    if answer.ahead is not None and _weak(answer):
+        return answer.ahead.vehicle == vehicle
+    return cause is not None and cause.vehicle == vehicle
+
+
+def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
+    """Who stood or crept in the lane that we left."""
+    if answer.ahead is None:
+        return None
+    decided = answer.contrast.decided
+    return motion_cause(answer.ahead, decided, context, past=_told_past(answer, context))
+
+
 def _denied(contrast: Contrast, *, past: bool) -> Clause:
     """That we did not, or do not, do what the foil is."""
     verbs = own_verbs(contrast.foil, contrast.fact) or (Clause(Who(), "do otherwise"),)
@@ -101,7 +130,8 @@ def _denied(contrast: Contrast, *, past: bool) -> Clause:
     return Clause(Who(), verbs[0].verb, rest, tense, progressive=not past, negated=True)
 
 
-def _cause(contrast: Contrast, context: SpeechContext, *, past: bool) -> Message | None:
+def cause_of(contrast: Contrast, context: SpeechContext, *, past: bool) -> Message | None:
+    """Make a clause of who goes with the reason."""
     cause = told_cause(contrast)
     return None if cause is None else cause_message(cause, contrast, context, past=past)
 
@@ -134,29 +164,3 @@ def _worth(contrast: Contrast) -> Literal["yes", "hardly", "no"]:
     if contrast.close or (contrast.value is not None and contrast.value < GAIN):
         return "hardly"
     return "yes"
-
-
-# --- What if we had done otherwise ----------------------------------------------------------------
-
-
-def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
-    """Plan what would have come of another action of ours."""
-    contrast, past = answer.contrast, answer.past
-    cause = _cause(contrast, context, past=past)
-    slots = {
-        **consequence_slots(contrast, context, past=past),
-        "fact": own_verbs(contrast.fact, contrast.foil),
-        "cause": None if context.detail == "less" else cause,
-    }
-    risk = risks(contrast, context, past=past)
-    more = further(contrast, context, past=past)
-    if answer.done:
-        just = message("JUST_THAT", fact=slots["fact"], past=past)
-        rest = (Message("INSTEAD_OF_IT", slots),) if kind_of(contrast) != "alone" else ()
-        core = (just, *(m for m in (risk,) if m is not None), *rest)
-        return Plan(core, (), more, (), about_cause(answer))
-    told = Message("IF_WE", slots)
-    first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
-    core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
-    after = continued(contrast, past=past)
-    return Plan(core, () if after is None else (after,), more, (), about_cause(answer))

@@ -4,7 +4,7 @@ import msgspec
 
 from xavi_dialogue.domain.answers import Closeness, Comfort, Priority
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.agreement import verbs
 from xavi_dialogue.nlg.content.facts import episode_message
 from xavi_dialogue.nlg.content.measures import measure_message
@@ -17,40 +17,68 @@ from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
 NEAR = 1.0  # [m] closer than which a vehicle came very close
 CLOSE = 2.5  # [m] and close
 URGENT = 1.5  # [s] time to collision below which it was tight
+MANY = 3  # vehicles from which they are not named one by one
+_COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
 RISKY = 0.05  # risk of a collision from which it is called one
 
 
 def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
     """Plan who has right of way by the rules, and who went first in fact."""
-    past = context.now - answer.time > PRESENT
+    past = answer.first is not None or context.now - answer.time > PRESENT
     at = answer.time if past else None
-    who = Who(Vehicle(answer.vehicle), at) if answer.vehicle is not None else None
+    many = (answer.vehicle or 0, *answer.others)
+    named = Vehicles(many) if answer.others else Vehicle(answer.vehicle or 0)
+    who = Who(named, at) if answer.vehicle is not None else None
     words = verbs(past, many=True)
+    if answer.others:
+        words |= {"has": words["have"], "has_to": words["have_to"]}
     first = message(
         "RULE",
         rule=answer.rule,
+        all=_COUNTS.get(len(many)) if len(many) >= MANY else None,
         who=who,
-        when=Moment(answer.time) if past else None,
+        kept=_kept(answer),
+        asked=answer.holds is not None,
+        holds=answer.holds,
+        claim=answer.claim,
         **words,
     )
-    details: list[Message] = []
-    if answer.first is not None:
-        we = isinstance(answer.first, Ego)
-        details.append(message("WENT_FIRST", we=we, who=Who(answer.first, at)))
-    if answer.waited is not None:
-        details.append(episode_message(answer.waited, context))
-    details += [episode_message(deed, context) for deed in answer.deeds]
-    if answer.limit is not None and answer.limit.value is not None:
-        details.append(_within(answer.limit, words))
-    if answer.blame:
-        calm = answer.conflict is False
-        blame = message("BLAME", conflict=answer.conflict, calm=calm)
-        return Plan((blame,), (*(() if answer.rule == "none" else (first,)), *details))
-    return Plan((first,), tuple(details))
+    if not answer.blame:
+        return Plan((first,))
+    return _blamed(answer, first, past, context)
 
 
-def _within(limit: Measure, words: dict[str, str]) -> Message:
+def _blamed(answer: Priority, rule: Message, past: bool, context: SpeechContext) -> Plan:
+    """Plan the facts of a question of fault or law: no verdict, but the rule and what was done."""
+    told: list[Message] = []
+    if answer.legal and answer.limit is not None and answer.limit.value is not None:
+        told.append(_within(answer.limit, context))
+    if answer.rule != "none" and (answer.vehicle is not None or not answer.legal):
+        told.append(rule)
+    told += [episode_message(deed, context) for deed in answer.deeds[:1] if not told]
+    calm = answer.conflict is False and not told
+    blame = message("BLAME", conflict=answer.conflict, calm=calm, legal=answer.legal,
+                    told=tuple(told[:2]))  # fmt: skip
+    return Plan((blame,))
+
+
+def _kept(answer: Priority) -> str | None:
+    """Tell who of both went first, and whether the rule has it so."""
+    if answer.first is None or answer.vehicle is None:
+        return None
+    ours = isinstance(answer.first, Ego)
+    if answer.rule == "priority":
+        return "it-did" if ours else "it-first"
+    if answer.rule == "give-way":
+        first = "we-first-stood" if answer.stood else "we-first"
+        return first if ours else "we-did"
+    return ("we-first" if ours else "it-went") if answer.rule in ("equal", "depends") else None
+
+
+def _within(limit: Measure, context: SpeechContext) -> Message:
     assert limit.value is not None
+    past = context.now - limit.time > PRESENT
+    ours = isinstance(limit.thing, Ego)
     speed = limit.value if limit.attribute == "speed" else (limit.reference or 0.0)
     bound = limit.reference if limit.attribute == "speed" else limit.value
     return message(
@@ -58,7 +86,9 @@ def _within(limit: Measure, words: dict[str, str]) -> Message:
         over=bound is not None and speed > bound + 0.3,
         speed=Quantity(speed, "m/s"),
         limit=Quantity(bound or 0.0, "m/s"),
-        were=words["were"],
+        who=Who(limit.thing, limit.time if past else None, ride=True),
+        were=verbs(past, many=ours)["be"],
+        past=past,
     )
 
 
@@ -99,11 +129,12 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     details: list[Message] = []
     if answer.risk is not None and (closest is None or (answer.asked == "hit" and not answer.past)):
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
-        return Plan((risk,), (Message("DISTANT", first.slots),) if closest is not None else ())
+        return Plan((risk,))
     left = answer.ttc.value if answer.ttc is not None else None
-    if left is not None and left <= 2 * URGENT:
+    judged = answer.asked in ("safe", "dangerous")
+    if judged and left is not None and left <= 2 * URGENT:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
-    if answer.risk is not None:
+    elif judged and answer.risk is not None:
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
     return Plan((first,), tuple(details))
 
@@ -127,6 +158,8 @@ def _lead(answer: Closeness) -> str | None:
             return "yes, that was close" if near and answer.past else "yes" if near else "no"
         case "dangerous":
             return "it was tight" if tight and answer.past else "it is tight" if tight else "no"
+    if answer.asked == "room" and not tight:
+        return "yes, there was enough room" if answer.past else "yes, there is enough room"
     if tight:
         return "it was tight" if answer.past else "it is tight, and I am taking care"
     return "yes, it was safe" if answer.past else "yes, it is safe"

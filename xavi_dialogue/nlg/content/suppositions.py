@@ -12,7 +12,7 @@ from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Tense, Who
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Tense, Who
 
 LIKELY = 0.5  # probability from which a collision is told as what comes
 KNOWN = 0.005  # probability from which something was reckoned with
@@ -33,6 +33,11 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     if answer.asked is not None:
         event = event_clause(answer.asked, context.now)
         slots["asked"] = Clause(event.subject, event.verb, event.rest)
+    slots["slows"] = answer.slows
+    timed = _timed(answer)
+    if timed is not None:
+        told = Message("SUPPOSED_ARRIVAL", {**slots, **timed})
+        return Plan((told,), (), (), (), about_cause(answer))
     crash = _crash(answer)
     if crash is not None:
         slots |= {"crash": True, "risk": Chance(crash.collision), "struck": _struck(crash)}
@@ -42,16 +47,30 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     risky = risky and (crash is None or answer.asked is not None)
     core = (first, outcome) if risky and outcome is not None else (first,)
     outcome = None if crash is not None else outcome
-    details = [_prior(answer, context), None if risky else outcome]
+    details = () if risky or outcome is None else (outcome,)
     contrast = answer.contrast
-    more = None if contrast is None else rests_on(contrast.evidence, contrast.decided)
+    rests = None if contrast is None else rests_on(contrast.evidence, contrast.decided)
+    more = tuple(one for one in (_prior(answer, context), rests) if one is not None)
     return Plan(
         core,
-        tuple(one for one in details if one is not None),
-        () if more is None else (more,),
+        details,
+        more,
         (),
         about_cause(answer),
     )
+
+
+def _timed(answer: SupposedOfOther) -> dict[str, Any] | None:
+    """The slots for when we would be there, where that is what is asked."""
+    if answer.form not in ("arrival", "quicker") or answer.contrast is None:
+        return None
+    effect = time_effect(answer.contrast)
+    return {
+        "verdict": answer.form == "quicker",
+        "sooner": effect is not None and effect.delta < 0.0,
+        "delta": None if effect is None else Quantity(abs(effect.delta), "s"),
+        "arrival": None if answer.arrival is None else Moment(answer.arrival),
+    }
 
 
 def _crash(answer: SupposedOfOther) -> Contrast | None:

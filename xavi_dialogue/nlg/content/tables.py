@@ -5,14 +5,17 @@ from xavi_dialogue.nlg.content import (
     beliefs,
     clarifications,
     conduct,
+    courses,
     people,
     quizzes,
+    requests,
     safety,
+    summits,
     talk,
     whereabouts,
 )
 from xavi_dialogue.nlg.content.happenings import plan_happenings
-from xavi_dialogue.nlg.content.joint_measures import plan_measures
+from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures
 from xavi_dialogue.nlg.content.plan import Planner
 from xavi_dialogue.nlg.content.verdicts import plan_verdict
 
@@ -23,9 +26,14 @@ FACTS: dict[type, Planner] = {
     answers.Counted: people.plan_counted,
     answers.Located: whereabouts.plan_located,
     answers.Happenings: plan_happenings,
+    answers.Lasted: plan_lasted,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,
+    answers.Course: courses.plan_course,
+    answers.Summit: summits.plan_summit,
+    answers.Decided: summits.plan_decided,
+    answers.Altered: summits.plan_altered,
     answers.Beliefs: beliefs.plan_beliefs,
     answers.Options: beliefs.plan_options,
     answers.Compared: beliefs.plan_compared,
@@ -33,7 +41,7 @@ FACTS: dict[type, Planner] = {
     answers.Comfort: safety.plan_comfort,
     answers.Closeness: safety.plan_closeness,
     answers.Comforting: talk.plan_comforting,
-    answers.Declined: talk.plan_declined,
+    answers.Declined: requests.plan_declined,
     answers.Sociable: talk.plan_sociable,
     answers.Helpful: talk.plan_helpful,
     answers.Acknowledged: talk.plan_acknowledged,

@@ -26,9 +26,9 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlg.content.clauses import event_clause
 from xavi_dialogue.nlg.content.facts import episode_message, fact_message, look_message, verbs_of
 from xavi_dialogue.nlg.content.joint_measures import measure_messages
-from xavi_dialogue.nlg.content.measures import measure_message
+from xavi_dialogue.nlg.content.measures import STANDING, UNITS, measure_message
 from xavi_dialogue.nlg.content.plan import Plan
-from xavi_dialogue.nlg.content.propositions import PLACES, clause_of, eventful
+from xavi_dialogue.nlg.content.propositions import PLACES, clause_of, eventful, two_times
 from xavi_dialogue.nlg.content.tenses import PRESENT
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -64,6 +64,9 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
     slots["either"] = answer.either
     said = clause_of(answer.that, context.now, negated=not answer.holds)
     inside, outside = tuple(facts[:IN_ONE]), tuple(facts[IN_ONE:])
+    if two_times(_inner(answer.that)) and (then := _now_and_then(answer)) is not None:
+        it = message("NOW_AND_THEN", it=said, **then)
+        return Plan((message("YES" if answer.holds else "NO", it=it, **slots),))
     limited = _within_limit(answer)
     if limited is not None:
         it = Message("MEASURE_SPEED", {**measure_message(limited, context).slots, "told": True})
@@ -81,6 +84,17 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
     return Plan((first,), (*outside, *beliefs))
 
 
+def _now_and_then(answer: Verdict) -> dict[str, object] | None:
+    """The value now and at the other time that it is compared with."""
+    values = [f for f in answer.facts if isinstance(f, Measure) and f.value is not None]
+    if len(values) < 2:
+        return None
+    now, then = values[0], values[1]
+    unit = UNITS.get(now.attribute, "count")
+    return {"first": Quantity(now.value or 0.0, unit), "second": Quantity(then.value or 0.0, unit),
+            "when": Moment(then.time)}  # fmt: skip
+
+
 def _telling(answer: Verdict) -> tuple[Fact, ...]:
     """The facts that say something beside the verdict, as much as one sentence holds."""
     that, event = answer.that, eventful(answer.that)
@@ -91,7 +105,7 @@ def _telling(answer: Verdict) -> tuple[Fact, ...]:
             same = (fact.relation, fact.thing, fact.to) == (that.relation, that.thing, that.to)
             if same and fact.holds == answer.holds:
                 continue
-        if _said_by_other(fact, answer.facts):
+        if _said_by_other(fact, answer.facts) or _said_by_verdict(fact, answer):
             continue
         asked = event is not None and event.action == "change-plan"
         if isinstance(fact, Episode) and fact.action == "change-plan" and not asked:
@@ -106,7 +120,10 @@ def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
     """Whether another fact tells it already: a change of speed the speed, or that it moves."""
     if isinstance(fact, Measure) and fact.attribute == "speed":
         thing = fact.thing
-        deeds = (f for f in facts if isinstance(f, Episode) and f.actor == thing)
+        deeds = [f for f in facts if isinstance(f, Episode) and f.actor == thing]
+        stands = (fact.value or 0.0) < STANDING
+        if stands and any(f.action in ("stand", "stop", "wait", "give-way") for f in deeds):
+            return True
         return any(f.action in TELLING and f.speed_to is not None for f in deeds)
     if isinstance(fact, Episode) and fact.action in ("go", "move"):
         return any(
@@ -114,6 +131,15 @@ def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
             for f in facts
         )
     return False
+
+
+def _said_by_verdict(fact: Fact, answer: Verdict) -> bool:
+    """Whether it is the speed of what is said to stand still."""
+    that = _inner(answer.that)
+    if not isinstance(that, Is) or not isinstance(fact, Measure) or fact.attribute != "speed":
+        return False
+    still = that.state == "stationary" and answer.holds != isinstance(answer.that, Not)
+    return still and fact.value is not None and fact.value < STANDING
 
 
 def _inner(that: Proposition) -> Proposition:
@@ -172,6 +198,9 @@ def _tells_it(answer: Verdict, context: SpeechContext) -> bool:
         return False
     fact, event = answer.facts[0], eventful(answer.that)
     if not answer.holds:
+        did = isinstance(answer.that, Not) and isinstance(fact, Episode) and event is not None
+        if did and isinstance(fact, Episode) and event is not None:
+            return fact.actor == event.actor and _alike(fact, event)
         return _other_value(answer.that, fact)
     if isinstance(answer.that, Not):
         return False
@@ -179,6 +208,8 @@ def _tells_it(answer: Verdict, context: SpeechContext) -> bool:
         return fact.actor == event.actor and _alike(fact, event)
     if isinstance(fact, Measure):
         that = answer.that
+        if isinstance(that, Compares):
+            return _other_value(that, fact)
         return isinstance(that, Has) and that.attribute == fact.attribute
     if isinstance(fact, Look):
         that = answer.that
@@ -216,6 +247,9 @@ def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, obj
 
 def _other_value(that: Proposition, fact: Fact) -> bool:
     """Whether a fact gives the value that is so instead of the one asked for."""
+    if isinstance(that, Compares) and that.comparator == "same" and isinstance(fact, Measure):
+        number = isinstance(that.right, terms.Quantity)
+        return number and (that.left.attribute, that.left.thing) == (fact.attribute, fact.thing)
     if isinstance(that, Has) and isinstance(fact, Measure):
         return that.attribute == fact.attribute and that.thing == fact.thing
     return False
@@ -241,7 +275,10 @@ def _unknown(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
-    """Plan what is still to come: a word of chance, and the percentage."""
+    """Plan what is still to come: a word of chance, the percentage, and what is likelier."""
+    if isinstance(answer.that, Not) and eventful(answer.that) is not None:
+        sought = 1.0 - (answer.probability or 0.0)
+        answer = replace(answer, that=_inner(answer.that), probability=sought)
     assert answer.probability is not None
     event = eventful(answer.that)
     tense: Tense = "present"
@@ -261,13 +298,25 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
             return Plan((message("TIMED", it=timed, soon=soon, at_once=at_once),), facts)
         facts = (message("LIKELY_WHEN", soon=soon, at_once=at_once), *facts)
     chance = Chance(answer.probability)
-    slots = {"it": clause, "chance": chance, "either": answer.either, "claim": answer.claim}
+    slots = {"it": clause, "chance": chance, "either": answer.either, "claim": answer.claim,
+             **_likelier(answer)}  # fmt: skip
     if event is not None and isinstance(event.actor, Ego) and clause.tense == "future":
         if answer.probability >= CERTAIN:
             return Plan((message("YES", **slots),), facts)
         if answer.probability <= 1.0 - CERTAIN:
             return Plan((message("NO", **{**slots, "it": denied(clause)}),), facts)
     return Plan((message("LIKELIHOOD", **slots),), facts)
+
+
+def _likelier(answer: Verdict) -> dict[str, object]:
+    """What is expected of a vehicle of which something unlikely was asked."""
+    belief = next((b for b in answer.believed if b.expectations), None)
+    if belief is None or answer.probability is None or answer.probability >= LIKELY:
+        return {}
+    first = belief.expectations[0]
+    if first.probability < LIKELY:
+        return {}
+    return {"instead": verbs_of(first.actions), "instead_chance": Chance(first.probability)}
 
 
 def denied(clause: Clause) -> Clause:

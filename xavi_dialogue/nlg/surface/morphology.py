@@ -122,6 +122,8 @@ def clause(value: Clause, form: str, speaker: Speaker) -> str:
         return f"{subject} {parts.support} {deny}".strip()
     if form == "question":
         words = f"{parts.support} {subject} {deny} {adverb} {parts.verbs} {_rest(value, speaker)}"
+    elif value.negated and subject == "everybody":
+        words = f"not {subject} {parts.auxiliary} {adverb} {parts.plain} {_rest(value, speaker)}"
     elif value.negated:
         words = f"{subject} {parts.support} {adverb} not {parts.verbs} {_rest(value, speaker)}"
     else:

@@ -2,48 +2,74 @@
 
 from typing import Any, cast
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
+    AskHelp,
     Claim,
+    Elliptic,
+    Fault,
+    HowKnow,
     Identify,
     Question,
     Repair,
+    Request,
     Social,
+    WhatIf,
     Whether,
     Why,
 )
 from xavi_dialogue.domain.terms import (
     Believed,
+    Compares,
+    Described,
     Ego,
     Event,
+    Everyone,
     Happens,
+    Is,
+    Measured,
+    Nobody,
     Not,
     Passenger,
     Pronoun,
     Proposition,
     Related,
+    That,
+    Unsaid,
+    Vehicle,
 )
+from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.fragments import Fragments
+from xavi_dialogue.nlu.compose.nominal import asked_each
 from xavi_dialogue.nlu.compose.orders import Orders
 from xavi_dialogue.nlu.compose.phrases import Phrases
+from xavi_dialogue.nlu.compose.polar import judged
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Notes, as_thing
 from xavi_dialogue.nlu.compose.states import ungoverned
-from xavi_dialogue.nlu.compose.talk import feeling_of, talk_act
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
+from xavi_dialogue.nlu.compose.talk import feeling_of, says, talk_act
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, words_of
 from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.whys import lacking
 from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 Acts = tuple[Act, ...]
 Found = list[tuple[Acts, float]]
+_AUXILIARY = frozenset({"BE", "DO", "HAVE", "HAD", "MODAL"})
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
 NOTHING = 2.5  # cost of a unit of which nothing can be made
+SHORT = 0.5  # of "if you had" before an order
 STATED = 0.15  # of a statement taken for a question
+#: What is asked rather than bidden where it ends with a question mark.
+_WAYS = frozenset({"exit-left", "exit-right", "exit-straight", "turn", "change-left",
+                   "change-right", "change-lane", "reverse", "continue", "leave", "go"})  # fmt: skip
 
 
 class Composer:
@@ -72,7 +98,11 @@ class Composer:
         return [((*talk, *acts), cost) for acts, cost in found]
 
     def _talk(self, unit: Node) -> Found:
-        act = talk_act(cast(Leaf, unit.parts[0])) if unit.parts else None
+        said = [p for p in unit.parts if isinstance(p, Leaf) and p.category in _TALKING]
+        act = talk_act(said[0] if said else cast(Leaf, unit.parts[0])) if unit.parts else None
+        asked = isinstance(act, Social) and act.kind == "how-are-you"
+        if asked and leaf_of(unit, "P"):  # "what is up with that van"
+            return []
         return [((act,) if act is not None else (), 0.0)]
 
     # --- questions ---------------------------------------------------
@@ -91,6 +121,8 @@ class Composer:
         wh = self.questions.wh_of(wh_node)
         clause = Clause()
         found = self.questions.asked(wh, parts, clause)
+        if wh.kind in ("how", "what", "where") and says(clause):
+            return [((AskHelp(),), 0.0)]
         if (
             clause.verb is not None
             and clause.verb.key == "mean"
@@ -100,15 +132,27 @@ class Composer:
             if wh.kind in ("who", "which"):
                 return [((Ask(Identify(Pronoun("that"))),), 0.0)]
             return [((Repair(kind),), 0.0)]
+        if wh.kind == "why" and unit.name == "ask_lacking" and clause.verb is None:
+            return [((lacking(clause),), 0.0)]
+        if wh.kind == "why" and leaf_of(unit, "THINKQ"):
+            found = [(_grounds(question), cost) for question, cost in found]
+        named = next((sem for sem, _ in clause.objects), clause.subject)
+        each = asked_each(named, clause.time, clause.tense) if wh.kind == "what" else ()
+        if each and clause.verb is None:
+            return [(tuple(Ask(question) for question in each), 0.0)]
         return [((Ask(question),), cost) for question, cost in found]
 
     def _polar(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
         if clause.feelings and _of_you(unit, clause):
             return [((Social("are-you-human"),), 0.1)]
+        if says(clause) and clause.question is None:
+            return [((AskHelp(),), 0.1)]
         order = self.orders.polite(clause)
         if order is not None:
             return [(order, 0.0)]
+        if _supposes(unit, clause) and (supposed := self.questions.supposed(clause)) is not None:
+            return [((Ask(WhatIf(supposed)),), 0.0)]
         found = self.questions.whether(clause)
         if not found and unit.name == "polar_short":
             return self.fragments.short(clause)
@@ -124,17 +168,22 @@ class Composer:
         order = self.orders.stated(clause)
         if order is not None:
             return [(order, 0.0)]
-        if isinstance(clause.subject, Ego) and any(key == "rude" for key, _ in clause.adjectives):
+        if isinstance(clause.subject, Ego) and any(
+            key in ("rude", "opinion") for key, _ in clause.adjectives
+        ):
             return [((Social("insult"),), 0.0)]
+        opinion = any(key == "opinion" for key, _ in clause.adjectives)
+        if opinion and not isinstance(clause.subject, Ego):
+            return [((Ask(Fault(That(), judged(clause))),), 0.0)]
         candidates = self.propositions.readings(clause)
         tagged = _tagged(unit)
-        if (tagged or self.asks) and not clause.feelings:
+        if (tagged or self.asks or not candidates) and not clause.feelings:
             compared = self.questions.comparison(clause)
             if compared is not None:
                 return [((Ask(self.questions.framed(compared, clause, None)),), STATED)]
         found: Found = []
         for candidate in candidates:
-            acts = self._stated(clause, candidate.value, tagged)
+            acts = self._stated(clause, candidate.value, tagged, words_of(unit))
             found.append((acts, candidate.cost))
         if not candidates and clause.feelings:
             feeling = feeling_of(clause, None)
@@ -152,7 +201,7 @@ class Composer:
         thing = next((t for sem in sems if (t := as_thing(sem)) is not None), None)
         return Repair("meant", thing) if thing is not None and thing != Ego() else None
 
-    def _stated(self, clause: Clause, value: Any, tagged: bool) -> Acts:
+    def _stated(self, clause: Clause, value: Any, tagged: bool, unit_words: str) -> Acts:
         feeling = feeling_of(clause, value)
         if feeling is not None:
             return (feeling,)
@@ -160,15 +209,27 @@ class Composer:
         if asked:
             return asked
         of = self.propositions.joined(clause, fact(value))
+        if (why := _groundless(unit_words, of)) is not None:
+            return (Ask(why),)
+        if isinstance(value, Special) and isinstance(clause.subject, Passenger) and _thinks(value):
+            of = Not(value.content) if value.content is not None else of
+        of = _in_our_place(of, clause)
+        if clause.there and clause.inner is not None and isinstance(of, Not | Is):
+            return (Ask(Why(Happens(replace(clause.inner, tense=cast(Any, clause.tense))))),)
         if isinstance(value, Special) and isinstance(clause.subject, Passenger):
             expected = self._expected(value)
             if expected is not None:
                 return (Ask(expected),)
         if tagged or self.asks:
             question = self.questions.polar(clause, value, tag=True)
+            match question:
+                case Whether(that=Is(state="stationary") as still) if "not moving" in unit_words:
+                    question = Whether(Not(replace(still, state="moving")), True)
             if isinstance(value, Special) and isinstance(of, Believed):
                 question = Whether(of, True)
             return (Ask(self.questions.framed(question, clause, value)),)
+        if clause.because is not None and isinstance(of, Happens):
+            return (Ask(self.questions.polar(clause, value, tag=False)),)
         if isinstance(of, Related) and of.thing == Passenger() and of.relation == "with":
             return (Social("acknowledge"),)
         supposed = self.questions.supposition(clause)
@@ -180,6 +241,8 @@ class Composer:
         """Take "I expected you to stop" for the question why not."""
         if value.name in ("believe", "wish", "want") and value.content is not None:
             content = value.content
+            if _thinks(value):
+                return None
             if value.clause.negated:
                 return Why(content)
             return Why(content.content if isinstance(content, Not) else Not(content))
@@ -198,10 +261,31 @@ class Composer:
         leaf = clause.verb
         if leaf is None or leaf.form != "base":
             return []
-        return self.orders.order(clause, negated=_forbids(unit))
+        given = clause.condition
+        short = given is not None and given.verb is None and bool(given.aux)
+        found = [(acts, cost + SHORT * short)
+                 for acts, cost in self.orders.order(clause, negated=_forbids(unit))]  # fmt: skip
+        asks = self.asks and "PLEASE" not in {leaf.category for leaf in leaves_of(unit)}
+        if not asks or _forbids(unit):
+            return found
+        return [(self._asks_back(acts), cost) for acts, cost in found]
+
+    def _asks_back(self, acts: Acts) -> Acts:
+        """Take "back again?", "left here?" for the question whether we do so."""
+        first = acts[0] if acts else None
+        if not isinstance(first, Request) or first.event.action not in _WAYS:
+            return acts
+        return (Ask(Whether(Happens(first.event))), *acts[1:])
 
     def _fragment(self, unit: Node) -> Found:
         return self.fragments.fragment(unit)
+
+    def _topic(self, unit: Node) -> Found:
+        """Read what is named first and taken up by a pronoun of the next unit."""
+        named = [p for p in unit.parts if isinstance(p, Node) and p.name in ("np", "group")]
+        thing = as_thing(self.phrases.nouns.read(named[0]))
+        told = isinstance(thing, Described | Vehicle)
+        return [((Elliptic(thing),), 0.0)] if told else []
 
     def _ask_bare(self, unit: Node) -> Found:
         return self.fragments.bare_question(unit)
@@ -230,6 +314,7 @@ _RULES = {
     "declarative": "_declarative",
     "imperative": "_imperative",
     "fragment": "_fragment",
+    "topic": "_topic",
     "adverbial": "_fragment",
     "about": "_about",
     "supposed": "_supposed",
@@ -245,6 +330,18 @@ def _lead_act(part: Part) -> Act | None:
     if isinstance(part, Leaf) and part.category == "NO":
         return Social("disagree")
     return None
+
+
+def _supposes(unit: Node, clause: Clause) -> bool:
+    """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact."""
+    had = next((p for p in unit.parts if isinstance(p, Leaf) and p.category in _AUXILIARY), None)
+    timed = not isinstance(clause.time, Unsaid) or clause.focus or clause.manner
+    return had is not None and had.category == "HAD" and clause.verb is not None and not timed
+
+
+def _grounds(question: Question) -> Question:
+    """Take "why do you think he stops" for the question what shows it."""
+    return HowKnow(question.of) if isinstance(question, Why) else question
 
 
 def _of_you(unit: Node, clause: Clause) -> bool:
@@ -266,6 +363,43 @@ def _tagged(unit: Node) -> bool:
 
 def _forbids(unit: Node) -> bool:
     return any(isinstance(p, Leaf) and p.category == "NOT" for p in unit.parts)
+
+
+_GROUNDLESS = ("for no reason", "for no good reason", "for nothing", "without reason",
+               "without any reason", "without a reason", "needlessly", "unnecessarily")  # fmt: skip
+
+
+def _groundless(words: str, of: Proposition) -> Question | None:
+    """Take "you braked for nothing" for the question why: what it disputes is the reason."""
+    if not any(phrase in words for phrase in _GROUNDLESS) or not isinstance(of, Happens):
+        return None
+    event = of.event
+    return Why(Happens(replace(event, object=None) if event.object == Nobody() else event))
+
+
+def _thinks(value: Special) -> bool:
+    """Say whether it is "I do not think that ...": the contrary is claimed."""
+    verb = "" if value.clause.verb is None else value.clause.verb.key
+    return value.clause.negated and verb in ("think", "believe", "suppose", "reckon")
+
+
+def _in_our_place(of: Proposition, clause: Clause) -> Proposition:
+    """Take what "any driver would have done" for what we should have."""
+    match of:
+        case Not(content=content):
+            return Not(_in_our_place(content, clause))
+        case Compares(left=Measured(attribute="speed", thing=driver), comparator=more) if (
+            driver == Described(definite=False) and clause.modal == "would"
+        ):
+            paces: tuple[Manner, ...] = ("slowly",) if more == "less" else ("fast",)
+            return Happens(Event("move", Ego(), None, None, paces, tense="past", modal="should"))
+        case Happens(event=Event(actor=actor, modal="would", tense="past") as event) if (
+            actor == Described(definite=False) or isinstance(actor, Everyone)
+        ):
+            return Happens(replace(event, actor=Ego(), modal="should"))
+        case Happens(event=Event(actor=Nobody(), modal="would", tense="past") as event):
+            return Not(Happens(replace(event, actor=Ego(), modal="should")))
+    return of
 
 
 def _disputes(of: Proposition, clause: Clause) -> bool:

@@ -4,11 +4,14 @@ from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
+    Believed,
+    Both,
     Compares,
     Described,
     Ego,
     Event,
     Happens,
+    Is,
     Junction,
     Measured,
     Not,
@@ -25,6 +28,8 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
+from xavi_dialogue.nlu.compose.tree import is_negated
+from xavi_dialogue.nlu.grammar.chart import Node
 
 _OF = frozenset({"for", "of", "about", "into", "over", "with", "from", "between", "on", "in"})
 _COMPARED = {"fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
@@ -57,6 +62,9 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
     """Add a phrase to a noun; None where it cannot be."""
     other = phrase.sem
     if isinstance(sem, Noun) and phrase.key in _OF and sem.about is None:
+        inner = phrase.node.parts[-1] if isinstance(phrase.node, Node) else None
+        if isinstance(other, Event) and isinstance(inner, Node) and is_negated(inner):
+            return replace(sem, about=other, clause=Not(Happens(other)))
         return replace(sem, about=other)
     if isinstance(sem, Measure) and other is not None:
         return _measured(sem, phrase.key, other)
@@ -88,7 +96,7 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
     thing = as_thing(other)
     if thing is None or key not in _OF or isinstance(other, Group):
         return None
-    if key == "of":
+    if key == "of" or (measured.attribute == "probability" and isinstance(measured.thing, Ego)):
         return replace(sem, of=with_fields(measured, thing=thing))
     return replace(sem, of=with_fields(measured, to=thing))
 
@@ -113,14 +121,36 @@ def exceeding(clause: Clause, event: Event) -> Proposition | None:
     speed = Measured("speed", event.actor, time=event.time, tense=event.tense)
     if than.unit == "count":
         than = Quantity(round(than.value / 3.6, 6), "m/s")  # nobody says "km/h"
+    if event.modal in ("can", "could", "might") and event.tense == "present":
+        return Compares(with_fields(speed, attribute="limit"), cast(Any, _AMOUNTS[key]), than)
     return Compares(speed, cast(Any, _AMOUNTS[key]), than)
+
+
+def _paced(clause: Clause, event: Event) -> Proposition | None:
+    """Read "we are going too fast" as a state: how fast it is, not what is done."""
+    state = "fast" if "fast" in event.manner else "slow" if "slowly" in event.manner else None
+    whole = event.object is None and event.where is None and event.side is None
+    plain = event.action in ("go", "move") and not clause.comparisons and event.modal is None
+    if state is None or not plain or not whole or clause.subject is None:
+        return None
+    return Is(cast(Any, state), event.actor, too="too" in clause.focus, time=event.time,
+              tense=event.tense)  # fmt: skip
 
 
 def compared(clause: Clause, event: Event) -> Proposition | None:
     """Read "he goes faster than us" as a comparison."""
-    if not clause.comparisons or clause.than is None or isinstance(clause.than, Clause):
-        return None
+    paced = _paced(clause, event)
+    if paced is not None or not clause.comparisons:
+        return paced
     key = clause.comparisons[0][0]
+    if key in _COMPARED and not isinstance(clause.than_time, Unsaid):
+        return compared_times(clause, *_COMPARED[key], event.actor)
+    if clause.than is None or isinstance(clause.than, Clause):
+        return None
+    if key in ("close", "far") and isinstance(clause.than, Quantity) and clause.than.unit == "m":
+        near = Measured("distance", event.actor, event.object or Ego(), time=event.time,
+                        tense=event.tense)  # fmt: skip
+        return Compares(near, "less" if key == "close" else "more", clause.than)
     if event.action in ("move", "go") and (found := exceeding(clause, event)) is not None:
         return found
     thing = as_thing(clause.than)
@@ -134,6 +164,14 @@ def compared(clause: Clause, event: Event) -> Proposition | None:
     )  # fmt: skip
 
 
+def compared_times(clause: Clause, attribute: str, direction: str, thing: Thing) -> Proposition:
+    """Read "we are faster than when we came in" as a comparison with another time."""
+    left = Measured(cast(Any, attribute), thing, time=clause.time, tense=cast(Any, clause.tense))
+    return Compares(
+        left, cast(Any, direction), with_fields(left, time=clause.than_time, tense="past")
+    )
+
+
 def timed(of: Proposition, time: Time) -> Proposition:
     """Put a time into an event that has none of its own."""
     match of:
@@ -142,3 +180,24 @@ def timed(of: Proposition, time: Time) -> Proposition:
         case Not(content=content):
             return Not(timed(content, time))
     return of
+
+
+def as_of(of: Proposition, tense: str) -> Proposition:
+    """Give a clause without a tense that of the clause it belongs to: "made you stop"."""
+    past = tense in ("past", "perfect")
+    match of:
+        case Not(content=content):
+            return Not(as_of(content, tense))
+        case Both(contents=contents, join=join):
+            return Both(tuple(as_of(one, tense) for one in contents), join)
+        case Believed(content=content, time=time, tense="present") if past:
+            return Believed(content, time, cast(Any, tense))
+        case Happens(event=event) if past:
+            return Happens(_event_as_of(event, tense))
+    return of
+
+
+def _event_as_of(event: Event, tense: str) -> Event:
+    then = event.then if event.then is None else _event_as_of(event.then, tense)
+    own = tense if event.tense == "present" else event.tense
+    return cast(Event, with_fields(event, tense=own, then=then))

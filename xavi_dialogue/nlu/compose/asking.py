@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
+    Changed,
     HowAvoid,
     HowDecide,
     HowKnow,
@@ -10,6 +11,8 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Listing,
     Question,
+    Summarise,
+    WhatWouldChange,
     When,
     Where,
     Whither,
@@ -17,17 +20,23 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Ego,
+    Event,
     Exists,
     Happens,
     Is,
     Measured,
+    Passenger,
+    Pronoun,
+    Proposition,
     Related,
+    Road,
     That,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.adoption import adopted, as_of, timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.grades import amounts, graded, measured
+from xavi_dialogue.nlu.compose.grades import amounts, graded
+from xavi_dialogue.nlu.compose.lasting import measured, since
 from xavi_dialogue.nlu.compose.nominal import propose
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh, content_of, deed_of, fact, is_that, time_of
@@ -44,7 +53,8 @@ class Asking(What, WhichOne):
     def why(self, clause: Clause, value: Any) -> Question:
         """Ask why it is so, or not."""
         if value is None:
-            return Why(propose(clause.subject) or That())
+            deed = propose(clause.subject)
+            return Why(That() if deed is None else timed(as_of(deed, clause.tense), clause.time))
         if isinstance(value, Special) and value.name == "change":
             return HowSure(None, clause.time, changed=True)
         of = fact(value)
@@ -71,7 +81,16 @@ class Asking(What, WhichOne):
         if wh.key == "whither" or (
             event is not None and event.action in _MOVING and _onward(clause)
         ):
-            return Whither(event.actor if event else actor, time_of(clause, value))
+            whom = event.actor if event else actor
+            if clause.tense in ("past", "perfect") and not isinstance(whom, Ego):
+                return Where(Event("go", whom, time=time_of(clause, value)))
+            return Whither(whom, time_of(clause, value))
+        if _is_led(clause):
+            whose = Ego() if isinstance(actor, Road) else actor
+            went = clause.tense in ("past", "perfect") and event is not None
+            if went and not isinstance(whose, Ego):
+                return Where(Event("go", whose, time=time_of(clause, value)))
+            return Whither(whose, time_of(clause, value))
         if event is not None:
             return Where(event, clause.time)
         if value is None or isinstance(value, (Special, Related, Is, Exists)):
@@ -82,8 +101,10 @@ class Asking(What, WhichOne):
             return Where(actor, clause.time)
         return Where(actor, clause.time)
 
-    def when(self, clause: Clause, value: Any) -> Question:
-        """Ask at what time."""
+    def when(self, wh: Wh, clause: Clause, value: Any) -> Question:
+        """Ask at what time, or under what circumstances."""
+        if wh.key == "circumstances" and value is not None:
+            return WhatWouldChange(fact(value))
         if value is None:
             return When(propose(clause.subject) or That())
         if isinstance(value, Special) and value.name in ("end", "begin"):
@@ -93,10 +114,19 @@ class Asking(What, WhichOne):
             return When(of, "end" if value.name == "end" and value.content else "begin")
         if isinstance(value, Special) and value.name == "change":
             return HowSure(None, clause.time, changed=True)
-        return When(fact(value))
+        of = fact(value)
+        ours = isinstance(of, Happens) and isinstance(of.event.actor, Ego)
+        if isinstance(of, Happens) and ours and of.event.tense == "present":  # "when do we turn?"
+            of = Happens(with_fields(of.event, tense="future"))
+        return When(of)
 
     def how(self, clause: Clause, value: Any) -> Question:
         """Ask in what manner, by what evidence, or how to avoid."""
+        if isinstance(clause.subject, Measure) and clause.verb is None:
+            sem: Sem = clause.subject
+            for phrase in clause.complements:
+                sem = adopted(sem, phrase) or sem
+            return HowMuch(cast(Measure, sem).of, cast(Measure, sem).extreme)
         if isinstance(value, Special):
             found = self._how_special(clause, value)
             if found is not None:
@@ -108,9 +138,12 @@ class Asking(What, WhichOne):
             if isinstance(subject, Measure):
                 return HowMuch(subject.of, subject.extreme)
             return HowDecide(propose(subject) or That())
+        subject = clause.subject
+        if isinstance(subject, Noun) and subject.key == "ride" and clause.tense != "future":
+            return Summarise(None, clause.time)
         of = fact(value)
         if isinstance(of, Happens) and of.event.action == "avoid":
-            return HowAvoid(None if is_that(of.event.object) else propose(deed_of(of.event)))
+            return HowAvoid(_avoided(clause, of.event))
         if isinstance(of, Happens) and of.event.action == "happen":
             return Why(That())
         return HowDecide(of)
@@ -128,6 +161,8 @@ class Asking(What, WhichOne):
                 return HowAvoid(value.content or propose(value.object))
             case "score":
                 return HowMuch(Measured("value", value.subject, time=clause.time))
+            case "change" if isinstance(clause.subject, Noun) and clause.subject.key == "plan":
+                return Changed(clause.time)
             case "change":
                 return HowSure(None, clause.time, changed=True)
             case "cost" | "take-time":
@@ -152,14 +187,28 @@ class Asking(What, WhichOne):
             case "where":
                 return self.where(wh, clause, value)
             case "when":
-                return self.when(clause, value)
+                lasting = since(clause, value) if wh.key == "since" else None
+                return lasting or self.when(wh, clause, value)
             case "grade":
                 return graded(wh.key, wh.words, clause, value)
             case "count":
-                return amounts(cast(Sem, wh.sem), clause, value)
+                return amounts(cast(Sem, wh.sem), clause, value, wh.words)
             case "which":
                 return self.which(wh, clause, value)
         return self.how(clause, value)
+
+
+_LEADING = frozenset({"take", "bring", "lead", "drive", "get"})
+
+
+def _is_led(clause: Clause) -> bool:
+    """Say whether it is asked where somebody is taken, a road leads, or we are off to."""
+    stranded = any(phrase.key == "into" and phrase.sem is None for phrase in clause.complements)
+    if clause.verb is None or (stranded and clause.verb.key in _LEADING | {"go", "travel"}):
+        return stranded
+    objects = [as_thing(sem) for sem, _ in clause.objects]
+    us = any(isinstance(thing, Ego | Passenger) for thing in objects)
+    return clause.verb.key in _LEADING and (us or isinstance(as_thing(clause.subject), Road))
 
 
 def _onward(clause: Clause) -> bool:
@@ -168,3 +217,12 @@ def _onward(clause: Clause) -> bool:
         or clause.has("be")
         or clause.modal in ("must", "want", "should")
     )
+
+
+def _avoided(clause: Clause, event: Event) -> Proposition | None:
+    """Find what is avoided: a deed of whoever avoids it."""
+    deed = next((sem for sem, _ in clause.objects if isinstance(sem, Event)), None)
+    if deed is None or isinstance(event.actor, Pronoun):
+        return None if is_that(event.object) else propose(deed_of(event))
+    actor = event.actor if isinstance(deed.actor, Ego) else deed.actor
+    return Happens(with_fields(deed, actor=actor, tense=event.tense))

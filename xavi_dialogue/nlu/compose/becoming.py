@@ -6,6 +6,7 @@ from typing import Any, cast
 from xavi_dialogue.domain.terms import Event, Happens, Is, Proposition
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.events import when
+from xavi_dialogue.nlu.compose.trends import trend
 
 _BECOMING = {"slow": "slow-down", "fast": "speed-up", "close": "approach"}
 _STATES = frozenset({"stuck", "late", "busy", "free", "far", "dangerous", "visible", "hidden",
@@ -15,6 +16,9 @@ _STATES = frozenset({"stuck", "late", "busy", "free", "far", "dangerous", "visib
 def become(special: Special, event: Callable[..., Event]) -> Proposition:
     """Read "getting slower", "got close", "became free"."""
     clause = special.clause
+    changing = trend(clause)
+    if changing is not None:
+        return changing
     words = [k for k, _ in clause.adjectives] + [k for k, _ in clause.comparisons]
     words += [manner.removesuffix("ly") for manner in clause.manner]
     for word in words:

@@ -24,6 +24,7 @@ class Clause:
     """The slots of a clause."""
 
     subject: Sem | None = None
+    the_car: bool = False  # the subject is "the car", of which nothing else is said
     there: bool = False
     aux: list[str] = field(default_factory=list)  # "be-past", "modal-would", "semi-must"
     negated: bool = False
@@ -39,6 +40,7 @@ class Clause:
     feelings: list[str] = field(default_factory=list)
     comparisons: list[tuple[str, str]] = field(default_factory=list)  # key, words
     than: "Sem | Clause | None" = None
+    than_time: Time = field(default_factory=Unsaid)  # "than before", "than when we came in"
     time: Time = field(default_factory=Unsaid)
     contrast: "Sem | Clause | str | None" = None
     condition: "Clause | None" = None
@@ -82,9 +84,11 @@ class Clause:
             return "past" if self.has("have") else "present"
         if self.has("have"):
             return "past" if "have-past" in self.aux else "perfect"
-        if "do-past" in self.aux or "be-past" in self.aux:
+        if not {"do-past", "be-past", "semi-past"}.isdisjoint(self.aux):
             return "past"
         form = self.verb.form if self.verb is not None else ""
+        if self.verb is not None and self.verb.key in _UNCHANGED and form == "base":
+            return "past" if self.subject is not None and not self.aux else "present"
         if form in ("past", "part") and not self.has("be") and not self.has("do"):
             return "past"
         return "present"
@@ -92,7 +96,8 @@ class Clause:
     @property
     def passive(self) -> bool:
         """Say whether the clause is passive: "was overtaken", "got overtaken by"."""
-        if self.verb is None or self.verb.form != "part" or self.aux_last() != "be":
+        ends = self.verb is not None and self.verb.form in ("part", "past")
+        if self.verb is None or not ends or self.aux_last() != "be":
             return False
         return self.verb.key not in _RESULTING or any(c.key == "by" for c in self.complements)
 
@@ -103,13 +108,24 @@ class Clause:
 
 
 _AUX = {"BE": "be", "DO": "do", "HAVE": "have", "HAD": "have", "MODAL": "modal", "SEMI": "semi"}
+#: First words of verbs before other verbs that are past: "had to", "wanted to", "decided to".
+_PAST = frozenset(
+    {"had", "needed", "wanted", "tried", "intended", "planned", "hoped", "decided", "chose",
+     "opted", "elected", "happened", "bothered", "ended", "seemed", "appeared", "dared", "agreed",
+     "began", "started", "kept", "continued", "managed", "used", "attempted", "preferred", "went",
+     "failed", "refused", "neglected", "omitted", "refrained", "held", "forgot", "hesitated",
+     "declined", "steered"}
+)  # fmt: skip
 _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "first": "first"}
 
 
+#: Verbs that are written alike in the past, and say what is over in a moment: "you cut in".
+_UNCHANGED = frozenset({"hit", "cut"})
 #: Verbs whose participle after "be" tells a state of the subject: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
-    {"stick", "head", "park", "stop", "go", "finish", "come", "get", "turn", "end"}
-)
+    ("allow", "permit", "stick", "sit", "stand", "head", "park", "stop", "go", "finish", "come",
+     "get", "turn", "end")
+)  # fmt: skip
 
 
 class Slots:
@@ -132,9 +148,12 @@ class Slots:
         match leaf.category:
             case "BE" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
                 clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key}")
+                clause.negated ^= leaf.category == "SEMI" and leaf.key == "not"
+                if leaf.category == "SEMI" and leaf.words[0] in _PAST and not clause.has("be"):
+                    clause.aux.append("semi-past")
             case "NOT":
                 clause.negated = not clause.negated
-            case "V" | "VPAST" | "VED" | "VING":
+            case "V" | "VPAST" | "VED" | "VING" | "GOING":
                 clause.verb = leaf
             case "PART":
                 clause.particles.append(leaf)
@@ -158,7 +177,7 @@ class Slots:
     def _other_leaf(self, leaf: Leaf, clause: Clause) -> None:
         match leaf.category:
             case "BEARING" | "PLACEADV":
-                sideways = clause.verb is not None and leaf.words[0] == "to"
+                sideways = clause.verb is not None and leaf.words[0] in ("to", "over")
                 if sideways and leaf.key in ("left", "right"):
                     clause.side = leaf.key
                 else:

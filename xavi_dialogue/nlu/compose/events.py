@@ -6,6 +6,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Junction,
     Lane,
     Passenger,
@@ -14,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Thing,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
@@ -78,9 +80,16 @@ def event_of(clause: Clause, match: Match) -> Event:
         action, side, thing = _taken(match.object, side)
     elif action == "take-exit":
         action = "leave"
+    if action == "let-go" and isinstance(thing, Feature):
+        action, thing = "give-way", as_thing(match.phrases.get("into"))
     action = _paced(action, clause)
+    struck = isinstance(thing, Ego | Described | Pronoun | Vehicle)
+    if action in ("collide", "head") and struck and clause.focus & _ALMOST:
+        action = "nearly-collide"
     manner = list(clause.manner)
     manner += [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
+    if clause.than is None and not action.startswith(("speed", "slow")):  # "had come faster"
+        manner += [_PACES[key] for key, _ in clause.comparisons if key in _PACES]
     if match.sense.manner:
         manner.append(cast(Manner, match.sense.manner))
     return Event(
@@ -90,6 +99,8 @@ def event_of(clause: Clause, match: Match) -> Event:
     )  # fmt: skip
 
 
+_ALMOST = frozenset({"nearly", "almost"})
+_PACES: dict[str, Manner] = {"fast": "fast", "slow": "slowly", "soon": "early", "early": "early"}
 _MANNERS: dict[str, Manner] = {
     "fast": "fast", "slow": "slowly", "close": "close", "sudden": "suddenly", "hard": "hard",
     "late": "late", "early": "early", "safe": "safely", "far": "far", "dangerous": "fast",

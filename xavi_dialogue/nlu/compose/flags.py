@@ -30,7 +30,7 @@ def flag(kind: str, wanted: str, clause: Clause) -> bool:
         case "go":
             inner = clause.bare.verb if clause.bare is not None else None
             return inner is not None and inner.key == "go"
-        case "close":
-            return "close" in clause.manner
+        case "close" | "long":
+            return kind in clause.manner
         case _:
             return False

@@ -11,16 +11,22 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     Elliptic,
     Feel,
+    HowMuch,
     Repair,
     Request,
     Social,
     Whether,
+    Whither,
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Ego,
     Event,
     Happens,
+    Measured,
+    Next,
+    Nobody,
     Not,
     Pronoun,
     Proposition,
@@ -28,13 +34,16 @@ from xavi_dialogue.domain.terms import (
     That,
     Thing,
     Unsaid,
+    Vehicle,
 )
+from xavi_dialogue.nlu.compose.adoption import adopted
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.nominal import asked_each, asked_of
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.suppositions import Suppositions, suppose
 from xavi_dialogue.nlu.compose.tree import leaves_of
-from xavi_dialogue.nlu.compose.wh import Wh
+from xavi_dialogue.nlu.compose.wh import Wh, is_that
+from xavi_dialogue.nlu.compose.whys import pace_asked, reason_for, sided
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -67,7 +76,7 @@ class Fragments(Suppositions):
         wh = self.composer.questions.wh_of(wh_node)
         clause = self.phrases.slots.fill(tuple(parts))
         if wh.kind == "why":
-            return self._bare_why(clause)
+            return self._bare_why(clause, parts)
         if wh.kind in ("grade", "count", "evidence"):
             return self._bare_grade(wh, clause)
         thing, event = self._contents(clause)
@@ -76,6 +85,8 @@ class Fragments(Suppositions):
         if wh.besides or clause.else_:
             return [((Elliptic(besides=True),), 0.0)]
         if wh.kind == "what":
+            if _onward(unit, clause) and thing is None and event is None:
+                return [((_next(unit),), 0.0)]
             if clause.verb is None and thing is None and isinstance(clause.time, Unsaid):
                 return [((Repair("repeat"),), 0.1)]
             if not isinstance(clause.time, Unsaid) and thing is None and event is None:
@@ -83,6 +94,8 @@ class Fragments(Suppositions):
                     "future" if type(clause.time).__name__ in ("Next", "Within", "Back") else "past"
                 )
                 return [((Ask(Doing(Ego(), clause.time, tense)),), _BARE)]
+        if wh.key == "whither" and thing is None and event is None:
+            return [((Ask(Whither()),), 0.0)]
         form: Any = _FORMS.get(wh.kind, "same")
         if thing is not None and event is None and wh.kind in ("what", "who", "where"):
             found = self.composer.questions.of(wh, clause)
@@ -92,9 +105,12 @@ class Fragments(Suppositions):
             return [((Ask(q),), cost + _BARE) for q, cost in found]
         return [((Elliptic(thing, event, clause.time, clause.negated, form),), 0.0)]
 
-    def _bare_why(self, clause: Clause) -> Found:
+    def _bare_why(self, clause: Clause, parts: list[Part]) -> Found:
+        pace = pace_asked(self.composer, clause)
+        if pace is not None:
+            return pace
         thing, event = self._contents(clause)
-        negated = clause.negated
+        negated = clause.negated or (event is not None and _denied(parts))
         if (
             thing is None
             and event is None
@@ -104,15 +120,18 @@ class Fragments(Suppositions):
             if isinstance(clause.contrast, Clause):
                 inner = self.composer.propositions.plain(clause.contrast)
                 return [((Ask(Why(Not(inner or That()))),), 0.0)]
+            if {leaf.key for leaf in clause.particles} & {"back", "over", "out", "in"}:
+                going: Proposition = Happens(Event("go", tense="present"))
+                return [((Ask(Why(Not(going) if negated else going)),), 0.05)]
             other = as_thing(clause.contrast) if not isinstance(clause.contrast, str) else None
             side = clause.contrast if isinstance(clause.contrast, str) else None
-            event = _sided(side) if side in ("left", "right", "straight") else None
+            event = sided(side) if side in ("left", "right", "straight") else None
             form: Any = "why-not" if negated else "why"
             if isinstance(clause.contrast, Event):
                 return [((Ask(Why(Not(Happens(clause.contrast)))),), 0.0)]
             return [((Elliptic(other, event, negated=negated, form=form),), 0.0)]
         if event is None and clause.side is not None and not clause.skipped:
-            event = _sided(clause.side)
+            event = sided(clause.side)
         if event is not None:
             happens: Proposition = Happens(event)
             return [((Ask(self.composer.questions.framed(
@@ -130,6 +149,8 @@ class Fragments(Suppositions):
 
     def _bare_which(self, wh: Wh, clause: Clause, thing: Thing | None) -> Found:
         sem = wh.sem
+        if wh.words[-1:] in (("way",), ("direction",)) and thing is None:
+            return [((Ask(self.composer.questions.asking.which(wh, clause, None)),), 0.0)]
         if isinstance(sem, (Measure, Noun, Moment)) or (thing is not None and sem is not None):
             found = self.composer.questions.of(wh, clause)
             return [((Ask(q),), cost + 0.1) for q, cost in found]
@@ -142,7 +163,8 @@ class Fragments(Suppositions):
         if clause.verb is not None or clause.gerund is not None or clause.bare is not None:
             inner = clause if clause.verb is not None else clause.gerund or clause.bare
             if inner is not None:
-                inner.subject = inner.subject or Ego()
+                if inner.subject is None or is_that(inner.subject):
+                    inner.subject = Ego()  # "all this weaving"
                 found = self.composer.propositions.as_event(inner)
                 if isinstance(found, Event):
                     return None, found
@@ -171,11 +193,16 @@ class Fragments(Suppositions):
             return [((Elliptic(form="sure"),), 0.0)]
         sem: Sem | None = clause.objects[0][0] if clause.objects else None
         if isinstance(sem, Quantity) and sem.unit == "count" and len(clause.objects) == 1:
+            joined = any(isinstance(p, Leaf) and p.category == "AND" for p in unit.parts)
+            if joined:  # "and 4?"
+                return [((Elliptic(Vehicle(int(sem.value))),), 0.0)]
             return [((Repair("pick", pick=int(sem.value)),), 0.0)]
+        if clause.side is not None and clause.chained and clause.chained[0][1].side is not None:
+            self.composer.notes.taken.update(id(other) for _, other in clause.chained)
+            return [((Ask(HowMuch(Measured("turn", time=clause.time))),), 0.0)]
         asked = self.noun_asked(sem, clause)
-        if asked is not None:
-            return asked
-        return self.elliptic(unit, clause)
+        found = asked if asked is not None else self.elliptic(unit, clause)
+        return [(acts, cost + _unused(clause)) for acts, cost in found]
 
     def _compared(self, clause: Clause) -> Found:
         """Read "any less risky?", "safer?" as a comparison of what was spoken of."""
@@ -189,11 +216,21 @@ class Fragments(Suppositions):
 
     def noun_asked(self, sem: Sem | None, clause: Clause) -> Found | None:
         """Read "speed?", "the reason for that?" as a question for it."""
+        each = asked_each(sem, clause.time)
+        if each:
+            return [(tuple(Ask(question) for question in each), 0.1)]
+        for phrase in clause.complements if isinstance(sem, Noun) else ():
+            sem = cast(Noun, adopted(sem, phrase) or sem)
         if isinstance(sem, (Measure, Noun)):
             if clause.else_ or (isinstance(sem, Noun) and sem.other):
                 return [((Elliptic(besides=True),), 0.1)]
+            reason = reason_for(sem, clause)
+            if reason is not None:
+                return [((Ask(reason),), 0.1)]
             question = asked_of(_towards(sem, clause), clause.time)
-            return [((Ask(question),), 0.1)] if question is not None else None
+            if question is None:
+                return None
+            return [((Ask(self.composer.questions.framed(question, clause, None)),), 0.1)]
         return None
 
     def elliptic(self, unit: Node, clause: Clause) -> Found:
@@ -208,7 +245,7 @@ class Fragments(Suppositions):
                 clause.objects.append((other, unit))
         thing, event = self._contents(clause)
         if event is None and clause.side is not None and not clause.skipped:
-            event = _sided(clause.side)
+            event = sided(clause.side)
         if thing is None and event is None and clause.bearings:
             thing = _at(clause.bearings[0][0])
         supposed = self.composer.questions.supposition(clause)
@@ -221,6 +258,10 @@ class Fragments(Suppositions):
             return [((Elliptic(besides=True),), 0.1)]
         if thing is None and event is None and isinstance(clause.time, Unsaid):
             return []
+        if isinstance(thing, Nobody) and thing.described is not None:
+            denied = thing.described
+            if denied.kind == "vehicle" and (denied.colour or denied.bearing or denied.other):
+                return [((Repair("meant", structs.replace(denied, definite=True)),), 0.0)]
         no = any(isinstance(p, Leaf) and p.category == "NO" for p in unit.parts)
         if no and thing is not None:
             return [((Repair("meant", thing),), 0.0)]
@@ -241,6 +282,12 @@ class Fragments(Suppositions):
     # --- "what about", "what if" -------------------------------------
 
 
+def _unused(clause: Clause) -> float:
+    """Say what costs that stands in a fragment beside the thing that it names."""
+    that = 0.5 if clause.that is not None and clause.objects else 0.0
+    return that + 0.9 * max(0, len(clause.objects) - 1) + 0.4 * len(clause.adjectives)
+
+
 def _towards(sem: Measure | Noun, clause: Clause) -> Measure | Noun:
     """Add to a measure the thing that it is to: "minimum gap to vehicle 2"."""
     if not isinstance(sem, Measure) or sem.of.to is not None:
@@ -250,13 +297,21 @@ def _towards(sem: Measure | Noun, clause: Clause) -> Measure | Noun:
     return sem if to is None else replace(sem, of=structs.replace(sem.of, to=to))
 
 
-def _sided(side: str | None) -> Event | None:
-    actions: dict[str, Any] = {
-        "left": "exit-left",
-        "right": "exit-right",
-        "straight": "exit-straight",
-    }
-    return Event(actions[side]) if side in actions else None
+_ONWARD = frozenset({"now", "next", "then", "after-that"})
+
+
+def _onward(unit: Node, clause: Clause) -> bool:
+    """Say whether it is asked what comes: "what now?", "what next?", "and then what?"."""
+    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    return clause.verb is None and bool(words & _ONWARD) and "how" not in words
+
+
+def _next(unit: Node) -> Act:
+    """Ask what comes next, or after what was spoken of."""
+    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    if "then" in words or "after" in words:
+        return Elliptic(time=Back("after"))
+    return Ask(Doing(Ego(), Next(), "future"))
 
 
 def _at(bearing: str) -> Thing | None:
@@ -284,3 +339,9 @@ def _words(part: Part) -> list[Leaf]:
 
 def _is_deed(unit: Node) -> bool:
     return any(isinstance(p, Node) and p.name == "bare" for p in unit.parts)
+
+
+def _denied(parts: list[Part]) -> bool:
+    """Say whether an event is denied by its article: "why no left turn"."""
+    leaves = [leaf for part in parts for leaf in leaves_of(part)]
+    return any(leaf.category in ("DET", "NO") and leaf.key == "no" for leaf in leaves)

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Both,
     Described,
     Ego,
     Event,
@@ -20,11 +21,14 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Thing,
+    Unsaid,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import (
     as_thing,
+    is_thing,
 )
 
 
@@ -62,21 +66,26 @@ class Frames:
 
     def supposed(self, condition: Clause) -> Proposition | None:
         """Read a supposition; that a thing is not there is that it does not exist."""
-        found: Proposition | None = self.propositions.plain(condition)
+        bare = is_short(condition) and is_thing(condition.subject)
+        found: Proposition | None = None if bare else self.propositions.plain(condition)
         if found is None:
             thing = as_thing(condition.subject)
             if thing is None:
                 return None
             plain = Happens(Event("do", thing, Pronoun("that"), tense="past"))
             return Not(plain) if condition.negated else plain
-        if condition.instead or condition.contrast is not None:
+        if condition.contrast is not None:
+            other = self.contrast(condition, found)
+            found = before(found) if condition.has("have") else found
+            return found if other is None else Both((found, Not(other)))
+        if condition.instead:
             return found
         match found:
             case Is(state="present", thing=thing) if thing is not None:
-                return Exists(thing)
+                found = Exists(thing)
             case Not(content=Is(state="present", thing=thing)) if thing is not None:
-                return Not(Exists(thing))
-        return found
+                found = Not(Exists(thing))
+        return before(found) if condition.has("have") else found
 
     def contrast(self, clause: Clause, of: Proposition) -> Proposition | None:
         """Read what is set against it: "instead of stopping", "and not the first"."""
@@ -93,6 +102,31 @@ class Frames:
         if isinstance(other, Event):
             return Happens(other)
         return _with_object(of, as_thing(other))
+
+
+def is_short(condition: Clause) -> bool:
+    """Say whether it leaves what is done to what was spoken of: "if he hadn't"."""
+    auxiliary = condition.verb is None or condition.verb.key in ("have", "do")
+    return (
+        auxiliary and bool(condition.aux or condition.verb) and not condition.there
+        and condition.subject is not None and not condition.has("be")
+        and not (condition.objects or condition.complements or condition.adjectives
+                 or condition.bearings or condition.side or condition.comparisons)
+    )  # fmt: skip
+
+
+def before(of: Proposition) -> Proposition:
+    """Say that what is supposed lies in the past: "had stopped" is not "stopped now"."""
+    match of:
+        case Not(content=content):
+            return Not(before(content))
+        case Both(contents=contents, join=join):
+            return Both(tuple(before(one) for one in contents), join)
+        case Happens(event=event) if isinstance(event.time, Unsaid):
+            return Happens(with_fields(event, tense="perfect"))
+        case Exists(thing=thing, time=time):
+            return Exists(thing, time, "past")
+    return of
 
 
 def _inner_event(of: Proposition) -> Event | None:

@@ -17,12 +17,16 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Rank,
     Record,
     Road,
     Thing,
     Unknown,
+    Unsaid,
+    Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.peaks import quality_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -114,6 +118,9 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
         return Unknown(words_of(head))
     plural = head.form == "plural"
     match head.category:
+        case "TUNIT" if head.words == ("second",) and _is_rank(traits):
+            traits.ordinal = 2
+            return described("vehicle", traits)
         case "KIND":
             return _vehicle(head, traits, plural)
         case "PLACEN":
@@ -133,11 +140,47 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
     return Unknown(" ".join([*traits.unknown, *head.words]))
 
 
+_EXTENTS: dict[str, tuple[str, str]] = {
+    "fastest": ("speed", "highest"), "slowest": ("speed", "lowest"),
+    "nearest": ("distance", "lowest"), "farthest": ("distance", "highest"),
+    "highest": ("deceleration", "highest"), "lowest": ("deceleration", "lowest"),
+}  # fmt: skip
+_SLOWING = frozenset({"brake", "slow-down", "stop"})
+
+
+def _extent(traits: Traits) -> Measure | None:
+    """Read "the fastest we went", "the closest it came to us" as the extreme of a measure."""
+    event, extreme = traits.event, traits.extreme or ""
+    if event is None or isinstance(event.actor, Wanted) or extreme not in _EXTENTS:
+        return None
+    attribute, which = _EXTENTS[extreme]
+    if (attribute == "deceleration") != (event.action in _SLOWING):
+        return None
+    other = event.object if isinstance(event.object, (Ego, Described, Vehicle, Pronoun)) else None
+    if other is None and not isinstance(event.actor, Ego):
+        other = Ego()
+    of = Measured(cast(Any, attribute), event.actor, other if attribute == "distance" else None,
+                  time=event.time, tense=event.tense)  # fmt: skip
+    return Measure(of, cast(Any, which))
+
+
+def _is_rank(traits: Traits) -> bool:
+    """Say whether "the second" is no time: nothing else is said of it."""
+    return traits.determiner == "def" and traits.ordinal is None and not traits.fields
+
+
 def _without_head(traits: Traits) -> Sem:
+    extent = _extent(traits)
+    if extent is not None:
+        return extent
+    if traits.extreme in ("highest", "lowest", "mean", "total", "best") and not traits.fields:
+        return Unknown(traits.extreme)
     if traits.unknown:
         return Unknown(" ".join(traits.unknown))
     if traits.side and not traits.fields:
         return SideOf(traits.side)
+    if traits.adjectives == ["new"] and not traits.fields:
+        return Pronoun("that")  # "the same"
     return described(traits.kind or "vehicle", traits)
 
 
@@ -164,7 +207,7 @@ def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
 
 
 def _place(head: Leaf, traits: Traits) -> Sem:
-    owner = as_thing(traits.owner)
+    owner = as_thing(traits.owner or traits.of)
     if head.key == "destination" and owner is not None and not isinstance(owner, Ego):
         return Measure(Measured("heading", owner))
     if head.key == "light" and owner is not None:
@@ -184,6 +227,9 @@ def _place(head: Leaf, traits: Traits) -> Sem:
             return Road(cast(Any, side or "own"))
         case "lane" | "own-lane" | "left-lane-typed" | "right-lane-typed" | "other-lane":
             return _lane(head, traits, side, rank)
+    beside = traits.fields.get("bearing") or traits.side
+    if head.key == "space" and beside in ("left", "right"):
+        return Measure(Measured("gap", to=Lane(cast(Any, beside))))  # "room on the left"
     if head.key == "circle-shape":
         return Junction("roundabout")
     return Feature(cast(Any, head.key))
@@ -193,6 +239,8 @@ def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lan
     owner = as_thing(traits.owner or traits.of)
     of = None if isinstance(owner, (Ego, Passenger)) else owner
     listed = head.key.split("-")[0]
+    behind = traits.fields.get("bearing")  # "change lanes to the right"
+    side = side or (behind if behind in ("left", "right") else None)
     which = listed if listed in ("left", "right", "other") else side
     if which is None and (traits.other or traits.following):
         which = "other"
@@ -211,6 +259,11 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     of = traits.of or traits.owner
     things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
     to = next((t for t in things if t is not None), None)
+    if head.key == "probability" and of is None:
+        of = next((s for k, s in traits.about if k in ("for", "about", "in")), None)
+    beside = traits.fields.get("bearing") or traits.side
+    if to is None and head.key in ("gap", "distance") and beside in ("left", "right"):
+        to = Lane(cast(Any, beside))  # "a gap on the left"
     members = of.members if isinstance(of, Group) else ()
     if len(members) == 2:
         of, to = members[0], as_thing(members[1])
@@ -220,8 +273,11 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         return Measure(
             Measured("distance-to-go", cast(Thing, thing) if thing is not None else Ego())
         )
+    key = head.key
+    if key == "speed-difference":
+        key, to = "speed", to or Pronoun("it")
     measured = Measured(
-        cast(Any, head.key), cast(Thing, thing) if thing is not None else Ego(), to,
+        cast(Any, key), cast(Thing, thing) if thing is not None else Ego(), to,
         event if isinstance(of, Event) else None,
     )  # fmt: skip
     highest = {"nearest": "lowest", "fastest": "highest", "slowest": "lowest",
@@ -235,9 +291,18 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
 
 
 def _deed(head: Leaf, traits: Traits) -> Sem:
+    if head.key == "do" and traits.ordinal in (-1, 1) and traits.determiner == "def":
+        return Noun("deed", word=head.words[-1], quality="last" if traits.ordinal < 0 else "first")
+    if head.key in ("stop", "wait", "stand") and traits.extreme in ("biggest", "highest"):
+        return Noun("peak", word=head.words[-1], quality="waiting")
+    if head.key == "do" and traits.extreme and quality_of(traits.extreme, traits.adjectives):
+        quality = quality_of(traits.extreme, traits.adjectives)
+        return Noun("peak", word=head.words[-1], quality=quality)
     actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
     side = cast(Any, traits.side)
     action = head.key
+    if action == "brake" and traits.extreme in ("highest", "lowest"):
+        return Measure(Measured("deceleration", actor), cast(Any, traits.extreme))
     if action in ("change-lane", "turn") and side in ("left", "right"):
         action = ("change-" if action == "change-lane" else "exit-") + side
         side = None
@@ -245,14 +310,20 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in traits.adjectives)
     manners = tuple("suddenly" if a == "sudden" else a for a in manner)
     obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
+    if traits.following and action in ("turn", "exit-left", "exit-right", "change-lane", "stop"):
+        return Event(cast(Any, action), actor, obj, side, tense="future")
     if known or (action == "do" and traits.determiner == "def"):
         return Event("do", actor, Pronoun("that"))
-    return Event(cast(Any, action), actor, obj, side, cast(Any, manners))
+    rank = Unsaid() if traits.ordinal is None else Rank(traits.ordinal)
+    return Event(cast(Any, action), actor, obj, side, cast(Any, manners), rank)
 
 
 def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     if head.key == "side" and traits.side:
         return SideOf(traits.side)
+    quality = quality_of(traits.extreme, traits.adjectives)
+    if quality and (head.key in ("peak", "event") or "call" in head.words):
+        return Noun("peak", word=" ".join(head.words), quality=quality)
     about = next((s for k, s in traits.about), None)
     extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
     owner = traits.owner
@@ -261,7 +332,7 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
         fields = {k: getattr(fault, k) for k in fault.__struct_fields__}
         owner = Described(**{**fields, "doing": None, "such": None})
     return Noun(
-        head.key, traits.of, owner, about, plural, traits.other,
+        "event" if head.key == "peak" else head.key, traits.of, owner, about, plural, traits.other,
         traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),
         traits.clause,
     )  # fmt: skip

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Identify,
     Listing,
+    Peak,
     Question,
     Summarise,
     WhatWouldChange,
@@ -31,18 +32,23 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Lane,
     Measured,
+    Not,
     Passenger,
     Pronoun,
     Proposition,
     Quantity,
+    Rank,
     Record,
+    Relative,
     Road,
     That,
     Thing,
     Time,
+    Unknown,
     Unsaid,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.adoption import as_of
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, SideOf, as_thing
 
 _LISTED = {"option": "options", "event": "events", "prediction": "beliefs",
@@ -79,7 +85,7 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
         case Measure():
             return _measure(sem, time, tense)
         case Noun():
-            return _noun(sem, time)
+            return _noun(sem, time, tense)
         case Event():
             return Summarise(sem, time)
         case Quantity() | Moment() | SideOf():
@@ -107,6 +113,14 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             return Identify(thing) if thing is not None else None
 
 
+def asked_each(sem: Sem | None, time: Time, tense: str = "present") -> tuple[Question, ...]:
+    """Ask for each of several measures: "the speed and the gap to him"; () for all else."""
+    if not isinstance(sem, Group) or not all(isinstance(m, Measure) for m in sem.members):
+        return ()
+    found = (asked_of(member, time, tense) for member in sem.members)
+    return tuple(question for question in found if question is not None)
+
+
 def _measure(sem: Measure, time: Time, tense: str) -> Question:
     measured = sem.of
     if not isinstance(time, Unsaid) or tense != "present":
@@ -114,6 +128,11 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
         measured = Measured(**{**fields, "time": time, "tense": tense})
     if measured.attribute == "heading":
         return Whither(measured.thing, time)
+    held = measured.about or measured.event
+    open_ = isinstance(measured.thing, Pronoun) and measured.thing.form in ("it", "that", "this")
+    of_other = not held and not open_ and not isinstance(measured.thing, Ego)
+    if measured.attribute == "probability" and of_other:
+        return Listing("beliefs", measured.thing, time)
     if measured.attribute == "probability":
         return HowSure(
             measured.about or (Happens(measured.event) if measured.event else None), time
@@ -121,9 +140,13 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
     return HowMuch(measured, sem.extreme)
 
 
-def _noun(sem: Noun, time: Time) -> Question | None:
+def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
     about = propose(sem.about) or propose(sem.of) or sem.clause
+    about = sem.clause if isinstance(sem.clause, Not) else about
+    about = about if about is None else as_of(about, tense)
     thing = as_thing(sem.about) or as_thing(sem.of) or as_thing(sem.owner)
+    if about is None and sem.key in ("reason", "factor") and isinstance(time, Relative):
+        about = Happens(time.anchor) if isinstance(time.anchor, Event) else None
     if sem.key in ("reason", "factor") and not sem.plural:
         if sem.extreme or sem.key == "factor":
             return WhatWouldChange(about, most=True)
@@ -135,6 +158,10 @@ def _noun(sem: Noun, time: Time) -> Question | None:
             return HowDecide(about)
         return Listing(cast(Any, _LISTED[sem.key]), _other_than_ego(thing), time)
     match sem.key:
+        case "deed":
+            return Doing(Ego(), Rank(-1 if sem.quality == "last" else 1), "past")
+        case "peak":
+            return Peak(cast(Any, sem.quality), time)
         case "plan":
             actor = as_thing(sem.owner) or as_thing(sem.of) or Ego()
             return Doing(actor, time, "future")
@@ -145,7 +172,8 @@ def _noun(sem: Noun, time: Time) -> Question | None:
         case "evidence":
             return HowKnow(about)
         case "summary" | "ride":
-            return Summarise(_other_than_ego(thing), time)
+            of = None if isinstance(thing, Unknown) else _other_than_ego(thing)
+            return Summarise(of, time)
         case "problem":
             return Why(That())
         case "difference":

@@ -5,6 +5,7 @@ from typing import Any, cast
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
+    Quizzing,
     Repair,
     Request,
     Summarise,
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Is,
     Not,
     Passenger,
 )
@@ -42,6 +44,8 @@ _TELLING = frozenset(
         "show",
     }
 )
+_PACED = frozenset({"go", "move", "continue", "speed-up", "slow-down", "stop"})
+_CONTRARY = {"fast": "slow-down", "slowly": "speed-up"}  # "don't go so fast"
 _STYLES = {"simple": "simpler", "short": "shorter", "long": "longer"}
 Found = list[tuple[tuple[Act, ...], float]]
 
@@ -59,7 +63,10 @@ class Orders(Telling):
         if not isinstance(clause.subject, (Ego, Passenger)):
             return None
         value = self._best(clause)
+        if isinstance(value, Special) and value.name == "quiz" and isinstance(clause.subject, Ego):
+            return (Quizzing(),)
         if isinstance(value, Special) and value.name == "mind" and clause.gerund is not None:
+            clause.gerund.question = clause.gerund.question or clause.question
             found = self.order(clause.gerund, negated=False)
             return found[0][0] if found else None
         if isinstance(value, Special) and value.name in _TELLING:
@@ -117,7 +124,8 @@ class Orders(Telling):
 
     def stated(self, clause: Clause) -> tuple[Act, ...] | None:
         """Read "I want to know why", "I wonder how fast", "I would like you to stop"."""
-        if clause.question is not None and clause.verb is None:
+        placed = clause.complements or clause.bearings  # "we are behind him", a statement itself
+        if clause.question is not None and clause.verb is None and not placed:
             return self.embedded(clause) or None
         if not isinstance(clause.subject, (Passenger, Ego)):
             return None
@@ -149,6 +157,9 @@ class Orders(Telling):
         ):
             return None
         value = self._best(clause)
+        inner = clause.infinitive
+        if inner is not None and inner.verb is not None and inner.verb.key in ("quiz", "test"):
+            return (Quizzing(),)
         if not isinstance(value, Special) or clause.negated:
             return None
         if isinstance(value.content, Happens) and isinstance(value.object, Ego):
@@ -183,6 +194,8 @@ class Orders(Telling):
                 return (Repair(cast(Any, style)),)
             if value.name == "repeat":
                 return (Repair("repeat"),)
+            if value.name == "quiz":
+                return (Quizzing(),)
             if value.name == "quiet" or (value.name == "end" and clause.gerund is not None):
                 return (Repair("cancel"),)
             told = self.told(clause, value)
@@ -196,29 +209,19 @@ class Orders(Telling):
                 return (self._request(event),)
             case Not(content=Happens(event=event)):
                 return (self._request(event, negated=True),)
+            case Is(state="fast" | "slow" as pace) | Not(content=Is(state="fast" | "slow" as pace)):
+                quicker = (pace == "fast") != isinstance(of, Not)
+                return (Request(Event("speed-up" if quicker else "slow-down", tense="present")),)
         return ()
 
     def _request(self, event: Event, *, negated: bool = False) -> Act:
         bidden = _bidden(event)
         if not negated:
             return Request(bidden)
-        opposite = {
-            "stop": "go",
-            "wait": "go",
-            "go": "stop",
-            "overtake": "keep-lane",
-            "brake": "continue",
-            "speed-up": "slow-down",
-            "slow-down": "continue",
-            "move": "stop",
-            "change-lane": "keep-lane",
-            "change-left": "keep-lane",
-            "change-right": "keep-lane",
-        }.get(bidden.action)
-        if opposite is None:
-            return Request(Event("avoid", Ego(), bidden.object, tense="present"))
-        fields: dict[str, Any] = {k: getattr(bidden, k) for k in bidden.__struct_fields__}
-        return Request(Event(**{**fields, "action": opposite}))
+        paced = [m for m in bidden.manner if m in _CONTRARY]
+        if paced and bidden.action in _PACED:
+            return Request(Event(cast(Any, _CONTRARY[paced[0]]), tense="present"))
+        return Request(bidden, negated=True)
 
     def _style(self, clause: Clause) -> str | None:
         words = " ".join(w for _, w in clause.comparisons) + " " + " ".join(clause.focus)

@@ -2,12 +2,12 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Event, Proposition, Unsaid, Wanted
+from xavi_dialogue.domain.terms import Ago, Back, Event, Proposition, Quantity, Unsaid, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.things import Nouns
 from xavi_dialogue.nlu.compose.times import relative, time_of
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -15,6 +15,7 @@ _CLAUSES = ("finite", "finite_short", "finite_topic", "inverted", "inverted_shor
             "copular", "state", "gerund", "bare", "infinitive")  # fmt: skip
 
 
+EARLIER = 5.0  # [s] that "than before" reaches back
 _NOUNS = ("np", "group", "accusative", "accusative_group")
 
 
@@ -84,6 +85,7 @@ class Phrases:
             clause.subject = self.inner(inner)
         else:
             clause.subject = self.nouns.read(inner)
+            clause.the_car = words_of(inner) in ("the car", "the vehicle", "this car")
 
     def _on_vp(self, node: Node, clause: Clause) -> None:
         self.slots.fill(node.parts, clause)
@@ -104,6 +106,9 @@ class Phrases:
 
     def _on_object(self, node: Node, clause: Clause) -> None:
         clause.objects.append((self.nouns.read(cast(Node, node.parts[0])), node))
+
+    def _on_lone_number(self, node: Node, clause: Clause) -> None:
+        clause.objects.append((Quantity(number_of(node)), node))
 
     def _on_pp(self, node: Node, clause: Clause) -> None:
         leaf = cast(Leaf, node.parts[0])
@@ -134,6 +139,11 @@ class Phrases:
         leaf = cast(Leaf, node.parts[0])
         sem = self.nouns.read(cast(Node, node.parts[1]))
         clause.complements.append(Complement("bearing-" + leaf.key, sem, node))
+
+    def _on_degree(self, node: Node, clause: Clause) -> None:
+        leaf = cast(Leaf, node.parts[0])
+        if leaf.key == "too":
+            clause.focus.add("too")
 
     def _on_between(self, node: Node, clause: Clause) -> None:
         clause.complements.append(
@@ -170,8 +180,16 @@ class Phrases:
             if leaf.category in ("ADJ", "ADV", "FEELADJ"):
                 clause.comparisons.append((leaf.key, "as"))
 
+    def _on_then_than(self, node: Node, clause: Clause) -> None:
+        self._on_comparison(node, clause)
+        self._on_than(node, clause)
+
     def _on_than(self, node: Node, clause: Clause) -> None:
         inner = cast(Node, node.parts[-1])
+        if inner.name == "when" or inner.name.startswith("time"):
+            then = self.slots.fill((inner,), Clause(subject=clause.subject)).time
+            clause.than_time = Ago(EARLIER) if then == Back("before") else then
+            return
         clause.than = self.clause(inner, clause) if inner.name in _CLAUSES else self.inner(inner)
 
     # --- adverbial clauses -------------------------------------------
@@ -179,9 +197,15 @@ class Phrases:
     def _time(self, node: Node, clause: Clause) -> None:
         if isinstance(clause.time, Unsaid):
             clause.time = time_of(node)
+        leaf = leaf_of(node, "P")
+        asking = leaf is not None and leaf.key in ("for", "about")
+        asking = asking or words_of(node).startswith("about a ")
+        if node.name == "time_ago" and asking:  # "what for, a second ago"
+            clause.complements.append(Complement("for", None, node))
 
     _on_time_adverb = _on_time_clock = _on_time_amount = _on_time_ago = _time
-    _on_time_span = _on_time_rank = _on_time_between = _time
+    _on_time_span = _on_time_rank = _on_time_between = _on_time_since = _time
+    _on_time_decision = _on_time_decisions = _on_time_bare = _time
 
     def _on_lead_time(self, node: Node, clause: Clause) -> None:
         for part in node.parts:
@@ -194,6 +218,9 @@ class Phrases:
             clause.condition = self.clause(inner)
         else:
             self.slots.fill(node.parts, clause)
+
+    def _on_hads_clause(self, node: Node, clause: Clause) -> None:
+        clause.condition = self.clause(cast(Node, node.parts[0]))
 
     def _on_when(self, node: Node, clause: Clause) -> None:
         if len(node.parts) == 1:
@@ -284,10 +311,14 @@ class Phrases:
         if not chained.aux:
             chained.aux = [a for a in clause.aux if not a.startswith("semi")]
         clause.chained.append((join, chained))
+        self.notes.chained.append(chained)
 
     def _on_or_state(self, node: Node, clause: Clause) -> None:
-        other = self.slots.fill(node.parts, Clause(subject=clause.subject, aux=list(clause.aux)))
+        other = self.slots.fill(
+            node.parts, Clause(subject=clause.subject, aux=list(clause.aux), verb=clause.verb)
+        )
         clause.chained.append(("or", other))
+        self.notes.chained.append(other)
 
     def _on_skipped(self, node: Node, clause: Clause) -> None:
         for leaf in leaves_of(node):

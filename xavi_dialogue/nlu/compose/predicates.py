@@ -45,6 +45,9 @@ from xavi_dialogue.nlu.compose.sem import (
 from xavi_dialogue.nlu.compose.tree import words_of
 
 Found = tuple[Proposition, float]
+_PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
+#: [km/h] numbers that are limits where nothing else is said.
+LIMITS = frozenset({20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0, 130.0})
 
 
 def lights(clause: Clause, subject: Measure) -> list[Found]:
@@ -61,11 +64,18 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     cleft = _cleft(sem) if isinstance(subject, Pronoun) else None
     if cleft is not None:
         return [(cleft, 0.0)]
+    if isinstance(sem, Described) and isinstance(subject, Ego) and sem.extreme in _PACES:
+        speed = Measured("speed", subject, time=time, tense=tense)
+        others = Measured("speed", Everyone(), time=time, tense=tense)
+        return [(Compares(speed, cast(Any, _PACES[sem.extreme]), others), 0.0)]
     if isinstance(sem, Described):
         plain = Described(colour=sem.colour, definite=sem.definite)
         if sem.colour and sem == plain and not isinstance(subject, Wanted):
             return [(Has("colour", sem.colour, subject, time, tense), 0.0)]
         return _described(clause, sem, subject, time)
+    if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
+        other = sem.of.to or Everyone()
+        return [(Related("has-priority-over", sem.of.thing, other, time, tense), 0.0)]
     if isinstance(sem, Measure):
         return [
             (
@@ -83,6 +93,11 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
         return [(Has("turn", sem.side, subject, time, tense), 0.2)]
     if isinstance(sem, Group):
         return [(Related("same-as", subject, as_thing(sem) or subject, time, tense), 0.3)]
+    if isinstance(sem, Event) and sem.action == "turn" and sem.side is None:
+        going = Event("go", sem.actor, None, None, ("first",), time, tense, "should")
+        return [(Happens(going), 0.0)]  # "it is our turn"
+    if isinstance(sem, Event) and isinstance(clause.subject, Event):
+        return [(Is("right", None, clause.subject, time=time, tense=tense), 0.1)]
     if isinstance(sem, Event):
         return [(Is("right", subject, sem, time=time, tense=tense), 0.5)]
     thing = as_thing(sem)
@@ -154,7 +169,8 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
     if sem.key == "truth":
         return Is("right", subject, time=time, tense=tense_of(clause))
     if sem.key in ("reason", "factor"):
-        return Caused(subject)
+        deed = next((one for one in (sem.about, sem.of) if isinstance(one, Event)), None)
+        return Caused(subject, sem.clause if deed is None else Happens(deed))
     return Related("same-as", subject, Unknown(sem.word), time, tense_of(clause))
 
 
@@ -180,6 +196,9 @@ def _numbered(clause: Clause, sem: Quantity) -> Proposition:
         attribute = {"m/s": "speed", "m": "distance", "s": "time", "%": "probability"}.get(
             sem.unit, "count"
         )
+        if attribute == "count" and isinstance(subject, Pronoun) and sem.value in LIMITS:
+            limit = Measured("limit", time=clause.time)  # "isn't it thirty here?"
+            return Compares(limit, "same", Quantity(round(sem.value / 3.6, 6), "m/s"))
         measured = Measured(cast(Any, attribute), as_thing(subject) or Ego(), time=clause.time)
     return Compares(measured, "same", sem)
 

@@ -1,32 +1,38 @@
 """Propositions: what a clause says, by the senses of its verb and the types beside it."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
     Both,
+    Described,
     Ego,
     Event,
     Happens,
     Is,
     Not,
+    Passenger,
     Pronoun,
     Proposition,
+    Related,
     Thing,
     Unknown,
 )
-from xavi_dialogue.nlu.compose.adoption import adopt, compared, with_fields
+from xavi_dialogue.nlu.compose.adoption import adopt, as_of, compared, with_fields
 from xavi_dialogue.nlu.compose.candidates import Candidate, Special
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.events import event_of, when
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.senses import Match, match, senses
 from xavi_dialogue.nlu.compose.specials import proposition_of
 from xavi_dialogue.nlu.compose.states import state_of
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Budget
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 SPREAD = 0.45  # readings that cost this much more than the best are not offered
 NO_PREDICATE = 1.0
+ODD_FORM = 0.3  # cost of "it is speed", of a verb form that does not go with its auxiliary
 READING = 20  # steps that reading a clause with a verb takes
 
 
@@ -41,7 +47,11 @@ class Propositions:
     def readings(self, clause: Clause) -> list[Candidate]:
         """Read a clause in all the ways that its words allow, cheapest first."""
         _regovern(clause)
+        _own_car(clause)
         self._inner(clause)
+        told = self._told(clause)
+        if told is not None:
+            return [Candidate(told, 0.0)]
         if clause.verb is None:
             rest = tuple(node for _, node in clause.objects[1:])
             found = [Candidate(p, cost, rest) for p, cost in state_of(clause)]
@@ -51,6 +61,8 @@ class Propositions:
             return [Candidate(self._unknown(clause), 0.0)]
         else:
             found = self._verbal(clause)
+        if clause.verb is not None and clause.verb.form == "base" and clause.aux_last() == "be":
+            found = [replace(one, cost=one.cost + ODD_FORM) for one in found]
         found.sort(key=lambda candidate: candidate.cost)
         best = found[0].cost if found else 0.0
         kept = [c for c in found if c.cost <= best + SPREAD][:4]
@@ -60,8 +72,18 @@ class Propositions:
                 self.notes.unknown.append(clause.verb)
             for part in kept[0].left:
                 self.notes.unknown.extend(leaves_of(part))
-            self.notes.cost += max(0.0, kept[0].cost)
         return kept
+
+    def _told(self, clause: Clause) -> Proposition | None:
+        """Read "it is not true that he turned": what is said to be so, or not."""
+        key = clause.adjectives[0][0] if clause.adjectives else ""
+        bare = clause.verb is None and wanted_pronoun(clause.subject)
+        if not bare or key not in ("right", "wrong") or clause.that is None:
+            return None
+        content = self.plain(clause.that)
+        if content is None:
+            return None
+        return Not(content) if clause.negated != (key == "wrong") else content
 
     def _inner(self, clause: Clause) -> None:
         governed = clause.infinitive or clause.gerund or clause.bare
@@ -108,11 +130,18 @@ class Propositions:
         content: Proposition | None = None
         if one.sense.head == "@make-do" and isinstance(one.second, Event):
             content = Happens(with_fields(one.second, actor=as_thing(one.object) or Ego()))
+        elif one.sense.head == "@make-do" and isinstance(one.phrases.get("into"), Event):
+            sem = cast(Event, one.phrases["into"])
+            content = Happens(with_fields(sem, actor=as_thing(one.object) or Ego()))
         elif governed is not None:
             _for_subject(governed, one)
             if clause.that is None and one.object is not None and one.sense.head != "@tell":
                 governed.subject = one.object
+                if clause.objects and words_of(clause.objects[0][1]) == "the car":
+                    governed.subject = Ego()
             content = self.plain(governed)
+            if content is not None and governed is not clause.that:
+                content = as_of(content, clause.tense)
         return Special(one.sense.head[1:], clause, one, content)
 
     def _chain(self, clause: Clause, event: Event) -> Event:
@@ -120,6 +149,7 @@ class Propositions:
         for join, later in reversed(clause.chained):
             found = self._later(later)
             if join == "and" and isinstance(found, Event):
+                self.notes.taken.add(id(later))
                 fields = {k: getattr(event, k) for k in event.__struct_fields__}
                 event = Event(**{**fields, "then": found})
         return event
@@ -155,6 +185,9 @@ class Propositions:
         found = self.readings(clause)
         if not found:
             return None
+        if clause.verb is not None:
+            known = self.notes.inner.get(id(clause.verb), found[0].cost)
+            self.notes.inner[id(clause.verb)] = min(known, found[0].cost)
         value = found[0].value
         if isinstance(value, Special):
             return proposition_of(value)
@@ -169,6 +202,7 @@ class Propositions:
         others = [p for _, c in chained if (p := self.plain(c)) is not None]
         if not others:
             return value
+        self.notes.taken.update(id(c) for _, c in chained)
         return Both((value, *others), cast(Any, chained[0][0]))
 
     def as_event(self, clause: Clause) -> Sem | None:
@@ -179,11 +213,13 @@ class Propositions:
                 return event
             case Not(content=Happens(event=event)):
                 return event
+            case Related(relation="can-see", thing=thing, to=to):
+                return Event("see", thing, to, tense=found.tense)
             case None:
                 return None
             case _:
-                thing = getattr(found, "thing", None) or getattr(found, "to", None)
-                return cast("Sem | None", thing)
+                named = getattr(found, "thing", None) or getattr(found, "to", None)
+                return cast("Sem | None", named)
 
     def as_deed(self, clause: Clause) -> Sem:
         """Read a gerund as an event of our own car unless it says whose."""
@@ -216,12 +252,43 @@ _CAUSATIVE = frozenset({"make", "let", "help", "see", "force"})
 def _regovern(clause: Clause) -> None:
     """Read "made you switch" as object and bare infinitive, not as a clause of its own."""
     inner = clause.that
+    _slowed(clause)
     if clause.verb is None or clause.verb.key not in _CAUSATIVE or inner is None:
         return
     if clause.objects or inner.subject is None or inner.aux:
         return
     clause.objects.append((inner.subject, clause.verb))
     clause.bare, clause.that = inner, None
+
+
+_TOWARDS = frozenset({"cut", "come", "approach", "honk", "pull", "tailgate", "overtake", "hit"})
+
+
+def _own_car(clause: Clause) -> None:
+    """Take "the car" for our own where it does nothing to us and is nowhere seen from us."""
+    if not clause.the_car or not isinstance(clause.subject, Described):
+        return
+    sems = [sem for sem, _ in clause.objects] + [phrase.sem for phrase in clause.complements]
+    to_us = any(isinstance(sem, Ego | Passenger) for sem in sems) or bool(clause.bearings)
+    verb = clause.verb.key if clause.verb is not None else ""
+    if verb and verb not in _TOWARDS and not to_us:
+        clause.subject = Ego()
+
+
+def _slowed(clause: Clause) -> None:
+    """Read "made you slow down" as the verb, not as the adjective and a particle."""
+    causing = clause.verb is not None and clause.verb.key in _CAUSATIVE | {"get", "cause"}
+    slow = "slowly" in clause.manner or ("slow", "") in clause.adjectives
+    downs = [leaf for leaf in clause.particles if leaf.key in ("down", "up")]
+    if not (causing and slow and downs and clause.objects):
+        return
+    verb = cast(Any, clause.verb)
+    leaf = Leaf("V", "slow", "base", ("slow",), (), verb.start, verb.end, 0.0)
+    clause.bare = Clause(subject=clause.objects[0][0], verb=leaf, particles=downs,
+                         complements=clause.complements, chained=clause.chained)  # fmt: skip
+    clause.adjectives, clause.complements, clause.chained = [], [], []
+    clause.manner = [manner for manner in clause.manner if manner != "slowly"]
+    clause.particles = [leaf for leaf in clause.particles if leaf not in downs]
 
 
 def _objects(clause: Clause) -> tuple[Any, ...]:

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.meaning import (
     Fault,
     HowSure,
     Question,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -14,16 +15,21 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Next,
     Pronoun,
     Proposition,
     Quantity,
+    Related,
     That,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.asking import Asking
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import event_in
-from xavi_dialogue.nlu.compose.polar import BY, Polar
+from xavi_dialogue.nlu.compose.effects import Effects
+from xavi_dialogue.nlu.compose.nominal import event_in, propose
+from xavi_dialogue.nlu.compose.peaks import peak_of
+from xavi_dialogue.nlu.compose.polar import BY
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -35,16 +41,18 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
-from xavi_dialogue.nlu.compose.wh import Wh
+from xavi_dialogue.nlu.compose.wh import Wh, fact
 from xavi_dialogue.nlu.compose.what import purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+_YIELDS = frozenset({"give-way", "let-go", "wait"})
+_NOMINAL = ("np", "group", "accusative", "accusative_group")
 EMPHATIC = 0.6  # cost of "who did stop"
 WEAK = 1.0  # cost of a clause of which nothing is said
 
 
-class Questions(Polar):
+class Questions(Effects):
     """Builds questions from parses."""
 
     def __init__(self, notes: Notes) -> None:
@@ -64,14 +72,19 @@ class Questions(Polar):
         if kind == "where":
             where = leaf_of(node, "WHERE")
             return Wh("where", where.key if where else "", preposition=key)
+        if kind == "when":
+            moment = leaf_of(node, "WHEN")
+            return Wh("when", moment.key if moment else "", preposition=key, besides=besides)
         if kind in ("grade", "count"):
             grade = leaf_of(node, "GRADE") or leaf_of(node, "AMOUNT")
             words = grade.words if grade else ()
             sem = self._counted(node) if kind == "count" else None
             return Wh(kind, grade.key if grade else "", words, sem, key)
         if kind == "which":
-            return Wh("which", "", tuple(w for p in leaves_of(node) for w in p.words),
-                      self._asked_noun(node), key, besides)  # fmt: skip
+            asked = self._asked_noun(node)
+            words = tuple(w for p in leaves_of(node) for w in p.words)
+            return Wh("which", "", words, None if isinstance(asked, Pronoun) else asked, key,
+                      besides)  # fmt: skip
         if kind == "whose":
             return Wh("whose", "", (), self._asked_noun(node))
         return Wh(kind, "", (), None, key, besides)
@@ -100,7 +113,7 @@ class Questions(Polar):
             or (isinstance(p, Leaf) and p.category == "BEARING" and p is parts[-1])
         )
         core = tuple(p for p in parts if p not in posts)
-        if core and isinstance(core[0], Node) and core[0].name in ("np", "group"):
+        if core and isinstance(core[0], Node) and core[0].name in ("np", "group", "accusative"):
             return cast(Sem, self.phrases.nouns.read(core[0]))
         if not core:
             return None if inner is None else cast(Sem, self.phrases.inner(inner.parts[1]))
@@ -143,13 +156,21 @@ class Questions(Polar):
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
-        if wh.kind == "what" and purpose(clause):
+        most = peak_of(clause)
+        if most is not None and wh.kind in ("where", "when", "what", "who", "which", "count"):
+            return [(most, 0.0)]
+        for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
+        if wh.kind == "what" and (for_what or purpose(clause)):
             clause.gap, wh = None, Wh("why")
             clause.complements = [c for c in clause.complements if c.sem is not None]
+            if clause.verb is None and isinstance(clause.subject, (Event, Pronoun)):
+                return [(Why(propose(clause.subject) or That()), 0.0)]
         emphatic = 0.0
         if clause.subject is None and not clause.there and clause.gap is not None:
             clause.subject, clause.gap = clause.gap, None
             emphatic = EMPHATIC if clause.has("do") else 0.0
+            if wh.kind == "which" and wh.sem is None and _is_base(clause):
+                emphatic += WEAK  # "which exit"
         if clause.subject is None and wh.kind in ("which", "count"):
             clause.subject = wh.sem if is_thing(wh.sem) or wh.kind == "count" else None
         options = _alternatives(clause) if wh.kind in ("who", "what", "which") else None
@@ -159,13 +180,18 @@ class Questions(Polar):
                 return [(HowSure(content, clause.time), 0.0)]
         if wh.preposition and clause.gap is None and wh.kind in ("what", "who", "which"):
             clause.gap = Wanted()
-        nominal = self._nominal(wh, clause)
+        nominal = self.effect(wh, clause) or self._nominal(wh, clause)
         if nominal is not None:
             return [(self.framed(nominal, clause, None), 0.0)]
+        first = None if options is None else self._first_of(wh, clause, options)
+        if first is not None:
+            return [(first, 0.1)]
         if options is not None:
             by = "time" if "first" in clause.manner else "best"
             if clause.comparisons:
                 by = BY.get(clause.comparisons[0][0], "best")
+                if by == "time" and all(is_thing(option) for option in options):
+                    by = "speed"
             return [(Compare(options, cast(Any, by)), 0.1)]
         candidates = self.propositions.readings(clause)
         pairs: list[tuple[Any, float]] = [(c.value, c.cost) for c in candidates] or [(None, 0.0)]
@@ -173,17 +199,21 @@ class Questions(Polar):
         for value, cost in pairs:
             compared = self._compared(wh, clause, value)
             question = compared or self.asking.ask(wh, clause, value)
-            extra = (
-                WEAK if value is None and wh.kind == "why" and clause.subject is not None else 0.0
-            )
+            why = wh.kind == "why" and clause.subject is not None
+            governing = wh.kind in ("what", "who") and clause.that is not None
+            extra = WEAK if value is None and (why or governing) else 0.0
             found.append((self.framed(question, clause, value), cost + extra + emphatic))
         return found
 
     def _nominal(self, wh: Wh, clause: Clause) -> Question | None:
         """Ask "what are the chances that he stops", "whose fault is it"."""
+        if wh.kind == "whose" and isinstance(wh.sem, Measure):
+            lit: Any = "signal" if wh.sem.of.attribute == "indicator" else "brake"
+            if wh.sem.of.attribute in ("indicator", "brake-lights"):
+                return Which(Wanted(), Happens(Event(lit, Wanted(), tense="present")))
         if wh.kind == "whose":
             fault = isinstance(wh.sem, Noun) and wh.sem.key == "fault"
-            return Fault() if fault else None
+            return Fault() if fault else _whose_turn(wh.sem)
         if wh.kind != "what" or clause.verb is not None:
             return None
         named = clause.objects[0][0] if clause.objects else clause.subject
@@ -222,14 +252,41 @@ class Questions(Polar):
                 return Happens(Event("do", thing))
         return None
 
+    def _first_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> Question | None:
+        """Ask "who goes first, we or the bus": who of them has to let the other go."""
+        other = next((one for one in options if not isinstance(one, Ego)), None)
+        bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
+        if isinstance(clause.time, Next) and bare:
+            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
+            return Which(Wanted(), Happens(going))
+        found = self.propositions.readings(clause)
+        match fact(found[0].value) if found else None:
+            case Related(relation="has-priority-over" | "must-yield-to") as related:
+                return Which(Wanted(), with_fields(related, to=other))
+            case Happens(event=event) if event.action in _YIELDS or "first" in event.manner:
+                return Which(Wanted(), Happens(with_fields(event, object=other)))
+        if wh.kind == "who" and Ego() in options and other is not None and not clause.comparisons:
+            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
+            return Which(Wanted(), Happens(going))
+        return None
+
     def _compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
         """Ask "which is faster, left or right"."""
         if wh.kind not in ("which", "what", "who") or not clause.comparisons:
             return None
+        deeds = self.deeds(clause)
+        if deeds:
+            return Compare(deeds, cast(Any, BY.get(clause.comparisons[0][0], "best")))
         options = [sem for sem, _ in clause.objects if isinstance(sem, Group)]
         if options:
             return Compare(tuple(_option(s) for s in options[0].members),
                            cast(Any, BY.get(clause.comparisons[0][0], "best")))  # fmt: skip
+        among = [wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
+        spoken = any(isinstance(s, Pronoun) and s.form in ("they", "them-all") for s in among)
+        if spoken or {"them", "those", "these", "both"} & set(wh.words):
+            by = {"fast": "speed", "slow": "speed"}.get(clause.comparisons[0][0])
+            other = BY.get(clause.comparisons[0][0], "best")
+            return Compare((Pronoun("them-all"),), cast(Any, by or other))
         return None
 
     # --- what stands around a question -------------------------------
@@ -240,6 +297,10 @@ def wanted_only(clause: Clause) -> bool:
     return not (clause.that or clause.infinitive or clause.gerund or clause.complements)
 
 
+def _is_base(clause: Clause) -> bool:
+    return clause.verb is not None and clause.verb.form == "base" and not clause.aux
+
+
 def _alternatives(clause: Clause) -> tuple[Any, ...] | None:
     """Take "we or the blue one" out of a clause that asks which of them."""
     for index, (sem, _) in enumerate(clause.objects):
@@ -247,6 +308,14 @@ def _alternatives(clause: Clause) -> tuple[Any, ...] | None:
             del clause.objects[index]
             return tuple(_option(member) for member in sem.members)
     return None
+
+
+def _whose_turn(sem: Sem | None) -> Question | None:
+    """Ask "whose turn is it": who goes first."""
+    if not isinstance(sem, Event) or sem.action != "turn" or sem.side is not None:
+        return None
+    going = Event("go", Wanted(), manner=("first",), tense="present", modal="should")
+    return Which(Wanted(), Happens(going))
 
 
 def _option(sem: Sem) -> Any:

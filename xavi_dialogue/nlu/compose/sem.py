@@ -47,6 +47,7 @@ class Noun:
     extreme: Extreme | None = None
     word: str = ""
     clause: Proposition | None = None
+    quality: str = ""  # of a moment: what was at its most then, as `Peak.of`
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,10 +130,12 @@ def types(sem: Sem) -> str:
 
 @dataclass(slots=True)
 class Notes:
-    """What composition finds out beside meanings: words without a part, and what it costs."""
+    """What composition finds out beside meanings, such as words without a part."""
 
     unknown: list[Leaf] = field(default_factory=list)
-    cost: float = 0.0
+    inner: dict[int, float] = field(default_factory=dict)  # cost of clauses inside, by verb
+    chained: list[object] = field(default_factory=list)  # clauses behind "and" and "or"
+    taken: set[int] = field(default_factory=set)  # ids of those of which something was made
 
 
 def as_thing(sem: "Sem | None") -> Thing | None:

@@ -32,6 +32,7 @@ _FLAGS = frozenset(
         "go",
         "q",
         "close",
+        "long",
         "out",
     }
 )

@@ -7,9 +7,9 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
     Compares,
-    Described,
     Ego,
     Event,
+    Everyone,
     Exists,
     Feature,
     Happens,
@@ -22,20 +22,25 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Quantity,
     Related,
+    Road,
     That,
     Thing,
     Unknown,
     Unsaid,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.adoption import exceeding
+from xavi_dialogue.nlu.compose.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.becoming import become
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.nominal import event_in
+from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.tree import words_of
+from xavi_dialogue.nlu.compose.trends import trend
 
+_ABOVE = frozenset({"over", "above", "more", "beyond"})
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
@@ -147,7 +152,7 @@ def _have(special: Special) -> Proposition:
     if over is None and not isinstance(special.clause.than, Clause):
         over = as_thing(special.clause.than)
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
-        other = over or sem.of.to or Described(definite=False)
+        other = over or sem.of.to or Everyone()
         time = _when(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
         return Related("has-priority-over", special.subject, other, time, _tense(special))
     if isinstance(sem, Measure) and sem.of.attribute in ("indicator", "brake-lights"):
@@ -155,6 +160,11 @@ def _have(special: Special) -> Proposition:
         return Has(sem.of.attribute, value, special.subject, _when(special), _tense(special))
     if isinstance(sem, Measure):
         return Compares(Measured(sem.of.attribute, special.subject), "same", None)
+    if isinstance(sem, Feature) and sem.kind == "space":
+        return roomy(special.clause, _when(special))
+    if isinstance(sem, Road) and sem.which == "main":
+        return Related("has-priority-over", special.subject, over or Everyone(), _when(special),
+                       _tense(special))  # fmt: skip
     if isinstance(sem, Feature):
         return Exists(sem, _when(special), _tense(special))
     if isinstance(sem, Noun):
@@ -196,7 +206,12 @@ def _cost(special: Special) -> Proposition:
     if quantity is None and isinstance(special.object, Quantity):
         quantity = special.object
     attribute: Any = "duration" if special.name in ("take-time", "last") else "delay"
-    measured = Measured(attribute, special.subject, time=_when(special), tense=_tense(special))
+    by = special.match.phrases.get("by")
+    deed = by if isinstance(by, Event) else None
+    if deed is not None:
+        deed = with_fields(deed, tense=_tense(special), modal=special.clause.modal)
+    measured = Measured(attribute, special.subject, None, deed, None, _when(special),
+                        _tense(special))  # fmt: skip
     if quantity is None:
         return Compares(measured, "too-much" if "too" in special.clause.focus else "more", None)
     return Compares(measured, "same", quantity)
@@ -206,6 +221,8 @@ def _deed(special: Special) -> Proposition:
     sem = special.object
     if isinstance(sem, Event):
         return Happens(_event(special, sem.action, sem.object))
+    if sem is None and special.content is not None:
+        return special.content  # "why do you make brake"
     return Happens(_event(special, "do", as_thing(sem)))
 
 
@@ -226,8 +243,34 @@ def _do(special: Special) -> Proposition:
         return Happens(sem)
     thing = as_thing(sem)
     if isinstance(sem, Quantity):
+        if sem.unit == "count":
+            sem = Quantity(round(sem.value / 3.6, 6), "m/s")  # nobody says "km/h"
         return Compares(Measured("speed", special.subject, tense=_tense(special)), "same", sem)
     return Happens(_event(special, "do", thing))
+
+
+def _changed(special: Special) -> Proposition:
+    """Read "the gap is shrinking"; what changes otherwise is the plan."""
+    found = trend(special.clause)
+    return found or Happens(_event(special, "change-plan", None))
+
+
+def _begun(special: Special) -> Proposition:
+    """Read "you started braking", "you began the lane change": the deed itself."""
+    if special.content is not None:
+        return special.content
+    sem = special.object
+    if isinstance(sem, Event):
+        event = _event(special, sem.action, sem.object)
+        return Happens(cast(Event, with_fields(event, side=sem.side)))
+    return Happens(_event(special, "go", None))
+
+
+def _had_wrong(special: Special) -> Proposition:
+    """Read "you had that wrong", "did you get him wrong": of whom was spoken."""
+    who = as_thing(special.object)
+    whom = Pronoun("he") if who is None or isinstance(who, Pronoun) else who
+    return Is("wrong", whom, time=_when(special), tense="past")
 
 
 def _is(
@@ -249,7 +292,13 @@ def _exceed(special: Special) -> Proposition:
     speed = Measured("speed", special.subject, time=_when(special), tense=_tense(special))
     limit = Measured("limit", special.subject)
     if isinstance(special.object, Quantity):
-        return Compares(speed, "more", special.object)
+        said = special.object
+        if said.unit == "count":
+            said = Quantity(round(said.value / 3.6, 6), "m/s")  # nobody says "km/h"
+        words = " ".join(words_of(node) for _, node in special.clause.objects)
+        more = special.clause.verb is None or special.clause.verb.key != "do"
+        more = more or any(word in _ABOVE for word in words.split())
+        return Compares(speed, "more" if more else "same", said)
     return Compares(speed, "more", limit)
 
 
@@ -275,7 +324,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "see": _see, "look": _see, "have": _have, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": _deed, "happen": _happen, "do": _do,
-    "happen-wrong": _is("wrong"), "exist": lambda s: Exists(s.subject, _when(s), _tense(s)),
+    "had-wrong": _had_wrong, "happen-wrong": _is("wrong"), "exist": lambda s: Exists(s.subject, _when(s), _tense(s)),
     "break": _is("faulty"), "late": _is("late"), "obey": _is("allowed"),
     "violate": _is("allowed", positive=False), "exceed": _exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
@@ -284,9 +333,9 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": lambda s: Happens(_event(s, "keep-distance", as_thing(s.object))),
-    "begin": lambda s: s.content or Happens(_event(s, "go", None)),
+    "begin": _begun, "change": _changed,
     "lose-sight": lambda s: Happens(_event(s, "see", as_thing(s.object))),
-    "weather": lambda s: Has("weather", "rain"),
+    "weather": lambda s: Has("weather", "rain", tense=_tense(s)),
     "prevent": lambda s: Happens(_event(s, "avoid", as_thing(s.object))),
     "change-o": lambda s: Happens(_event(s, "change-plan", None)),
     "overlook": lambda s: Not(Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
@@ -294,5 +343,6 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "belong": lambda s: Related("on", s.subject, as_thing(s.object) or Pronoun("that")),
     "pick-up": lambda s: Happens(_event(s, "drop-off", as_thing(s.object))),
     "beyond": lambda s: Happens(_event(s, "do", Unknown(cast(Any, s.clause.verb).key))),
+    "remove": lambda s: Not(Exists(as_thing(s.object) or Pronoun("it"))),
     "drop": lambda s: Happens(_event(s, "drop-off", None)),
 }  # fmt: skip

@@ -6,15 +6,18 @@ from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
     Described,
+    Destination,
     Ego,
     Event,
     Exists,
+    Feature,
     Happens,
     Has,
     Is,
     Junction,
     Lane,
     Measured,
+    Next,
     Nobody,
     Not,
     Passenger,
@@ -26,12 +29,14 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unknown,
     Unsaid,
+    Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.predicates import against, arrived, lights, nominal, tense_of
+from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import (
     Measure,
     Noun,
@@ -122,8 +127,9 @@ def _found(clause: Clause) -> list[Found]:
     if "first" in clause.manner and is_thing(subject):
         return [(Is("first", as_thing(subject), time=clause.time, tense=tense_of(clause)), 0.0)]
     for manner, state in (("fast", "fast"), ("slowly", "slow"), ("safely", "safe"),
-                          ("close", "close"), ("late", "late"), ("far", "far")):  # fmt: skip
-        if manner in clause.manner and not clause.objects:
+                          ("close", "close"), ("late", "late"), ("early", "late"),
+                          ("far", "far")):  # fmt: skip
+        if manner in clause.manner and not clause.objects and not isinstance(subject, Measure):
             return [(_is(clause, state, "too" in clause.focus), 0.05)]
     if isinstance(subject, Measure) and subject.of.attribute in ("brake-lights", "indicator"):
         return lights(clause, subject)
@@ -149,8 +155,11 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     thing = as_thing(clause.subject) if event is None else None
     if isinstance(clause.subject, Measure):
         thing = clause.subject.of.thing
-    if inner is not None and isinstance(thing, Pronoun):
+    spoken = isinstance(thing, Pronoun) and thing.form in ("that", "this", "it")
+    if isinstance(thing, Pronoun) and (inner is not None or (spoken and state == "allowed")):
         thing = None
+    if state in ("close", "far") and isinstance(thing, Pronoun):
+        thing = _near_what(clause, thing)
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
     found: Proposition = Is(
         cast(Any, state), thing, event or inner, too, when(clause, None), tense_of(clause)
@@ -162,7 +171,16 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
             return Happens(Event("follow", thing, to, time=clause.time, tense=tense_of(clause)))
         if state != "close":
             return Related(cast(Any, side), cast(Thing, thing), to, clause.time, tense_of(clause))
-    return Not(found) if key in _NEGATED else found
+    return Not(found, lexical=True) if key in _NEGATED else found
+
+
+def _near_what(clause: Clause, thing: Thing) -> Thing:
+    """Tell what "that was close with the car" and "is it still far" are said of."""
+    for phrase in clause.complements:
+        other = as_thing(phrase.sem)
+        if phrase.key in ("with", "to") and isinstance(other, (Described, Vehicle)):
+            return other
+    return Destination() if clause.still and not clause.bearings else thing
 
 
 def _compares(clause: Clause) -> Proposition | None:
@@ -173,6 +191,8 @@ def _compares(clause: Clause) -> Proposition | None:
     left = Measured(cast(Any, attribute), cast(Thing, clause.subject), time=clause.time,
                     tense=tense_of(clause))  # fmt: skip
     right: Any = None
+    if not isinstance(clause.than_time, Unsaid):
+        return compared_times(clause, attribute, direction, left.thing)
     if isinstance(clause.than, Quantity):
         right = clause.than
     elif clause.than is not None and not isinstance(clause.than, Clause):
@@ -203,6 +223,10 @@ def _exists(clause: Clause) -> list[Found]:
             return [(Not(state) if sem.negative else state, 0.1)]
     if thing is None:
         return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
+    if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
+        return [(roomy(clause, clause.time), 0.0)]
+    if isinstance(thing, Feature) and thing.kind == "space":
+        return [(roomy(clause, clause.time), 0.0)]
     thing = _where(thing, clause)
     if isinstance(thing, Nobody):
         described = thing.described or Described(definite=False)
@@ -212,7 +236,9 @@ def _exists(clause: Clause) -> list[Found]:
                 0.0,
             )
         ]
-    return [(Exists(thing, clause.time, tense_of(clause)), 0.0)]
+    there: Proposition = Exists(thing, clause.time, tense_of(clause))
+    denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
+    return [(Not(there) if denied else there, 0.0)]
 
 
 def _where(thing: Thing, clause: Clause) -> Thing:
@@ -244,11 +270,16 @@ def _placed(clause: Clause) -> list[Found]:
     time, tense = clause.time, tense_of(clause)
     for phrase in clause.complements:
         to = as_thing(phrase.sem)
+        if phrase.key == "bearing-beside" and words_of(phrase.node).startswith("close to"):
+            other = to if isinstance(thing, Ego | Passenger) and to is not None else thing
+            return [(Is("close", other, None, "too" in clause.focus, time, tense), 0.0)]
         if phrase.key.startswith("bearing-"):
             relation: Any = relation_of(phrase.key.removeprefix("bearing-"))
             return [
                 (Related(relation, thing, to or as_thing(clause.gap) or Ego(), time, tense), 0.0)
             ]
+        if phrase.key in ("in", "on") and to == Feature("way"):
+            return [(Related("in-the-way-of", thing, Ego(), time, tense), 0.0)]
         if isinstance(phrase.sem, Measure) and phrase.key in ("over", "in"):
             return [(against(clause, thing, phrase), 0.0)]
         if to is None:
@@ -267,17 +298,24 @@ def _placed(clause: Clause) -> list[Found]:
     passed = {leaf.key for leaf in clause.particles} & {"through", "past", "over"}
     if passed and not clause.bearings:
         return [(Is("over", thing, time=time, tense=tense), 0.0)]
-    for bearing, _ in clause.bearings:
+    for bearing, part in clause.bearings:
+        if bearing == "beside" and words_of(part).startswith("close"):
+            return [(Is("close", thing, None, "too" in clause.focus, time, tense), 0.0)]
         if bearing in ("there", "here"):
             if isinstance(thing, Ego):
                 return [(arrived(clause), 0.0)]
             return [(Is("present", thing, time=time, tense=tense), 0.05)]
+        if bearing == "around" and not isinstance(thing, Ego):
+            return [(Is("visible", thing, time=time, tense=tense), 0.0)]
         return [(Related(cast(Any, relation_of(bearing)), thing, Ego(), time, tense), 0.0)]
     if isinstance(clause.subject, Lane):
         return [(Is("free", thing, time=time, tense=tense), 1.0)]
     gap = as_thing(clause.gap)
     if gap is not None:
         return [(Related("same-as", thing, gap, time, tense), 0.4)]
+    if isinstance(time, Next) and isinstance(thing, Ego | Pronoun | Described):
+        going = Event("go", thing, None, None, ("first",), tense=tense, modal="should")
+        return [(Happens(going), 0.1)]
     if not isinstance(time, Unsaid):
         return [(Is("present", thing, time=time, tense=tense), 0.5)]
     return []

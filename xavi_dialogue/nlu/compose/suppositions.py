@@ -10,11 +10,15 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Ego,
+    Happens,
+    Not,
     Proposition,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.frames import is_short
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.tree import leaf_of, node_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -83,25 +87,18 @@ class Suppositions:
             self.phrases.slots.fill(unit.parts, outer)
         question = self._then(then) if then is not None else None
         condition = outer.condition
-        if condition is not None and self._is_short(condition):
+        if condition is not None and is_short(condition):
             thing = as_thing(condition.subject)
             act = Elliptic(thing, negated=condition.negated, form="what-if")
             return [((act,), 0.0)]
         supposed = self.composer.questions.supposition(outer)
         if supposed is None:
             return []
+        if " now " in f"{words_of(unit)} ":
+            supposed = at_once(supposed)
         if leaf_of(unit, "WHATIF") is None and question is None:
             return [((Ask(WhatIf(supposed)),), 0.1)]
         return [((Ask(WhatIf(supposed, question)),), 0.0)]
-
-    def _is_short(self, condition: Clause) -> bool:
-        auxiliary = condition.verb is None or condition.verb.key in ("have", "do")
-        return (
-            auxiliary and bool(condition.aux or condition.verb) and not condition.there
-            and condition.subject is not None and not condition.has("be")
-            and not (condition.objects or condition.complements or condition.adjectives
-                     or condition.bearings or condition.side or condition.comparisons)
-        )  # fmt: skip
 
     def _then(self, node: Node) -> Any:
         wh_node, parts = self.composer.split(node)
@@ -131,6 +128,16 @@ class Suppositions:
 def _bare_subject(clause: Clause) -> bool:
     return not (clause.objects or clause.adjectives or clause.comparisons or clause.complements
                 or clause.bearings or clause.manner)  # fmt: skip
+
+
+def at_once(of: Proposition) -> Proposition:
+    """Say that what is supposed would come now: "if he stopped now"."""
+    match of:
+        case Not(content=content):
+            return Not(at_once(content))
+        case Happens(event=event) if event.tense == "past":
+            return Happens(with_fields(event, tense="present"))
+    return of
 
 
 def suppose(supposed: Proposition) -> Act:

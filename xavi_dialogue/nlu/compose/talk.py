@@ -6,12 +6,14 @@ from xavi_dialogue.domain.meaning import (
     Act,
     AskHelp,
     Beyond,
+    Elliptic,
     Feel,
     Quizzing,
     Repair,
     Social,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Ego,
     Event,
     Happens,
@@ -36,11 +38,24 @@ _FEELINGS = {
 }
 
 
+_SAYING = frozenset({"ask", "say", "use", "talk", "speak", "phrase"})
+
+
+def says(clause: Clause) -> bool:
+    """Say whether it is asked what the passenger may say: "how do I ask", "can I ask about"."""
+    named = clause.verb is not None and clause.verb.key in _SAYING
+    return named and isinstance(clause.subject, Passenger) and clause.tense != "past"
+
+
 def talk_act(leaf: Leaf) -> Act | None:
     """Read a social move, a repair, a wish for help or a quiz."""
     match leaf.category:
         case "TALK":
             return Social(cast(Any, leaf.key))
+        case "REPAIR" if leaf.key == "onward":
+            return Elliptic(time=Back("after"))
+        case "REPAIR" if leaf.key == "besides":
+            return Elliptic(besides=True)
         case "REPAIR":
             return Repair(cast(Any, leaf.key))
         case "HELP":
@@ -108,7 +123,7 @@ def _special_feeling(clause: Clause, value: Special) -> Act | None:
             feeling = "disliking" if clause.negated else "liking"
         if name == "trust" and not clause.negated:
             feeling = "liking"
-        if clause.modal == "would":
+        if clause.modal == "would" or (name == "mind" and clause.negated):
             return None
         return Feel(cast(Any, feeling), _object(clause, value))
     return None

@@ -7,7 +7,6 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     Compare,
     HowMany,
-    HowSure,
     Identify,
     Listing,
     Question,
@@ -24,13 +23,16 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     That,
     Thing,
+    Time,
     Unknown,
     Vehicle,
+    Wanted,
+    WholeRide,
 )
-from xavi_dialogue.nlu.compose.adoption import timed
+from xavi_dialogue.nlu.compose.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import asked_of, counted, propose
+from xavi_dialogue.nlu.compose.nominal import asked_each, asked_of, counted, propose
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh
 
@@ -101,6 +103,9 @@ class Telling:
             return (Ask(Why(timed(Happens(sem), clause.time))),)
         if isinstance(sem, (Moment, Unknown)):
             return (Ask(Identify(sem)),) if isinstance(sem, Unknown) else ()
+        each = asked_each(sem, clause.time, clause.tense)
+        if each:
+            return tuple(Ask(question) for question in each)
         thing = as_thing(sem)
         if isinstance(thing, (Described, Vehicle)) and any(
             p.key == "about" for p in clause.complements
@@ -120,6 +125,10 @@ class Telling:
 
     def _compared(self, clause: Clause, sem: Sem | None) -> tuple[Act, ...]:
         members: list[Sem | None] = list(sem.members) if isinstance(sem, Group) else [sem]
+        if sem is None and clause.gerund is not None:
+            inner = clause.gerund
+            members = [self.composer.propositions.as_deed(inner)]
+            members += [p.sem for p in inner.complements if p.key in ("with", "into")]
         members += [p.sem for p in clause.complements if p.key in ("with", "into")]
         options = tuple(
             Happens(m) if isinstance(m, Event) else as_thing(m) for m in members if m is not None
@@ -141,15 +150,29 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
     if sem is None:
         return Listing("events", time=clause.time)
     if isinstance(sem, Event):
-        kinds: Any = {"stop": "stops"}.get(sem.action, "events")
-        return Listing(kinds, time=clause.time)
-    found = asked_of(sem, clause.time)
-    if isinstance(found, (Listing, HowSure)):
-        return found
+        return listed(sem, clause.time)
     thing = as_thing(sem)
     if isinstance(thing, Described):
+        met = thing.doing is not None and thing.doing.action in _MEETING
+        if met:
+            return Listing("vehicles", time=WholeRide())
+        if thing.doing is not None and isinstance(thing.doing.object, Wanted):
+            return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
         return Listing("vehicles", thing, clause.time)
+    found = asked_of(sem, clause.time)
     return found or Listing("events", time=clause.time)
+
+
+_MEETING = frozenset({"approach", "see", "come", "appear", "pass"})
+
+
+def listed(event: Event, time: Time) -> Listing:
+    """List the events of a kind; what is done without a name is all that happened."""
+    if event.action in ("do", "happen"):
+        return Listing("events", time=time)
+    if event.action == "stop":
+        return Listing("stops", time=time)
+    return Listing("events", time=time, event=cast(Event, with_fields(event, tense="past")))
 
 
 def _description(sem: Sem | None, clause: Clause) -> Question:

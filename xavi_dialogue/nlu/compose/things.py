@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Happens,
     Nobody,
+    Not,
     Passenger,
     Pronoun,
     Quantity,
@@ -29,6 +30,7 @@ from xavi_dialogue.nlu.compose.sem import (
     as_thing,
 )
 from xavi_dialogue.nlu.compose.tree import (
+    is_negated,
     leaf_of,
     leaves_of,
     node_of,
@@ -102,9 +104,16 @@ class Nouns:
 
     def _core(self, core: Node, traits: Traits) -> Sem:
         if core.name == "pronoun":
-            return self._pronoun(cast(Leaf, core.parts[0]), traits)
+            named = self._pronoun(cast(Leaf, core.parts[0]), traits)
+            cleft = isinstance(named, Ego | Pronoun) and traits.clause is not None
+            relative = traits.gerund is not None and traits.gerund.name == "relative"
+            if cleft and relative and traits.clause is not None:
+                return Specified(cast(Thing, named), traits.clause)
+            return named
         if core.name == "anybody":
             return self._anybody(core, traits)
+        if core.name == "driven":
+            return self.read(cast(Node, core.parts[-1]))
         if core.name == "quantity":
             return self._quantity(core)
         if core.name == "times_clause":
@@ -127,7 +136,7 @@ class Nouns:
             return Ego()
         if traits.gerund is not None and traits.gerund.name == "participle":
             return doing(Pronoun(cast(Any, leaf.key)), traits.event)
-        if "doing" in traits.fields or "bearing" in traits.fields:
+        if {"doing", "bearing", "origin"} & traits.fields.keys():
             return described("vehicle", traits, plural=leaf.key == "they")
         return Pronoun(cast(Any, leaf.key))
 
@@ -204,8 +213,8 @@ class Nouns:
 
     def _phrase_before(self, part: Node, traits: Traits) -> None:
         match part.name:
-            case "num":
-                traits.fields["number"] = int(number_of(part))
+            case "counted":
+                traits.fields["number"] = int(number_of(cast(Node, part.parts[0])))
             case "adjective":
                 traits.adjectives += [p.key for p in leaves_of(part) if p.category == "ADJ"]
             case "genitive":
@@ -252,11 +261,15 @@ class Nouns:
                 of = as_thing(self.read(cast(Node, part.parts[1])))
                 traits.fields["bearing"] = "ahead" if leaf.key == "in-way" else leaf.key
                 traits.fields["of"] = None if isinstance(of, (Ego, Passenger)) else of
-            case "relative" | "contact" | "participle":
+            case "relative" | "contact" | "participle" | "extent":
                 self._clause_behind(part, traits)
             case "attached":
                 key = cast(Leaf, part.parts[0]).key
-                traits.about.append((key, self.clauses.inner(part.parts[1])))
+                sem = self.clauses.inner(part.parts[1])
+                traits.about.append((key, sem))
+                gerund = part.parts[1]
+                if isinstance(sem, Event) and isinstance(gerund, Node) and is_negated(gerund):
+                    traits.clause = Not(Happens(sem))  # "the reason for not stopping"
 
     def _clause_behind(self, part: Node, traits: Traits) -> None:
         traits.gerund = part
@@ -264,6 +277,7 @@ class Nouns:
         traits.clause = found
         match found:
             case Happens(event=event):
+                event = self._placed(event, traits)
                 traits.fields["doing"] = event
                 traits.event = event
             case Related(relation=relation, thing=Wanted(), to=to):
@@ -275,6 +289,18 @@ class Nouns:
                 pass
             case _:
                 traits.fields["such"] = found
+
+    def _placed(self, event: Event, traits: Traits) -> Event:
+        """Take the place of "standing on the right" for the place of who stands there."""
+        where = event.where
+        if where is None or where.thing != Wanted() or not isinstance(where.to, Ego):
+            return event
+        bearing = next((b for b, r in _RELATIONS.items() if r == where.relation), None)
+        if bearing is None or "bearing" in traits.fields:
+            return event
+        traits.fields["bearing"] = bearing
+        fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
+        return Event(**{**fields, "where": None})
 
 
 def doing(thing: Thing, event: Event | None) -> Sem:

@@ -5,6 +5,7 @@ from typing import Any
 from xavi_dialogue.domain.terms import (
     Ago,
     At,
+    AtDecision,
     Back,
     Between,
     Junction,
@@ -55,8 +56,14 @@ def time_of(node: Node) -> Time:
         return Between(min(clocks), max(clocks))
     if clocks:
         return _placed(node, clocks[0])
+    if node.name == "time_since":
+        adverbs = [leaf.key for leaf in leaves_of(node) if leaf.category == "TIMEADV"]
+        return Back("after") if "now" in adverbs else Unsaid()
     if node.name == "time_rank":
         return Rank(_rank(node))
+    if node.name in ("time_decision", "time_decisions"):
+        ranks = [int(number_of(part)) for part in nodes_of(node, "num")]
+        return AtDecision(min(ranks), max(ranks) if len(ranks) > 1 else None)
     if node.name == "time_between":
         numbers = [number_of(part) for part in nodes_of(node, "num")]
         return Between(min(numbers), max(numbers))
@@ -96,6 +103,9 @@ def seconds_of(node: Node) -> float | None:
 
 
 def _amount(node: Node) -> Time:
+    """Read an amount of time, or after "at" a bare number of seconds."""
+    if node.name == "time_bare":
+        return At(number_of(nodes_of(node, "num")[0]))
     amount = seconds_of(node)
     key = _preposition(node)
     adverb = leaf_of(node, "TIMEADV")
@@ -104,8 +114,12 @@ def _amount(node: Node) -> Time:
         return Within(amount) if later else Ago(amount)
     if node.name == "time_span":
         order = leaf_of(node, "ORD")
-        span = amount if amount is not None else FEW
-        return Within(span) if order is not None and order.key == "next" else Ago(span)
+        unit = leaf_of(node, "TUNIT")
+        some = SECONDS.get(unit.key, 1.0) if unit and unit.key != "s" else FEW
+        span = amount if amount is not None else some
+        if order is not None and order.key == "next":
+            return Within(span)
+        return Ago(span, span=True)
     if key in ("in", "after") and amount is not None:
         return Within(amount)
     if key in ("for", "over", "during"):

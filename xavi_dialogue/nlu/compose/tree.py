@@ -59,3 +59,9 @@ def _digits(word: str) -> float:
     """Read a number in decimal digits; 0 for other signs that look like digits."""
     plain = word.isascii() and word.replace(".", "", 1).isdecimal()
     return float(word) if plain else 0.0
+
+
+def is_negated(node: Node) -> bool:
+    """Say whether a gerund is negated: "for not stopping"."""
+    inner = (node, *(p for p in node.parts if isinstance(p, Node)))
+    return node.name == "gerund" and any(leaf_of(part, "NOT") is not None for part in inner)

@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
+    Changed,
     Doing,
     Fault,
     HowAvoid,
@@ -12,17 +13,22 @@ from xavi_dialogue.domain.meaning import (
     Question,
     Summarise,
     WhatWouldChange,
+    Where,
     Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Caused,
+    Compares,
     Described,
     Ego,
     Event,
     Exists,
     Happens,
     Is,
+    Measured,
+    Next,
     Not,
     Passenger,
     Pronoun,
@@ -32,13 +38,22 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
     Wanted,
+    WholeRide,
 )
-from xavi_dialogue.nlu.compose.adoption import adopted, with_fields
+from xavi_dialogue.nlu.compose.adoption import adopted, as_of, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.grades import measured
+from xavi_dialogue.nlu.compose.lasting import measured
 from xavi_dialogue.nlu.compose.nominal import asked_of, propose
+from xavi_dialogue.nlu.compose.others import (
+    expected_of,
+    is_idle,
+    is_vehicle,
+    shown,
+    with_whom,
+)
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.compose.wh import (
     Wh,
     fact,
@@ -51,6 +66,9 @@ class What:
 
     def what(self, wh: Wh, clause: Clause, value: Any) -> Question:
         """Ask what or who it is of which the clause holds."""
+        lit = shown(clause)
+        if lit is not None:
+            return lit
         named = isinstance(clause.subject, Measure) or (
             isinstance(clause.subject, Noun) and clause.verb is None
         )
@@ -67,6 +85,11 @@ class What:
 
     def _what_is(self, wh: Wh, clause: Clause) -> Question:
         subject = clause.subject
+        open_ = (isinstance(subject, Wanted) or subject is None) and not clause.objects
+        if open_ and isinstance(clause.time, (WholeRide, Back)) and not clause.complements:
+            return Doing(None, clause.time, "past")
+        if _next_named(clause):
+            return Doing(Ego(), Next(), "future")
         if isinstance(subject, Wanted) or subject is None:
             subject = clause.objects[0][0] if clause.objects else Pronoun("that")
         for phrase in clause.complements:
@@ -86,9 +109,17 @@ class What:
             case "make-do" | "cause":
                 effect = fact(value)
                 inner = effect.effect if isinstance(effect, Caused) else None
+                if clause.modal in ("would", "could") and isinstance(clause.subject, Wanted):
+                    return WhatWouldChange(inner)
+                if isinstance(inner, Happens) and is_idle(inner.event):
+                    return Doing(inner.event.actor, time)  # "what makes the lorry there?"
                 return Why(inner or That())
+            case "take-time" if isinstance(subject, Wanted) and not clause.gerund:
+                return Why(Compares(Measured("duration", time=time), "more"))
             case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
                 return Listing("vehicles", time=time)
+            case "plan" if clause.tense == "past" and not isinstance(time, Unsaid):
+                return Listing("decisions", time=time)
             case "plan" | "want" if isinstance(value.object, Wanted) or value.object is None:
                 return Doing(subject, time, "future")
             case "plan" | "want" | "decide" if isinstance(value.content, Happens):
@@ -97,8 +128,12 @@ class What:
         return _of_reasons(clause, value)
 
     def _doing(self, wh: Wh, clause: Clause, value: Special) -> Question:
-        if clause.modal == "should" and isinstance(clause.subject, Ego):
+        undone = clause.modal == "could" and clause.tense == "past"
+        if (undone or clause.modal == "should") and not isinstance(clause.subject, Wanted):
             content = value.content
+            avoiding = clause.infinitive is not None or "differently" in clause.focus
+            if undone and content is None and isinstance(clause.subject, Ego) and not avoiding:
+                return Listing("options", time=clause.time)
             return HowAvoid(content.content if isinstance(content, Not) else content)
         actor = as_thing(clause.subject) or Ego()
         if isinstance(clause.subject, Wanted):
@@ -115,6 +150,8 @@ class What:
 
     def _happened(self, clause: Clause, value: Special) -> Question:
         about = next((as_thing(s) for s in value.match.phrases.values()), None)
+        if is_vehicle(about or Ego()) and clause.tense in ("past", "perfect"):
+            return Where(Event("go", cast(Thing, about), time=clause.time))
         if about is not None and not isinstance(about, Pronoun):
             return Summarise(about, clause.time)
         tense = clause.tense if clause.tense != "perfect" else "past"
@@ -132,8 +169,19 @@ class What:
                 event=Event(action="change-plan", actor=Wanted(), modal="would" | "could")
             ):
                 return WhatWouldChange()
+            case Happens(event=Event(action="change-plan", actor=Wanted()) as event):
+                return Why(Happens(with_fields(event, actor=Ego())))
+            case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
+                return Doing(to, clause.time, "present")  # "what is up with that van"
+            case Is(state="wrong", thing=Wanted()) if (who := with_whom(clause)) is not None:
+                return Doing(who, clause.time, "present")
+            case Is(state="over", thing=Wanted()) if clause.modal in ("could", "should"):
+                return HowAvoid()
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
+            case Happens(event=Event(action="go" | "continue", actor=Wanted(), object=None)):
+                if "on" in {leaf.key for leaf in clause.particles} | {*clause.focus}:
+                    return Doing(None, clause.time, cast(Any, clause.tense))
             case Related(relation="same-as", thing=Wanted(), to=to):
                 return asked_of(to, clause.time, clause.tense) or Identify(to)
             case Caused(cause=Wanted(), effect=effect):
@@ -147,12 +195,28 @@ class What:
             if isinstance(actor, Described) and actor.doing is None:
                 event = with_fields(value.event, actor=Wanted())
                 return Identify(cast(Thing, with_fields(actor, doing=event)))
+            if isinstance(actor, Pronoun) and actor.form in ("that", "this"):
+                event = with_fields(value.event, actor=Wanted())
+                return Identify(cast(Thing, Described(doing=event)))
             if wh.kind == "who" and isinstance(actor, Pronoun):
                 return Which(wanted, Happens(with_fields(value.event, actor=Wanted())))
         if wh.kind == "what" and _does_something(value):
             value = cast(Happens, value)
+            if value.event.modal in ("could", "should") and value.event.tense == "past":
+                ours = value.event.modal == "could" and isinstance(value.event.actor, Ego)
+                ours = ours and clause.infinitive is None and "differently" not in clause.focus
+                return Listing("options", time=clause.time) if ours else HowAvoid()
             return Doing(value.event.actor, clause.time, cast(Any, clause.tense))
         return Which(wanted, value)
+
+
+def _next_named(clause: Clause) -> bool:
+    """Say whether "what is next" is asked: of no thing that is said."""
+    if isinstance(clause.time, Next):
+        return clause.verb is None and not clause.complements
+    named = [node for sem, node in clause.objects if sem == Described(rank=1)]
+    words = {word for node in named for leaf in leaves_of(node) for word in leaf.words}
+    return bool(words) and words <= {"next", "up"}
 
 
 def _of_reasons(clause: Clause, value: Special) -> Question | None:
@@ -163,18 +227,26 @@ def _of_reasons(clause: Clause, value: Special) -> Question | None:
             return Listing("options", time=time)
         case "know" | "believe" | "conclude":
             about = getattr(value.content, "event", None)
-            thing = about.actor if about is not None else None
+            thing = about.actor if about is not None else expected_of(value)
+            if about is not None and isinstance(time, Unsaid):
+                time = about.time  # "what did you expect it to do then"
             return Listing("beliefs", None if isinstance(thing, Ego) else thing, time)
         case "matter" | "influence" | "depend":
             return WhatWouldChange(None, most=True)
         case "decide" | "choose":
             return Listing("decisions", time=time)
+        case "save" | "cost" if isinstance(by := value.match.phrases.get("by"), Event):
+            return Why(as_of(Happens(by), value.clause.tense))
         case "achieve":
             by = value.match.phrases.get("by")
-            return Why(Happens(by) if isinstance(by, Event) else That())
+            return Why(as_of(Happens(by), clause.tense) if isinstance(by, Event) else That())
+        case "change" if value.content is None and clause.modal is None:
+            return Changed(time)
         case "require" | "change" | "need":
             return WhatWouldChange(value.content)
         case "prevent" if (denied := prevented(value)) is not None:
+            if clause.modal in ("would", "could"):
+                return HowAvoid(denied)
             return Why(Not(denied))
         case "take-time" if clause.infinitive is not None and clause.modal == "would":
             return WhatWouldChange(value.content)
@@ -183,7 +255,7 @@ def _of_reasons(clause: Clause, value: Special) -> Question | None:
         case "prevent" | "help" | "improve":
             return HowAvoid(value.content or propose(value.object))
         case "tell" | "say" | "report":
-            return HowKnow(None)
+            return HowKnow(value.content)
         case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
             return measured("delay", clause, as_thing(subject))
     return None
@@ -200,7 +272,10 @@ _SOUGHT = frozenset({"wait", "look", "head", "stand", "give way", "yield", "chec
 
 def purpose(clause: Clause) -> bool:
     """Say whether "what ... for" asks for the reason: "what did you brake for"."""
-    alone = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
+    stranded = {phrase.key for phrase in clause.complements if phrase.sem is None}
+    deed = isinstance(clause.subject, (Event, Pronoun)) and clause.verb is None
+    about = any(leaf.words == ("about",) for leaf in clause.particles)
+    alone = "for" in stranded or (deed and (about or "about" in stranded))
     return alone and (clause.verb is None or clause.verb.key not in _SOUGHT)
 
 
@@ -232,6 +307,8 @@ def _placed(relation: str, thing: Thing, to: Thing) -> Thing:
         "beside": "beside", "oncoming-to": "oncoming", "near": "around",
     }  # fmt: skip
     of = None if isinstance(to, (Ego, Passenger)) else to
+    if isinstance(thing, Pronoun) and thing.form in ("that", "this"):
+        thing = Described()
     if isinstance(thing, Described) and thing.bearing is None and relation in bearings:
         return cast(Thing, with_fields(thing, bearing=bearings[relation], of=of))
     return thing

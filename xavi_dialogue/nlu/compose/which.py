@@ -14,20 +14,28 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Caused,
     Described,
     Ego,
     Exit,
+    Happens,
+    Junction,
     Lane,
     Measured,
     Passenger,
+    Pronoun,
+    Rank,
     Related,
+    Relative,
     That,
     Thing,
+    Unsaid,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.grades import measured
+from xavi_dialogue.nlu.compose.lasting import meanwhile, measured
 from xavi_dialogue.nlu.compose.nominal import asked_of
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.wh import (
@@ -39,6 +47,13 @@ from xavi_dialogue.nlu.compose.wh import (
 )
 
 
+def _moment(clause: Clause, value: Any) -> Any:
+    """Tell the time of a value: that of the deed in "what speed did you take the bend at"."""
+    if isinstance(value, Happens) and isinstance(value.event.time, Unsaid):
+        return meanwhile(clause, value.event)
+    return time_of(clause, value)
+
+
 class WhichOne:
     """Builds questions that "which" asks."""
 
@@ -48,21 +63,30 @@ class WhichOne:
         actor = as_thing(clause.subject)
         if isinstance(actor, (Wanted, Passenger)):
             actor = None
+        ours = actor is None or isinstance(actor_of(value, actor), Ego)
         match sem:
+            case Measure(of=Measured(attribute="heading")) if ours:
+                return self._way(clause, value, actor)
+            case Measure() if wh.preposition == "at" and value is None:
+                of = sem.of  # "and at what speed?": of what was just spoken of
+                return HowMuch(with_fields(of, time=Back("during"), tense="past"), sem.extreme)
             case Measure():
                 return self._attribute(sem, clause, value, actor)
             case Noun():
                 return self._abstract(sem, clause, value)
             case Exit():
+                whose = actor_of(value, actor)
                 return HowMuch(
                     Measured(
                         "exit-number",
-                        actor_of(value, actor),
+                        Ego() if isinstance(whose, Pronoun) else whose,
                         time=time_of(clause, value),
                         tense=cast(Any, clause.tense),
                     )
                 )
             case Lane():
+                if (actor is None or isinstance(actor, Lane)) and clause.objects:
+                    actor = as_thing(clause.objects[0][0])
                 return measured("lane", clause, actor_of(value, actor))
             case SideOf() | None if wh.words and wh.words[-1] in ("way", "direction", "side"):
                 return self._way(clause, value, actor)
@@ -74,6 +98,9 @@ class WhichOne:
 
     def _which_one(self, wh: Wh, clause: Clause, value: Any) -> Question:
         thing = as_thing(wh.sem) or Wanted()
+        taken = clause.verb is not None and clause.verb.key == "take"
+        if taken and isinstance(clause.subject, Ego) and thing in _BARE:
+            return way_at(Ego(), time_of(clause, value), clause.tense)
         extreme = _superlative(clause)
         if isinstance(thing, Described):
             fields: dict[str, Any] = {k: getattr(thing, k) for k in thing.__struct_fields__}
@@ -91,12 +118,12 @@ class WhichOne:
         return Which(thing, of)
 
     def _way(self, clause: Clause, value: Any, actor: Thing | None) -> Question:
-        time = time_of(clause, value)
-        return HowMuch(Measured("turn", actor_of(value, actor), time=time,
-                                tense=cast(Any, clause.tense)))  # fmt: skip
+        return way_at(actor_of(value, actor), time_of(clause, value), clause.tense)
 
     def _attribute(self, sem: Measure, clause: Clause, value: Any, actor: Thing | None) -> Question:
         measure = sem.of
+        if measure.attribute == "speed" and "semi-allowed" in clause.aux:
+            return measured("limit", clause, actor)
         if measure.attribute == "probability":
             return HowSure(content_of(clause, value), clause.time)
         thing = None if isinstance(clause.subject, Measure) else actor
@@ -104,7 +131,7 @@ class WhichOne:
             thing = as_thing(clause.objects[0][0])
         return HowMuch(
             Measured(measure.attribute, thing or measure.thing, measure.to, measure.event, None,
-                     time_of(clause, value), cast(Any, clause.tense)), sem.extreme,
+                     _moment(clause, value), cast(Any, clause.tense)), sem.extreme,
         )  # fmt: skip
 
     def _abstract(self, sem: Noun, clause: Clause, value: Any) -> Question:
@@ -121,6 +148,18 @@ class WhichOne:
             return self._way(clause, value, as_thing(clause.subject))
         found = asked_of(sem, clause.time, clause.tense)
         return found or Which(Wanted(), fact(value) if value is not None else None)
+
+
+_BARE = (Wanted(), Described(), Described(definite=False))
+
+
+def way_at(actor: Thing, time: Any, tense: str, attribute: str = "turn") -> Question:
+    """Ask which way somebody goes; what is said of the junction is kept where it is to come."""
+    place = getattr(time, "anchor", None) if isinstance(time, Relative) else None
+    if tense in ("past", "perfect") or not isinstance(place, Junction):
+        place = None
+    when = Unsaid() if place is not None or time == Rank(-1) else time
+    return HowMuch(Measured(cast(Any, attribute), actor, place, time=when, tense=cast(Any, tense)))
 
 
 def _superlative(clause: Clause) -> str | None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
-from xavi_dialogue.nlu.grammar.rules import Grammar, State
+from xavi_dialogue.nlu.grammar.rules import Edges, Grammar, State
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,10 +27,11 @@ Part: TypeAlias = Node | Leaf
 Chain: TypeAlias = "tuple[Chain, Leaf | Entry] | None"
 #: A phrase in the table: its cost, its rule, its parts.
 Entry: TypeAlias = "tuple[float, str, Chain]"
+Pending: TypeAlias = dict[int, dict[int, tuple[float, Chain]]]  # by node and state
 Leaves: TypeAlias = list[dict[str, list[Leaf]]]
 
 _TIE = 1e-6
-_BEAM = 3.0  # what costs this much more than the best at its node is given up
+_BEAM = 1.6  # what costs this much more than the best at its node is given up
 _DEEPEST = 60  # phrases within one another; no sentence that people say comes near
 
 
@@ -40,14 +41,15 @@ class ChartLimitError(Exception):
 
 @dataclass(slots=True)
 class Budget:
-    """The steps that a text may still take."""
+    """The steps that a text may still take; some are reserved for what comes later."""
 
     steps: int
+    reserve: int = 0
 
     def spend(self, steps: int) -> None:
         """Take steps."""
         self.steps -= steps
-        if self.steps < 0:
+        if self.steps < self.reserve:
             raise ChartLimitError
 
 
@@ -62,6 +64,7 @@ class Chart:
         bits = grammar.bits
         self.masks = [sum(bits[name] for name in found if name in bits) for found in leaves]
         self.masks.append(0)
+        self.lacking = _lacking(grammar, leaves)
         self.width = len(leaves) + 1
         self.depth = 0
 
@@ -78,6 +81,9 @@ class Chart:
         if found is None:
             if self.depth >= _DEEPEST:
                 return {}
+            if self.grammar.phrases[number].needed & self.lacking[start]:
+                self.table[key] = {}
+                return {}
             self.table[key] = {}
             self.depth += 1
             found = self.table[key] = self._run(number, start)
@@ -85,60 +91,69 @@ class Chart:
         return found
 
     def _run(self, number: int, start: int) -> dict[int, Entry]:
-        states = self.grammar.phrases[number].states
+        states, budget = self.grammar.phrases[number].states, self.budget
         found: dict[int, Entry] = {}
-        pending: list[dict[int, tuple[float, Chain]] | None] = [None] * (self.width + 1)
-        pending[start] = {0: (0.0, None)}
-        last = start
+        pending: Pending = {start: {0: (0.0, None)}}
         here = start
-        while here <= last:
-            active = pending[here]
-            if active:
-                bound = min([item[0] for item in active.values()]) + _BEAM
+        while pending:
+            active = pending.pop(here, None)
+            if active is not None:
+                bound = _BEAM + (min([c for c, _ in active.values()]) if len(active) > 1 else 99.0)
+                mask = self.masks[here]
                 for index, (cost, chain) in active.items():
-                    if cost <= bound:
-                        state = states[index]
-                        if state.complete and here > start:
-                            _complete(state, found, here, cost, chain)
-                        reached = self._step(state, here, cost, chain, pending)
-                        if reached > last:
-                            last = reached
+                    if cost > bound:
+                        continue
+                    budget.steps -= 1
+                    state = states[index]
+                    if state.complete and here > start:
+                        _complete(state, found, here, cost, chain)
+                    if mask:
+                        edges = state.known.get(mask) or state.edges(mask)
+                        self._step(states, edges, here, cost, chain, pending)
+                if budget.steps < budget.reserve:
+                    raise ChartLimitError
             here += 1
         return found
 
     def _step(
-        self, state: State, here: int, cost: float, chain: Chain,
-        pending: list[dict[int, tuple[float, Chain]] | None],
-    ) -> int:  # fmt: skip
-        """Go on from a state in every way; give the farthest node that was reached."""
-        mask = self.masks[here]
-        self.budget.steps -= 1
-        if self.budget.steps < 0:
-            raise ChartLimitError
-        reached = 0
-        if not mask:
-            return reached
-        leaves, phrases, find = self.leaves[here], self.grammar.phrases, self._find
-        for name, target in state.terminals:
-            if name in leaves:
-                for leaf in leaves[name]:
-                    _relax(pending, leaf.end, target, cost + leaf.cost, chain, leaf)
-                    if leaf.end > reached:
-                        reached = leaf.end
-        for other, target in state.phrases:
-            if phrases[other].first & mask:
-                for end, entry in find(other, here).items():
-                    _relax(pending, end, target, cost + entry[0], chain, entry)
-                    if end > reached:
-                        reached = end
-        return reached
+        self, states: list[State], edges: Edges, here: int, cost: float, chain: Chain,
+        pending: Pending,
+    ) -> None:  # fmt: skip
+        """Go on from a state in every way."""
+        lacking = self.lacking
+        for _, name, target, price in edges[0]:
+            needed = states[target].needed
+            for leaf in self.leaves[here][name]:  # type: ignore[index]
+                end = leaf.end
+                if not needed & lacking[end]:
+                    _relax(pending, end, target, cost + price + leaf.cost, chain, leaf)
+        for _, other, target, price in edges[1]:
+            found = self.table.get(other * self.width + here)  # type: ignore[operator]
+            if found is None:
+                found = self._find(other, here)  # type: ignore[arg-type]
+            if found:
+                needed = states[target].needed
+                for end, entry in found.items():
+                    if not needed & lacking[end]:
+                        _relax(pending, end, target, cost + price + entry[0], chain, entry)
+
+
+def _lacking(grammar: Grammar, leaves: Leaves) -> list[int]:
+    """List for each node the marks of which no word stands there or later."""
+    found = [-1]
+    for at in reversed(leaves):
+        present = found[-1]
+        for name in at:
+            present &= ~grammar.marks.get(name, 0)
+        found.append(present)
+    found.reverse()
+    return found
 
 
 def _relax(
-    pending: list[dict[int, tuple[float, Chain]] | None], end: int, state: int, cost: float,
-    chain: Chain, part: "Leaf | Entry",
-) -> None:  # fmt: skip
-    row = pending[end]
+    pending: Pending, end: int, state: int, cost: float, chain: Chain, part: "Leaf | Entry"
+) -> None:
+    row = pending.get(end)
     if row is None:
         pending[end] = {state: (cost, (chain, part))}
         return

@@ -19,6 +19,7 @@ VERB_CLASSES = {"base": "V", "third": "V", "past": "VPAST", "part": "VED", "ing"
 LATER_SENSE = 0.15  # cost of a phrase marked "*"
 UNKNOWN = 1.0  # cost of a word without a sense
 SKIPPED = 1.6  # cost of a word with senses of which none is taken
+AUXILIARY = 0.03  # what "want to" is cheaper by than the verb and its infinitive
 FILLER = 0.35  # cost of a function word that is read past
 AUXILIARIES = {"do": 0.1, "have": 0.2}  # cost as verbs in their own right
 ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
@@ -104,6 +105,7 @@ def lexicon() -> Lexicon:
 def _add_class(trie: Trie, category: str, key: str, listed: str, nouns: set[str]) -> None:
     for phrase in phrases(listed):
         cost = LATER_SENSE if phrase[0].startswith("*") else 0.0
+        cost -= AUXILIARY if category == "SEMI" else 0.0
         words = (phrase[0].lstrip("*"), *phrase[1:])
         trie.add(words, Entry(category, key, "", cost))
         if category in NOUNS:
@@ -117,7 +119,8 @@ def _add_verbs(trie: Trie) -> None:
     for lemma in table["senses"]:
         spelt = [lemma.split(), *(list(p) for p in phrases(table["variants"].get(lemma, "")))]
         for words in spelt:
-            irregular = table["forms"].get(" ".join(words))
+            forms = table["forms"]
+            irregular = forms.get(" ".join(words)) or forms.get(words[0])
             for form, word in verb_forms(words[0], irregular):
                 cost = AUXILIARIES.get(lemma, 0.0)
                 cost = (
@@ -127,7 +130,8 @@ def _add_verbs(trie: Trie) -> None:
                 )
                 if form in ("part", "base") and not words[1:] and _is_adjective(trie, word):
                     cost += ADJECTIVAL
-                trie.add((word, *words[1:]), Entry(VERB_CLASSES[form], lemma, form, cost))
+                category = "GOING" if word == "going" else VERB_CLASSES[form]  # "going to"
+                trie.add((word, *words[1:]), Entry(category, lemma, form, cost))
 
 
 def _is_adjective(trie: Trie, word: str) -> bool:

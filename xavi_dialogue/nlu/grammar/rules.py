@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
+from typing import TypeAlias, cast
 
 import lark
 from lark.grammar import Rule, Symbol
@@ -17,13 +18,35 @@ GRAMMAR_FILES = ("nlu_phrases.lark", "nlu_clauses.lark")
 STEP = 0.01  # cost of one point of negative priority
 
 
+Edge: TypeAlias = "tuple[int, str | int, int, float]"
+"""An edge: bits of the word classes that it may begin with, its class or phrase, the next state,
+its cost."""
+Edges: TypeAlias = "tuple[tuple[Edge, ...], tuple[Edge, ...]]"
+_REMEMBERED = 512  # sets of word classes for which a state keeps its edges
+
+
 @dataclass(slots=True)
 class State:
     """A state of an automaton: where symbols lead, and what is complete here."""
 
-    terminals: list[tuple[str, int]] = field(default_factory=list)
-    phrases: list[tuple[int, int]] = field(default_factory=list)  # number of phrase, next state
+    terminals: list[Edge] = field(default_factory=list)
+    phrases: list[Edge] = field(default_factory=list)
     complete: list[tuple[str, float]] = field(default_factory=list)  # name of rule, cost
+    needed: int = 0  # marks of what must still come
+    known: dict[int, Edges] = field(default_factory=dict)
+
+    def edges(self, mask: int) -> Edges:
+        """List the edges, to words and to phrases, that can be taken where some words stand."""
+        found = self.known.get(mask)
+        if found is None:
+            if len(self.known) >= _REMEMBERED:
+                self.known.clear()
+            found = (
+                tuple(edge for edge in self.terminals if edge[0] & mask),
+                tuple(edge for edge in self.phrases if edge[0] & mask),
+            )
+            self.known[mask] = found
+        return found
 
 
 @dataclass(slots=True)
@@ -33,16 +56,24 @@ class Phrase:
     name: str
     states: list[State]
     first: int = 0  # bits of word classes
-    splices: bool = False  # its parts belong to the phrase around it
+
+    @property
+    def needed(self) -> int:
+        """The marks of what must stand in it."""
+        return self.states[0].needed
 
 
 @dataclass(frozen=True, slots=True)
 class Grammar:
-    """All phrases, by number; `bits` gives each word class its bit."""
+    """All phrases, by number.
+
+    `bits` gives each word class its bit, `marks` its bit and those of the groups that it is in.
+    """
 
     phrases: tuple[Phrase, ...]
     number: dict[str, int]
     bits: dict[str, int]
+    marks: dict[str, int]
 
 
 @cache
@@ -59,81 +90,145 @@ def grammar() -> Grammar:
     number = {name: index for index, name in enumerate(by_name)}
     terminals = sorted({s.name for r in built.rules for s in r.expansion if s.is_term})
     bits = {name: 1 << index for index, name in enumerate(terminals)}
-    phrases = tuple(_phrase(name, rules, number) for name, rules in by_name.items())
-    _find_first(phrases, bits)
-    return Grammar(phrases, number, bits)
+    builder = _Builder(number, bits, _choices(by_name))
+    phrases = tuple(builder.phrase(name, rules) for name, rules in by_name.items())
+    _find_first(phrases)
+    marks = _marks(bits, {phrases[number[name]].first for name in builder.choices})
+    _find_needed(phrases, marks)
+    return Grammar(phrases, number, bits, marks)
 
 
-def _phrase(name: str, rules: list[Rule], number: dict[str, int]) -> Phrase:
-    states = [State()]
-    moves: dict[tuple[int, str], int] = {}
-    recursive = [r for r in rules if r.expansion[0].name == name]
-    for rule in rules:
-        if rule in recursive:
-            continue
-        end = _lay(rule, 0, rule.expansion, states, moves, number)
-        _finish(rule, end, states)
-    if recursive:
-        _loop(recursive, states, number, moves)
-    return Phrase(name, states, splices=name.startswith("_"))
+Choice: TypeAlias = tuple[Symbol, float]  # a symbol and what it costs
 
 
-def _finish(rule: Rule, end: int, states: list[State]) -> None:
-    cost = -STEP * (rule.options.priority or 0)
-    states[end].complete.append((rule.alias or rule.origin.name, cost))
+def _choices(by_name: dict[str, list[Rule]]) -> dict[str, list[Choice]]:
+    """Find the spliced phrases that are a choice of symbols, and the symbols of each."""
+    plain = {
+        name: [(rule.expansion[0], _cost(rule)) for rule in rules]
+        for name, rules in by_name.items()
+        if name[0] == "_" and name[1] != "_" and all(len(r.expansion) == 1 for r in rules)
+    }
+
+    def spelt(name: str) -> list[Choice]:
+        return [
+            (inner, cost + more)
+            for symbol, cost in plain[name]
+            for inner, more in (spelt(symbol.name) if symbol.name in plain else [(symbol, 0.0)])
+        ]
+
+    return {name: spelt(name) for name in plain}
 
 
-def _loop(
-    rules: list[Rule],
-    states: list[State],
-    number: dict[str, int],
-    moves: dict[tuple[int, str], int],
-) -> None:
-    """Let each complete state go on with what follows the phrase in its recursive rules."""
-    ends = [index for index, state in enumerate(states) if state.complete]
-    for rule in rules:
-        rest = rule.expansion[1:]
-        for end in ends:
-            last = _lay(rule, end, rest[:-1], states, moves, number)
-            name = rest[-1].name
-            if not any(name in (t,) for t, _ in states[last].terminals):
-                _link(states[last], rest[-1].is_term, name, end, number)
+def _cost(rule: Rule) -> float:
+    return -STEP * (rule.options.priority or 0)
 
 
-def _lay(
-    rule: Rule, start: int, symbols: Sequence[Symbol], states: list[State],
-    moves: dict[tuple[int, str], int], number: dict[str, int],
-) -> int:  # fmt: skip
-    here = start
-    for symbol in symbols:
-        key = (here, symbol.name)
-        if key not in moves:
-            moves[key] = len(states)
-            states.append(State())
-            _link(states[here], symbol.is_term, symbol.name, moves[key], number)
-        here = moves[key]
-    return here
+@dataclass(slots=True)
+class _Builder:
+    """Builds automata."""
+
+    number: dict[str, int]
+    bits: dict[str, int]
+    choices: dict[str, list[Choice]]
+    states: list[State] = field(default_factory=list)
+    moves: dict[tuple[int, str], int] = field(default_factory=dict)
+
+    def phrase(self, name: str, rules: list[Rule]) -> Phrase:
+        """Build the automaton of a phrase."""
+        self.states = [State()]
+        self.moves = {}
+        recursive = [r for r in rules if r.expansion[0].name == name]
+        for rule in rules:
+            if rule in recursive:
+                continue
+            end = self._lay(0, rule.expansion)
+            self.states[end].complete.append((rule.alias or rule.origin.name, _cost(rule)))
+        if recursive:
+            self._loop(recursive)
+        return Phrase(name, self.states)
+
+    def _loop(self, rules: list[Rule]) -> None:
+        """Let each complete state go on with what follows the phrase in its recursive rules."""
+        ends = [index for index, state in enumerate(self.states) if state.complete]
+        for rule in rules:
+            rest = rule.expansion[1:]
+            for end in ends:
+                self._link(self._lay(end, rest[:-1]), rest[-1], end)
+
+    def _lay(self, start: int, symbols: Sequence[Symbol]) -> int:
+        here = start
+        for symbol in symbols:
+            key = (here, symbol.name)
+            if key not in self.moves:
+                self.moves[key] = len(self.states)
+                self.states.append(State())
+                self._link(here, symbol, self.moves[key])
+            here = self.moves[key]
+        return here
+
+    def _link(self, start: int, symbol: Symbol, target: int) -> None:
+        state = self.states[start]
+        for one, cost in self.choices.get(symbol.name, [(symbol, 0.0)]):
+            if one.is_term:
+                edge: Edge = (self.bits[one.name], one.name, target, cost)
+                row = state.terminals
+            else:
+                edge = (0, self.number[one.name], target, cost)
+                row = state.phrases
+            if edge not in row:
+                row.append(edge)
 
 
-def _link(state: State, is_term: bool, name: str, target: int, number: dict[str, int]) -> None:
-    if is_term:
-        if (name, target) not in state.terminals:
-            state.terminals.append((name, target))
-    elif (number[name], target) not in state.phrases:
-        state.phrases.append((number[name], target))
-
-
-def _find_first(phrases: tuple[Phrase, ...], bits: dict[str, int]) -> None:
+def _find_first(phrases: tuple[Phrase, ...]) -> None:
+    """Find the word classes that each phrase and each edge can begin with."""
     changed = True
     while changed:
         changed = False
         for phrase in phrases:
             begin = phrase.states[0]
             found = phrase.first
-            for name, _ in begin.terminals:
-                found |= bits[name]
-            for other, _ in begin.phrases:
-                found |= phrases[other].first
-            if found != phrase.first:
-                phrase.first = found
-                changed = True
+            for edge in begin.terminals:
+                found |= edge[0]
+            for _, other, _, _ in begin.phrases:
+                found |= phrases[cast(int, other)].first
+            changed |= found != phrase.first
+            phrase.first = found
+    for phrase in phrases:
+        for state in phrase.states:
+            state.phrases = [
+                (phrases[cast(int, other)].first, other, target, cost)
+                for _, other, target, cost in state.phrases
+            ]
+
+
+def _marks(bits: dict[str, int], groups: set[int]) -> dict[str, int]:
+    """Give each word class its bit, and a bit for each group that it is in."""
+    marks = dict(bits)
+    for rank, group in enumerate(sorted(groups), start=len(bits)):
+        for name, bit in bits.items():
+            if bit & group:
+                marks[name] |= 1 << rank
+    return marks
+
+
+def _find_needed(phrases: tuple[Phrase, ...], marks: dict[str, int]) -> None:
+    """Find for each state the word classes, and groups of them, of which some must still come."""
+    everything = 0
+    for mark in marks.values():
+        everything |= mark
+    for phrase in phrases:
+        for state in phrase.states:
+            state.needed = 0 if state.complete else everything
+    changed = True
+    while changed:
+        changed = False
+        for phrase in phrases:
+            for state in reversed(phrase.states):
+                needed = state.needed
+                for _, name, target, _ in state.terminals:
+                    needed &= marks[cast(str, name)] | phrase.states[target].needed
+                for _, other, target, _ in state.phrases:
+                    inner = phrases[cast(int, other)].needed
+                    needed &= inner | phrase.states[target].needed
+                changed |= needed != state.needed
+                state.needed = needed

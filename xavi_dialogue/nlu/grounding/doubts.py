@@ -10,6 +10,8 @@ from typing import Final, TypeAlias
 
 from xavi_dialogue.domain.meaning import Reading, TokenShare
 
+EXCLAMATION: Final = 3  # words, at most
+
 Words: TypeAlias = dict[int | None, tuple[str, ...]]  # by the act that they belong to
 _SUBJECTS: Final = frozenset(
     ("i", "you", "we", "he", "she", "it", "they", "that", "this", "one", "who", "u", "everybody",
@@ -26,33 +28,28 @@ _PREPOSITIONS: Final = frozenset(
     ("with", "like", "for", "at", "in", "on", "by", "of", "from", "as", "about", "because",
      "despite", "during", "after", "before", "near", "under", "over", "through"),
 )  # fmt: skip
+_SMALL: Final = _SUBJECTS | _AUXILIARIES | _DETERMINERS | _PREPOSITIONS
 _ASIDE: Final = frozenset(("politeness", "hedge", "address"))
 #: How `TokenShare.part` begins for words that can be the predicate of a clause, and for nouns.
-PREDICATES: Final = ("event", "action", "verb", "state", "relation", "attribute", "predicate")
-NOUNS: Final = ("thing", "kind", "noun", "vehicle", "place")
+PREDICATES: Final = ("event", "action", "verb", "state", "relation", "attribute", "predicate",
+                     "v:", "vpast:", "ved:", "ving:", "adj:", "meas:", "evn:", "abs:")  # fmt: skip
+NOUNS: Final = ("thing", "kind", "noun", "vehicle", "place", "numbered:", "ride:")
 
 
 @dataclass(frozen=True, slots=True)
 class Doubts:
-    """The unknown words of a reading, by the act that they belong to."""
+    """The words without a part in the acts of a reading, by the act that they belong to."""
 
     fatal: Words
     open: Words
 
-    def kills(self, index: int, count: int) -> tuple[str, ...]:
+    def kills(self, index: int) -> tuple[str, ...]:
         """List the words for which an act cannot be answered."""
-        return self._of(self.fatal, index, count)
+        return self.fatal.get(index, ())
 
-    def leaves(self, index: int, count: int) -> tuple[str, ...]:
+    def leaves(self, index: int) -> tuple[str, ...]:
         """List the words that an answer has to own up to."""
-        return self._of(self.open, index, count)
-
-    def _of(
-        self, words: dict[int | None, tuple[str, ...]], index: int, count: int
-    ) -> tuple[str, ...]:
-        loose = words.get(None, ())
-        own = words.get(index, ())
-        return (*own, *loose) if index == count - 1 or count == 1 else own
+        return self.open.get(index, ())
 
 
 def judge(reading: Reading) -> Doubts:
@@ -60,13 +57,23 @@ def judge(reading: Reading) -> Doubts:
     kept = [s for s in reading.shares if s.share not in _ASIDE]
     fatal: Words = {}
     left: Words = {}
+    if reading.acts and (strange := _in_asides(reading)):
+        left[len(reading.acts) - 1] = strange
     for share in kept:
-        if share.share == "unknown":
-            clause = [s for s in kept if s.act in (None, share.act) or share.act is None]
+        small = not share.strange and share.read in _SMALL
+        if share.share == "unknown" and share.act is not None and not small:
+            clause = [s for s in kept if s.act in (None, share.act)]
             index = next(i for i, other in enumerate(clause) if other is share)
             found = fatal if _is_main(clause, index) else left
             found[share.act] = (*found.get(share.act, ()), share.text)
     return Doubts(fatal, left)
+
+
+def _in_asides(reading: Reading) -> tuple[str, ...]:
+    """List the words in no vocabulary of asides that are more than an exclamation."""
+    asides = (unread.words for unread in reading.unread if not unread.asks)
+    words = [word for aside in asides if len(aside) > EXCLAMATION for word in aside]
+    return tuple(word for word in words if word in reading.strange)
 
 
 def _is_main(shares: Sequence[TokenShare], index: int) -> bool:

@@ -10,13 +10,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
-from xavi_dialogue.domain.meaning import Act, Beyond, Reading, Social
+from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Social
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlu.grounding import clarify, doubts
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
+from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
@@ -90,12 +93,17 @@ def _try(reading: Reading, context: Context) -> Trial:
     parts: list[Part] = []
     cost = reading.cost
     for index, spoken in enumerate(reading.acts):
-        fatal = judged.kills(index, len(reading.acts))
-        part = _part(spoken, context, fatal, judged.leaves(index, len(reading.acts)), reading)
+        part = _part(spoken, context, judged.kills(index), judged.leaves(index), reading)
         parts.append(part)
         cost += part.notes.cost
-        context = context.within(after(context.discourse, part.act))
+        context = context.within(_discussed(after(context.discourse, part.act), part.act))
     return Trial(reading, tuple(parts), cost)
+
+
+def _discussed(discourse: Discourse, done: GroundedAct) -> Discourse:
+    """Let "and why?" in the same breath be about the question just asked."""
+    of = proposition_of(done.act.question) if isinstance(done.act, Ask) else None
+    return replace(discourse, propositions=(of, *discourse.propositions)) if of else discourse
 
 
 def _part(
@@ -112,13 +120,14 @@ def _part(
     failure: Failure | None = notes.missing[0] if notes.missing else None
     unknown = (*fatal, *notes.unknown)
     if complete is None or (unknown and not isinstance(spoken, Beyond | Social)):
-        failure = NotUnderstood(words=(*unknown, *left), about=doubts.glosses(reading))
+        failure = NotUnderstood(words=reading.strange, about=doubts.glosses(reading))
         notes.cost += DEAF
     done = GroundedAct(
         act=grounded,
         span=notes.span,
         leaned=notes.leaned,
         doubts=left,
+        strange=tuple(word for word in left if word in reading.strange),
         presupposed=notes.presupposed,
     )
     return Part(done, complete or spoken, notes, context, failure)
@@ -127,12 +136,13 @@ def _part(
 def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
     best = trials[0]
     if not best.parts:
-        words = best.reading.unknown
-        return Grounding(reading=best.reading, refusal=NotUnderstood(words=words))
+        return Grounding(reading=best.reading, refusal=NotUnderstood(words=best.reading.strange))
     asked = _unclear(best) or _torn(trials)
     acts = tuple(part.act for part in best.parts if part.answerable)
     failures = [part.failure for part in best.parts if part.failure is not None]
-    refusal = failures[0] if failures else None
+    refusal = failures[0] if failures else _rest(best)
+    if acts and isinstance(refusal, NotUnderstood):
+        refusal = replace(refusal, rest=True)
     if asked is None:
         return Grounding(acts=acts, reading=best.reading, refusal=refusal)
     found, pending = asked
@@ -147,6 +157,12 @@ def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
         offered_things=found.things,
         pending=pending,
     )
+
+
+def _rest(best: Trial) -> Failure | None:
+    """Own up to a question of which nothing was made, beside what was understood."""
+    asked = any(unread.asks for unread in best.reading.unread)
+    return NotUnderstood(words=best.reading.strange) if asked else None
 
 
 def _unclear(trial: Trial) -> tuple[clarify.Clarification, Act] | None:

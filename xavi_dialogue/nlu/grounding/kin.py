@@ -25,7 +25,7 @@ KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
     "swerve": (*_SHIFTING, "avoid"),
     "avoid": ("swerve", "give-way", *_SLOWING),
     "overtake": ("pass", *_SHIFTING),
-    "pass": ("overtake",),
+    "pass": ("overtake", "cross"),
     "merge": ("change-lane", "enter", "cut-in"),
     "cut-in": ("merge", "change-lane", "pull-out"),
     "pull-out": ("enter", "cut-in", "go", *_SHIFTING),

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.rewriting import parts
 
 DECAY: Final = 0.6  # of salience with each turn
+FRESH: Final = 1.5  # more salience within the turn, so that it outdoes the turn before
 FADED: Final = 0.05  # below which a thing is no longer spoken of
 ROLES: Final = {"subject": 1.0, "cause": 0.95, "object": 0.85, "other": 0.7}
 
@@ -81,7 +82,11 @@ def group(mentions: Iterable[Mention]) -> tuple[int, ...]:
 
 def after(discourse: Discourse, done: GroundedAct) -> Discourse:
     """Give the discourse within a turn after one of its acts, for the acts that follow it."""
-    new = mentions_of(done.act, discourse.turn)
+    top = max((m.salience for m in discourse.mentions), default=0.0)
+    new = (
+        replace(m, salience=top + m.salience + FRESH)
+        for m in mentions_of(done.act, discourse.turn)
+    )
     found = replace(discourse, mentions=renewed(discourse.mentions, new))
     if done.span is not None and not done.span.ahead and done.span.end - done.span.begin < 60.0:
         found = replace(found, episode=(done.span.begin, done.span.end))

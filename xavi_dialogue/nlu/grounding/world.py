@@ -43,5 +43,8 @@ class World(Protocol):
     def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
         """List the episodes that are such an event."""
 
+    def decided(self, number: int) -> float | None:
+        """Tell when the decision of a number was taken; None: not recorded."""
+
     def road(self, t: float) -> RoadFacts | None:
         """Give the facts of the road at a time; None: not recorded."""

@@ -2,5 +2,6 @@
 
 from xavi_dialogue.nlu.projection.fields import QueryFields
 from xavi_dialogue.nlu.projection.follow_ups import project
+from xavi_dialogue.nlu.projection.readings import project_readings
 
-__all__ = ["QueryFields", "project"]
+__all__ = ["QueryFields", "project", "project_readings"]

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Measured,
     Pronoun,
+    That,
 )
 from xavi_dialogue.nlu.projection.fields import QueryFields
 from xavi_dialogue.nlu.projection.propositions import PROPOSITIONS, subject
@@ -35,18 +36,23 @@ def compared(that: Compares) -> QueryFields:
 def of_choices(that: Compares) -> bool:
     """Tell whether it compares what was or might have been done, rather than how things are."""
     spoken_of = isinstance(that.left.thing, Pronoun)
+    if that.left.attribute == "delay" and isinstance(that.left.thing, Ego):
+        return True
     return that.left.event is not None or (spoken_of and that.left.attribute in _MERITS)
 
 
 def compare(question: Compare) -> QueryFields:
     """Project the question which of two is better."""
     events = [one.event for one in question.options if isinstance(one, Happens)]
+    if That() in question.options or not question.options:
+        others = [event_actions(event) for event in events]
+        return QueryFields(type="compare", counterfactual=others[0] if others else None)
     if not events:
         option = question.options[0] if question.options else Ego()
         named = subject(option) if isinstance(option, PROPOSITIONS) else option
         return QueryFields(type="what", actor=actor_of(named), tense="present")
     first, rest = events[0], events[1:]
-    unreal = first.modal in ("would", "could", "should")
+    unreal = first.modal in ("would", "could", "should", "might")
     other = event_actions(rest[0]) if rest else None
     return QueryFields(
         type="compare",

@@ -12,15 +12,34 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Elliptic,
     Feel,
+    Identify,
     Quizzing,
     Repair,
     Request,
     Social,
     Whether,
 )
-from xavi_dialogue.domain.terms import Compares, Event, Is, Not, Pronoun, Proposition, That
+from xavi_dialogue.domain.terms import (
+    Ago,
+    Compares,
+    Event,
+    Is,
+    Next,
+    Not,
+    Now,
+    Pronoun,
+    Proposition,
+    Start,
+    That,
+)
 from xavi_dialogue.nlu.grounding.rewriting import parts
-from xavi_dialogue.nlu.projection.fields import TALK, FieldActions, QueryFields, QueryType
+from xavi_dialogue.nlu.projection.fields import (
+    TALK,
+    FieldActions,
+    FieldTense,
+    QueryFields,
+    QueryType,
+)
 from xavi_dialogue.nlu.projection.propositions import subject, tense
 from xavi_dialogue.nlu.projection.questions import declined, question_fields
 from xavi_dialogue.nlu.projection.terms import (
@@ -35,6 +54,7 @@ AMBIGUOUS = QueryFields(type="ambiguous")
 _WEIGHTS: tuple[type, ...] = (
     *(Ask, Elliptic, Claim, Request, Beyond, AskHelp, Repair, Feel, Quizzing, Social),
 )
+_TENSES: dict[type, FieldTense] = {Now: "present", Ago: "past", Start: "past", Next: "future"}
 _FORMS: dict[str, QueryType] = {
     "why": "why",
     "why-not": "why_not",
@@ -57,6 +77,12 @@ def project(acts: Sequence[Act], previous: QueryFields | None = None) -> QueryFi
     if not acts:
         return AMBIGUOUS
     main = min(acts, key=lambda act: _WEIGHTS.index(type(act)))
+    told = [found for act in acts if isinstance(act, Claim)
+            and (found := _act(act, previous)).type not in TALK]  # fmt: skip
+    if isinstance(main, Claim) and told:
+        return told[-1]
+    if isinstance(main, Elliptic | Repair) and told and main is acts[-1]:
+        previous = told[-1]
     found = _act(main, previous)
     asked = sum(isinstance(act, Ask) for act in acts)
     return replace(found, compound=True) if asked > 1 else found
@@ -91,13 +117,15 @@ def _claimed(that: Proposition) -> QueryFields:
     """Project a statement by what it wants to know: of what might have been done, why not."""
     events = tuple(events_of(that))
     actions, actor = actions_of(that), actor_of(subject(that))
-    if isinstance(that, Compares | Is):
+    if isinstance(that, Is):
+        return AMBIGUOUS
+    if isinstance(that, Compares):
         return question_fields(Whether(that))
     if not actions or not events:
         return AMBIGUOUS
-    if isinstance(that, Not) or events[0].modal in ("could", "should", "would"):
+    if isinstance(that, Not) or events[0].modal in ("could", "should", "would", "might"):
         kind: QueryType = "why_not"
-        return QueryFields(type=kind, actor=actor, counterfactual=actions, tense="past")
+        return QueryFields(type=kind, actor=actor, counterfactual=actions, tense=tense(that))
     return QueryFields(type="what", actor=actor, factual=actions, tense=tense(that))
 
 
@@ -105,6 +133,11 @@ def _resolved(act: Ask | Claim, found: QueryFields, previous: QueryFields | None
     """Complete a whole question that leans on the one before by "it", "that" or silence."""
     if previous is None or previous.type in TALK:
         return found
+    own = previous.actor == "ego" and found.actor in ("vehicle:it", "vehicle:that")
+    if own and found.type in ("when", "compare"):
+        found = replace(found, actor="ego")  # "it" is what we did
+    if own and isinstance(act, Ask) and isinstance(act.question, Identify):
+        return replace(found, actor="vehicle:unknown", refers_to_previous=True)
     leans = any(True for _ in parts(act, That)) or any(
         one.form in ("it", "that", "he", "she", "they", "one") for one in parts(act, Pronoun)
     )
@@ -152,11 +185,18 @@ def _completed(act: Elliptic, previous: QueryFields | None) -> QueryFields:
         return _alone(act)
     kind = previous.type if act.form == "same" else _FORMS[act.form]
     found = _of_previous(kind, previous)
-    if act.negated and act.form in ("same", "what-if"):
+    besides = previous.type == "why_not" and act.thing is not None  # "nor vehicle 5?"
+    if act.negated and act.form in ("same", "what-if") and not besides:
         return replace(_denied(found), tense=previous.tense)
     if act.besides and act.thing is None and act.event is None:
         return replace(found, detail="more")
-    if act.thing is not None:
+    if act.form == "which":
+        actor = actor_of(act.thing) if act.thing is not None else "vehicle:unknown"
+        actor = "vehicle:unknown" if actor == "vehicle:that" else actor
+        return QueryFields(type="what", actor=actor, tense=previous.tense)
+    found = replace(found, tense=_TENSES.get(type(act.time), found.tense))
+    leans = isinstance(act.thing, Pronoun) and previous.actor != "ego"
+    if act.thing is not None and not leans:
         found = replace(found, actor=actor_of(act.thing))
     if act.event is not None:
         found = _with_actions(found, event_actions(act.event), previous)

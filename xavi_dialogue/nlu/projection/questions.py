@@ -6,6 +6,7 @@ from typing import Any, TypeAlias
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
+    Changed,
     Compare,
     Doing,
     Fault,
@@ -18,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Identify,
     Listing,
+    Peak,
     Question,
     Summarise,
     WhatIf,
@@ -30,6 +32,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Ago,
     Believed,
     Caused,
     Compares,
@@ -38,10 +41,15 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
+    Happens,
+    Has,
     Is,
+    Measured,
     Not,
     Proposition,
+    Start,
     Thing,
+    Wanted,
 )
 from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.comparisons import compare, compared, of_choices
@@ -63,6 +71,13 @@ Projector: TypeAlias = Callable[[Any], QueryFields]
 _TIMES = frozenset(("time-to-go", "arrival-time", "waiting-time", "duration"))
 #: What tells which way somebody goes.
 _WAYS = frozenset(("heading", "exit-number", "route", "turn"))
+#: What is done on account of its object: whom one waits for is why one waits.
+_CAUSED = frozenset(("wait", "stop", "brake", "slow-down"))
+_OUTSIDE = {"law": "legality", "weather": "off-topic", "money": "off-topic",
+            "world": "off-topic", "battery": "capability"}  # fmt: skip
+_VERDICTS = {"allowed": "legality", "at-fault": "blame"}
+#: What is listed as it is now.
+_STANDING = frozenset(("vehicles", "options", "capabilities"))
 _UNSEEN = frozenset(("pedestrian", "emergency"))
 
 
@@ -82,12 +97,14 @@ def _why(question: Why) -> QueryFields:
     if any(is_beyond(event) for event in events_of(of)):
         return declined("not-an-action", tense(of))
     collision = any(event.action == "collide" for event in events_of(of))
+    held = question.of.tense if isinstance(question.of, Believed) else None
+    unreal = any(event.modal in ("could", "would") for event in events_of(of))
     return QueryFields(
         type="why_not" if negated else "why",
         actor=actor_of(subject(of)),
         factual=other if negated else said,
         counterfactual=said if negated else other,
-        tense=tense(of),
+        tense=plain(held) if held is not None else "past" if unreal else tense(of),
         event="collision" if collision else None,
         hypothesised_cause=None if question.suspect is None else actor_of(question.suspect),
     )
@@ -101,6 +118,8 @@ def _what_if(question: WhatIf) -> QueryFields:
         return _sensitivity(then.that, inner)
     removed = isinstance(inner, Exists)
     when = "future" if then is not None and _ahead(then) else tense(inner)
+    if isinstance(then, Doing) and then.tense == "past":
+        when = "past"
     return QueryFields(
         type="what_if",
         actor=actor_of(subject(inner)),
@@ -124,6 +143,9 @@ def _sensitivity(that: Proposition, condition: Proposition) -> QueryFields:
 
 def _whether(question: Whether) -> QueryFields:
     that = question.that.content if isinstance(question.that, Not) else question.that
+    unreal = _unreal(question.that)
+    if unreal is not None:
+        return unreal
     if isinstance(that, Caused):
         cause = that.cause
         named = None if isinstance(cause, PROPOSITIONS) else actor_of(cause)
@@ -134,6 +156,10 @@ def _whether(question: Whether) -> QueryFields:
             tense=tense(that.effect),
             hypothesised_cause=named,
         )
+    if isinstance(that, Is) and that.state in _VERDICTS:
+        return declined(_VERDICTS[that.state], tense(that))
+    if _of_weather(that):
+        return declined("unsupported-condition", tense(that))
     if any(d.kind in _UNSEEN for d in parts(that, Described)):
         return declined("perception", tense(that))
     if isinstance(that, Compares) and of_choices(that):
@@ -145,16 +171,40 @@ def _whether(question: Whether) -> QueryFields:
     return _what(subject(that), tense(that), actions_of(that), beyond=_beyond(that))
 
 
+def _of_weather(that: Proposition) -> bool:
+    has = any(one.attribute == "weather" for one in parts(that, Has))
+    return has or any(one.attribute == "weather" for one in parts(that, Measured))
+
+
+def _unreal(that: Proposition) -> QueryFields | None:
+    """Project "couldn't you have waited", "could you have turned", "would it have stopped"."""
+    inner = that.content if isinstance(that, Not) else that
+    actions = actions_of(inner)
+    if not isinstance(inner, Happens) or actions is None or tense(inner) != "past":
+        return None
+    actor, modal = actor_of(inner.event.actor), inner.event.modal
+    if isinstance(that, Not) and modal in ("could", "should", "might"):
+        return QueryFields(type="why_not", actor=actor, counterfactual=actions)
+    if modal == "could":
+        return QueryFields(type="what_if", actor=actor, counterfactual=actions)
+    if modal == "would":
+        return QueryFields(type="sensitivity", actor=actor, factual=actions)
+    return None
+
+
 def _how_much(question: HowMuch) -> QueryFields:
     of = question.of
     if of.attribute == "probability" and of.about is not None:
         return _how_sure(HowSure(of.about))
-    if of.attribute == "law":
-        return declined("legality", plain(of.tense))
+    if of.attribute in _OUTSIDE:
+        return declined(_OUTSIDE[of.attribute], plain(of.tense))
     if of.attribute in _WAYS:
         return _bound(of.thing, plain(of.tense))
     actions = event_actions(of.event)
     thing = of.thing if of.event is None else of.event.actor
+    if of.attribute == "delay" and actions is not None:
+        when = plain(of.tense)
+        return QueryFields(type="compare", factual=actions, tense=when)
     if of.attribute in _TIMES:
         return QueryFields(
             type="when", actor=actor_of(thing), factual=actions, tense=plain(of.tense)
@@ -166,6 +216,8 @@ def _where(question: Where) -> QueryFields:
     of = question.of
     if isinstance(of, Event) and of.action in ("go", "head", "move"):
         return _bound(of.actor, tense_of(of))
+    if isinstance(of, Destination):
+        return _bound(Ego(), "present")
     return _what(*_thing(of))
 
 
@@ -185,8 +237,14 @@ def _how_sure(question: HowSure) -> QueryFields:
         type="confidence",
         actor=actor_of(subject(of)),
         factual=actions_of(of),
-        tense=tense(of),
+        tense=_foreseen(of),
     )
+
+
+def _foreseen(of: Proposition | None) -> FieldTense:
+    """Tell when it was to happen: what he would do is yet to come."""
+    open_ = any(event.modal == "would" for event in events_of(of))
+    return "future" if open_ else tense(of)
 
 
 def _about(kind: QueryType) -> Callable[[HowKnow | HowDecide | HowAvoid | When], QueryFields]:
@@ -197,7 +255,7 @@ def _about(kind: QueryType) -> Callable[[HowKnow | HowDecide | HowAvoid | When],
             type=kind,
             actor=actor_of(subject(of)),
             factual=actions_of(of),
-            tense=tense(of),
+            tense=_foreseen(of) if kind == "how" else tense(of),
             event="collision" if collision else None,
         )
 
@@ -223,6 +281,11 @@ def _which(question: Which) -> QueryFields:
     such = question.such
     if such is None:
         return _what(question.thing, "present", None)
+    match such:
+        case Is(state="at-fault"):
+            return declined("blame", tense(such))
+        case Happens(event=Event(action=action, object=Wanted())) if action in _CAUSED:
+            return _why(Why(such))
     return _what(question.thing, tense(such), actions_of(such))
 
 
@@ -268,14 +331,14 @@ _PROJECTORS: Mapping[type, Projector] = {
     HowMuch: _how_much,
     HowMany: lambda q: _what(*_thing(q.of)),
     When: _about("when"),
-    HowLong: lambda q: QueryFields(
-        type="when", actor=actor_of(q.of.actor), factual=event_actions(q.of), tense=tense_of(q.of)
-    ),
+    HowLong: lambda q: _about("when")(When(Happens(q.of) if isinstance(q.of, Event) else q.of)),
     Where: _where,
-    Whither: lambda q: _bound(q.actor, "present"),
+    Whither: lambda q: _bound(q.actor, "past" if isinstance(q.time, Start | Ago) else "present"),
     Doing: _doing,
     Compare: compare,
-    Listing: lambda q: _what(q.about, "past", None),
+    Peak: lambda q: _what(Ego(), "past", None),
+    Changed: lambda q: _what(Ego(), "past", None),
+    Listing: lambda q: _what(q.about, "present" if q.of in _STANDING else "past", None),
     Summarise: lambda q: _what(_thing(q.about or Ego())[0], "past", None),
     HowKnow: _about("how"),
     HowSure: _how_sure,

@@ -9,6 +9,8 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Happens,
+    Is,
+    Lane,
     Nobody,
     Not,
     Passenger,
@@ -54,6 +56,11 @@ _SIDED: Mapping[ActionName, str] = {
     "cut-in": "change",
     "pull-out": "change",
 }
+#: What leads onto another lane or out by an exit, and the sides that these have.
+_TAKING = frozenset(("leave", "turn", "enter", "head", "go", "move", "change-lane", "merge"))
+_SIDES: Mapping[str, str] = {
+    "left": "left", "leftmost": "left", "right": "right", "rightmost": "right",
+}  # fmt: skip
 _OPEN = frozenset(("turn", "change-lane", "merge", "swerve", "cut-in"))  # without a side: either
 _BEARINGS: Mapping[Bearing, str] = {
     "ahead": "front",
@@ -95,6 +102,8 @@ def actor_of(thing: Thing | None) -> str:
 
 def actions_of(proposition: Proposition | None) -> FieldActions | None:
     """Spell the actions that a proposition holds to be done, in order."""
+    if isinstance(proposition, Is) and proposition.state in ("stationary", "stuck"):
+        return ("stop",)
     found = tuple(a for event in events_of(proposition) for a in _named(event))
     return found or None
 
@@ -114,6 +123,8 @@ def events_of(proposition: Proposition | None) -> Iterator[Event]:
                 at = at.then
         case Not(content=content):
             yield from events_of(content)
+        case Is(event=Event() as event):
+            yield event
         case Both(contents=contents):
             for one in contents:
                 if not isinstance(one, Not):
@@ -149,6 +160,10 @@ def plain(tense: Tense) -> FieldTense:
 
 
 def _named(event: Event) -> tuple[FieldAction, ...]:
+    taken = getattr(event.object, "side", None) or getattr(event.object, "which", "") or ""
+    if event.action in _TAKING and taken in _SIDES:
+        stem = "change" if isinstance(event.object, Lane) else "exit"
+        return (f"{stem}-{_SIDES[taken]}",)  # type: ignore[return-value]
     if event.side == "straight" and event.action in ("turn", "go", "head", "leave", "move"):
         return ("exit-straight",)
     if event.side in ("left", "right") and event.action in _SIDED:

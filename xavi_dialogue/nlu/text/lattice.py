@@ -30,6 +30,10 @@ _SUFFIXES: tuple[tuple[str, tuple[str, ...]], ...] = (
 )
 _DID_HEADS = frozenset({"why", "how", "where", "what", "when"})
 
+_PREFIXES = ("un", "in", "im", "dis", "re", "over", "under", "mis", "non", "pre", "out")
+_ENDINGS = ("s", "es", "ed", "d", "ing", "er", "ers", "est", "ly", "able", "ible", "ness", "ment",
+            "ful", "less", "ish", "y", "ity", "ion", "ation")  # fmt: skip
+
 _EXITS = frozenset({"out", "exit", "off", "ramp"})
 _DRAWN = re.compile(r"([a-z])\1\1+")
 
@@ -124,6 +128,26 @@ def alternatives(
     if not any(words == (token,) for words, _ in found):
         found.append(((token,), 0.0 if token not in known else HOMOPHONE))
     return tuple(found)
+
+
+def is_strange(token: str, vocabulary: Vocabulary) -> bool:
+    """Say whether a token is no word that is known, nor a misspelt one, nor made of one."""
+    return not _is_derived(token, vocabulary) and not any(
+        all(word in vocabulary.words or word[0].isdigit() or word[0] == "'" for word in words)
+        for words, _ in alternatives(token, vocabulary, frozenset())
+    )
+
+
+def _is_derived(token: str, vocabulary: Vocabulary) -> bool:
+    """Say whether a word is made of one that is known: "unloading", "acceptable"."""
+    stems = {token, *(token.removeprefix(prefix) for prefix in _PREFIXES)}
+    for stem in tuple(stems):
+        for ending in _ENDINGS:
+            if stem.endswith(ending) and len(stem) > len(ending) + 2:
+                bare = stem.removesuffix(ending)
+                stems |= {bare, bare + "e", bare[:-1] if bare[-1] == bare[-2] else bare}
+                stems.add(bare[:-1] + "y" if bare[-1] == "i" else bare)
+    return any(stem in vocabulary.words for stem in stems if len(stem) > 2)
 
 
 def _named(token: str, vocabulary: Vocabulary) -> str:

@@ -11,11 +11,13 @@ MAX_INPUT = 4096  # [characters] of a longer input only the end is looked at
 _ESCAPES = re.compile(r"\x1b(?:\[[0-9;:?<=>]*[a-zA-Z@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|.)")
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "ʼ": "'", "“": " ", "”": " "})
 _PIECES = re.compile(
-    r"(?<!\d)\d{1,3}:\d{2}(?!\d)|[^\W\d_]+(?:_[^\W_]+)+|\d{1,3}'s(?![^\W_])|\d+(?:[.,]\d+)?|[a-z]\d[a-z]?(?![a-z\d])|[^\W\d_]+(?:['-][^\W\d_]+)*'?"
-    r"|%|[.,;:!?…–—()]|-"
+    r"(?<!\d)\d{1,3}:\d{2}(?!\d)|[^\W\d_]+(?:_[^\W_]+)+|\d{1,3}'s(?![^\W_])"
+    r"|\d+(?:st|nd|rd|th)(?![^\W_])|4ever|2day|(?:no|any|some|every)1(?!\d)|[glmwr]{1,2}8[a-z]{0,4}"
+    r"|\d+(?:[.,]\d+)?|[a-z]\d[a-z]?(?![a-z\d])|[^\W\d_]+(?:['-][^\W\d_]+)*'?"
+    r"|%|\.{2,}|[.,;:!?–—()]|-"
 )
-_STOPS = frozenset(".!?;…")
-_MARKS = frozenset(".,;:!?…–—()-")
+_STOPS = frozenset(".!?;")
+_MARKS = frozenset(".,;:!?–—()-")
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,7 @@ def tokenise(text: str) -> Typed:
     tokens: list[Token] = []
     mark = ""
     for piece in _PIECES.findall(cleaned):
-        if piece in _MARKS:
+        if piece in _MARKS or piece.startswith(".."):
             mark = "." if piece in _STOPS or mark == "." else ","
             if piece == "?":
                 mark = "?"

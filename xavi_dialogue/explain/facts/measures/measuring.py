@@ -82,6 +82,7 @@ OURS: frozenset[Attribute] = frozenset(
 )
 #: What has no value without an event or a proposition, and what no record holds.
 LACKING: Mapping[Attribute, Gap] = {
+    "speed-change": "not-applicable",  # over a time or event
     "duration": "not-applicable",  # World.duration of an episode
     "delay": "not-applicable",  # World.delay of an episode
     "probability": "not-applicable",  # World.belief, World.probability

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Uns
 from xavi_dialogue.nlu.grounding.acts.questions import question
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
 from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
+from xavi_dialogue.nlu.grounding.completion.supposing import subordinate
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
@@ -36,11 +37,11 @@ def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
     match spoken:
         case Ask(question=asked):
-            return Ask(question(asked, g))
+            return Ask(question(subordinate(asked, g), g))
         case Claim(that=that):
             return replace(spoken, that=g.proposition(that, "asked"))
-        case Request(event=event):
-            return Request(_requested(event, g))
+        case Request(event=event, negated=negated):
+            return Request(_requested(event, g), negated)
         case Feel(about=about):
             return replace(spoken, about=_about(about, g))
     return spoken

@@ -42,7 +42,9 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     spoken = completed(spoken, g)
     window = _window(spoken, mode, g, outer)
     real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
-    actor = _somebody(spoken.actor, g, window, real, _acting(spoken, g, window))
+    # "Is it braking?" is of whom was spoken of, whether he brakes or not.
+    open_ = mode == "asked" and spoken.tense == "present" and isinstance(spoken.actor, Pronoun)
+    actor = _somebody(spoken.actor, g, window, real and not open_, _acting(spoken, g, window))
     if spoken.where is not None and spoken.where.thing == spoken.actor:
         spoken = replace(spoken, where=replace(spoken.where, thing=actor))
     spoken = replace(spoken, actor=actor)

@@ -19,12 +19,15 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
+    Lane,
     Measured,
     Nobody,
     Not,
     Pronoun,
     Proposition,
     Related,
+    Road,
     Tense,
     That,
     Thing,
@@ -32,7 +35,9 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.grounding.acts.measuring import measured
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
+from xavi_dialogue.nlu.grounding.acts.windows import is_stale
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -87,7 +92,7 @@ def proposition(
         case Related():
             window = timed(spoken.time, spoken.tense, g, outer)
             thing = g.thing(spoken.thing, window)
-            to = g.thing(spoken.to, window)
+            to = g.thing(_place(spoken, g), window)
             return replace(spoken, thing=thing, to=to, time=window.term)
         case Has():
             window = timed(spoken.time, spoken.tense, g, outer)
@@ -100,12 +105,21 @@ def proposition(
             return replace(spoken, content=content, time=window.term)
 
 
+def _place(spoken: Related, g: Grounder) -> Thing:
+    """Take "it" in "how long have we been in it" for the place just spoken of."""
+    if spoken.relation != "on" or not isinstance(spoken.to, Pronoun):
+        return spoken.to
+    return first(g.context.discourse.question, (Junction, Lane, Road)) or spoken.to
+
+
 def timed(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window:
     """Find the window of a state; where none is said, the episode in focus."""
     if outer is not None and isinstance(time, Unsaid):
         return outer
     window = g.window(time, tense)
     focus = g.context.discourse.episode
+    if focus is not None and is_stale(g.context):
+        focus = None
     if isinstance(time, Unsaid) and tense == "past" and focus is not None:
         window = inferred(focus, g)
     open_ended = isinstance(time, Unsaid) and tense in ("past", "perfect") and focus is None
@@ -114,27 +128,11 @@ def timed(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window
     return window
 
 
-def measured(spoken: Measured, g: Grounder, outer: Window | None = None) -> Measured:
-    """Ground a measure: whose, to whom, of what, and when."""
-    event = spoken.event
-    if event is not None:
-        event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
-    window = timed(spoken.time, spoken.tense, g, outer)
-    if event is not None and isinstance(spoken.time, Unsaid) and (when := interval(event)):
-        window = inferred(when, g)
-    about = spoken.about
-    if about is not None:
-        about = g.proposition(about, "supposed", None)
-    to = None if spoken.to is None else g.thing(spoken.to, window)
-    thing = g.thing(spoken.thing, window)
-    return replace(spoken, thing=thing, to=to, event=event, about=about, time=window.term)
-
-
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
-    left = measured(spoken.left, g, outer)
+    left = measured(spoken.left, g, timed, outer)
     right = spoken.right
     if isinstance(right, Measured):
-        right = measured(right, g, outer)
+        right = measured(right, g, timed, outer)
     return replace(spoken, left=left, right=right)
 
 

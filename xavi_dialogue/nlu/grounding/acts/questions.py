@@ -6,6 +6,7 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
+    Changed,
     Compare,
     Doing,
     Fault,
@@ -18,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Identify,
     Listing,
+    Peak,
     Question,
     Summarise,
     WhatIf,
@@ -30,16 +32,21 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Between,
     Described,
     Ego,
     Event,
     Happens,
     Now,
     Proposition,
+    That,
     Unsaid,
+    Vehicle,
+    Vehicles,
     WholeRide,
 )
-from xavi_dialogue.nlu.grounding.acts.propositions import inferred, measured, suspect, timed
+from xavi_dialogue.nlu.grounding.acts.measuring import measured
+from xavi_dialogue.nlu.grounding.acts.propositions import inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     PROPOSITIONS,
@@ -118,7 +125,7 @@ def _how_much(spoken: HowMuch, g: Grounder) -> HowMuch:
     of = spoken.of
     if spoken.extreme is not None and isinstance(of.time, Unsaid) and of.tense != "present":
         of = replace(of, time=WholeRide())
-    return replace(spoken, of=measured(of, g))
+    return replace(spoken, of=measured(of, g, timed, extreme=spoken.extreme is not None))
 
 
 def _how_many(spoken: HowMany, g: Grounder) -> HowMany:
@@ -129,15 +136,28 @@ def _how_many(spoken: HowMany, g: Grounder) -> HowMany:
         return replace(spoken, of=g.event(of, "asked"))
     if isinstance(of, Described):
         of = replace(of, plural=True, definite=False)
+        if of.doing is not None and of.doing.tense in ("past", "perfect"):
+            return replace(spoken, of=g.thing(of, g.window(Unsaid(), "perfect")), such=of)
+        return replace(spoken, of=g.thing(of, g.window(Unsaid(), "present")), such=of)
     return replace(spoken, of=g.thing(of, g.window(Unsaid(), "present")))
 
 
 def _when(spoken: When, g: Grounder) -> When:
+    """Ground when it was: "that" is the last thing told that has been, or is, so."""
+    if isinstance(spoken.of, That):
+        told = (p for p in g.context.discourse.propositions if isinstance(p, Happens))
+        past = next((p for p in told if p.event.modal is None), None)
+        if past is not None:
+            g.notes.leaned = True
+            return replace(spoken, of=past)
     return replace(spoken, of=g.proposition(spoken.of, "presupposed"))
 
 
 def _how_long(spoken: HowLong, g: Grounder) -> HowLong:
-    return replace(spoken, of=g.event(spoken.of, "presupposed"))
+    if not isinstance(spoken.of, Event):
+        return replace(spoken, of=g.proposition(spoken.of, "asked"))
+    state = spoken.of.action in ("follow", "see")  # looked up moment by moment
+    return replace(spoken, of=g.event(spoken.of, "asked" if state else "presupposed"))
 
 
 def _where(spoken: Where, g: Grounder) -> Where:
@@ -173,13 +193,31 @@ def _compare(spoken: Compare, g: Grounder) -> Compare:
         g.proposition(one, "supposed") if isinstance(one, PROPOSITIONS) else g.thing(one, now)
         for one in spoken.options
     )
-    return replace(spoken, options=options)
+    flat: list[Any] = []
+    for one in options:
+        flat += [Vehicle(n) for n in one.numbers] if isinstance(one, Vehicles) else [one]
+    return replace(spoken, options=tuple(flat))
 
 
 def _listing(spoken: Listing, g: Grounder) -> Listing:
     window = _over(spoken.time, g)
     about = None if spoken.about is None else g.thing(spoken.about, window)
     return replace(spoken, about=about, time=window.term)
+
+
+def _peak(spoken: Peak, g: Grounder) -> Peak:
+    return replace(spoken, time=_over(spoken.time, g).term)
+
+
+def _changed(spoken: Changed, g: Grounder) -> Changed:
+    """Ground what changed: since the last two times that were asked about, where none is said."""
+    if not isinstance(spoken.time, Unsaid):
+        return replace(spoken, time=_over(spoken.time, g).term)
+    times = sorted(g.context.discourse.times[:2])
+    if len(times) < 2:
+        return spoken
+    g.notes.leaned = True
+    return replace(spoken, time=Between(times[0], times[1]))
 
 
 def _summarise(spoken: Summarise, g: Grounder) -> Summarise:
@@ -284,6 +322,8 @@ _HANDLERS: Final[dict[type, Callable[[Any, Grounder], Any]]] = {
     Doing: _doing,
     Compare: _compare,
     Listing: _listing,
+    Peak: _peak,
+    Changed: _changed,
     Summarise: _summarise,
     HowKnow: _how_know,
     HowSure: _how_sure,

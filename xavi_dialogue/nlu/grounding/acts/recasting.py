@@ -9,7 +9,18 @@ from typing import Any, Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Compare, Doing, HowLong, HowMuch, Question, When
+from xavi_dialogue.domain.meaning import (
+    Compare,
+    Doing,
+    HowDecide,
+    HowLong,
+    HowMany,
+    HowMuch,
+    Question,
+    When,
+    Whether,
+    Whither,
+)
 from xavi_dialogue.domain.terms import (
     Back,
     Between,
@@ -17,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Is,
     Measured,
@@ -24,6 +36,10 @@ from xavi_dialogue.domain.terms import (
     Not,
     Pronoun,
     Proposition,
+    Rank,
+    Related,
+    Road,
+    Start,
     That,
     Thing,
     Unsaid,
@@ -34,6 +50,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     asserted,
     discussed,
     hindrance,
+    last_deed,
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
@@ -41,6 +58,7 @@ from xavi_dialogue.nlu.grounding.context import Context, Grounder
 _LASTING: Final = frozenset(("duration", "waiting-time", "delay"))
 _VAGUE: Final = ("it", "that", "this")
 _HALTING: Final = frozenset(("stop", "stand", "wait", "give-way"))
+_SUCH: Final = Described(plural=True, definite=False)  # "how many are there"
 _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=False))
 
 
@@ -57,9 +75,80 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
             found = notable(g.context)
             return spoken if found is None else replace(spoken, time=Between(*found))
+        case Doing(actor=Ego(), tense="past", time=Rank(rank=-1)):
+            deed = last_deed(g.context)
+            return spoken if deed is None else replace(spoken, time=deed.time)
+        case Doing(actor=Ego(), tense="past", time=Rank(rank=1)):
+            return replace(spoken, time=Start())
+        case Whether(that=Related(relation=relation, thing=Pronoun(form="it" | "that"), to=Ego())):
+            return _by_side(relation, spoken, g)
+        case HowMany(of=Described() as of) if of == _SUCH and _about_lanes(g.context):
+            g.notes.leaned = True
+            return HowMuch(Measured("lane-count"))
+        case HowMuch(of=Measured(attribute="count", thing=Ego(), to=None)) if (
+            apart := _difference(g.context)
+        ) is not None:
+            g.notes.leaned = True
+            return apart
+        case Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False):
+            return Whither()
+        case Whether(that=Happens(event=Event(action="go", object=Feature(kind="way")))):
+            return Whither()
+        case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
+            return Whither()
+        case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
+            action in _ARRIVING and tense in ("present", "future")
+        ):
+            return HowMuch(Measured("exit-number")) if action == "leave" else Whither()
+        case Whether(
+            that=Compares(left=Measured(attribute="distance", to=None) as far, right=None)
+        ) if is_vague(far.thing):
+            return HowMuch(Measured("distance-to-go"))
+        case Whether(
+            that=Is(state="right", thing=Pronoun(), event=Event(actor=Ego()) as event)
+        ) if event.action in _TURNS:
+            return Whether(Happens(replace(event, tense="present")))
+        case Whether(that=Happens(event=Event(action="arrive", actor=Ego(), manner=manner))) if (
+            {"early", "late"} & {*manner}
+        ):
+            return Whether(Is("late", Ego(), tense="future"))
         case Compare(options=options):
             return replace(spoken, options=tuple(_option(one, g) for one in options))
     return spoken
+
+
+_ARRIVING: Final = ("leave", "arrive", "exit-left", "exit-right", "turn")
+_TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
+_SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
+
+
+def _by_side(relation: str, spoken: Question, g: Grounder) -> Question:
+    """Take "is that the one on the right?" after a question for our way for which way it is."""
+    match g.context.discourse.question:
+        case HowMuch(of=Measured(attribute="turn" | "exit-number", thing=Ego())) if (
+            relation in _SIDES
+        ):
+            g.notes.leaned = True
+            action: Any = _SIDES[relation]
+            return Whether(Happens(Event(action, tense="present")))
+    return spoken
+
+
+def _about_lanes(context: Context) -> bool:
+    """Tell whether it was a lane that was asked for just now."""
+    asked = context.discourse.question
+    return isinstance(asked, HowMuch) and asked.of.attribute in ("lane", "lane-count")
+
+
+def _difference(context: Context) -> HowMuch | None:
+    """Give what "and by how much?" asks after a comparison of speeds."""
+    match proposition_of(context.discourse.question) or asserted(context):
+        case Compares(left=Measured(attribute="speed") as left, right=right):
+            if isinstance(right, Measured) and right.attribute == "limit":
+                return HowMuch(replace(left, attribute="excess"))
+            if isinstance(right, Measured):
+                return HowMuch(replace(left, to=right.thing))
+    return None
 
 
 def is_vague(thing: Thing | None) -> bool:

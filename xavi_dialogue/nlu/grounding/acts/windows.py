@@ -8,6 +8,7 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import (
     Ago,
     At,
+    AtDecision,
     Back,
     Between,
     Destination,
@@ -39,6 +40,7 @@ SOON: Final = 15.0  # [s] that "soon" and "next" reach ahead
 OPENING: Final = 8.0  # [s] that the beginning of the ride lasts
 BESIDE: Final = 8.0  # [s] before or after an event
 APPROACH: Final = 6.0  # [s] before a junction that belong to it
+JUST_BEFORE: Final = 0.2  # [s] before something that are still of it
 STALE: Final = 6.0  # [s] after which what was spoken of is no longer what "back there" means
 TOGETHER: Final = 1.5  # [s] between deeds that belong together
 LONGEST: Final = 15.0  # [s] that deeds which belong together last at most
@@ -60,8 +62,12 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return _at(at, now)
         case Ago(seconds=None):
             return _between(max(begin, now - JUST_NOW), now, now)
+        case Ago(seconds=float() as back, span=True):
+            return replace(_between(max(begin, now - back), now, now), whole=True)
         case Ago(seconds=float() as back):
             return _at(now - back, now)
+        case AtDecision(number=number, last=last):
+            return _decided(number, number if last is None else last, context)
         case Within(seconds=after):
             return _coming(context, SOON if after is None else after, said=True)
         case Between(begin=first, end=last):
@@ -105,6 +111,14 @@ def _at(at: float, now: float) -> Window:
     return Window(at, at, At(at), search, True, ahead=at > now + 0.5, prefer="nearest")
 
 
+def _decided(number: int, last: int, context: Context) -> Window:
+    """Take the time of a decision, or from one to another, by their numbers in the record."""
+    first, end = (context.world.decided(n) for n in (number, last))
+    if first is None or end is None:
+        return unsaid("past", context)
+    return _at(first, context.now) if first == end else _between(first, end, context.now)
+
+
 def _between(begin: float, end: float, now: float) -> Window:
     return Window(begin, end, Between(begin, end), (begin, end), True, ahead=begin > now)
 
@@ -118,14 +132,16 @@ def _back(relation: str, g: Grounder) -> Window:
     context = g.context
     g.notes.leaned = True
     interval = focus(context.discourse)
-    if interval is None or _is_stale(context):
+    if interval is None or is_stale(context):
         interval = notable(context) or interval
+        if relation == "before":
+            return Window(context.begin, context.now, Unsaid(), (context.begin, context.now), True)
     if interval is None:
         return unsaid("past", context)
     return _beside(relation, interval, context)
 
 
-def _is_stale(context: Context) -> bool:
+def is_stale(context: Context) -> bool:
     """Tell whether it is long since anything was asked, so that more has happened."""
     asked = context.discourse.asked_at
     return asked is not None and context.now - asked > STALE
@@ -166,7 +182,7 @@ def _beside(relation: str, interval: Interval, context: Context, approach: float
     match relation:
         case "before":
             start = max(begin, first - BESIDE)
-            end = max(begin, first)
+            end = max(begin, first - JUST_BEFORE)
             return Window(start, end, Between(start, end), (begin, end - 0.05), True)
         case "after":
             end = min(now, last + BESIDE)
@@ -219,6 +235,10 @@ def _of_event(event: Event, tense: Tense, g: Grounder) -> tuple[Interval, ...] |
     inner = window(event.time, event.tense, g)
     grounded = g.event(event, "asked", inner)
     search = inner.search if inner.said else (context.begin, context.now)
+    if grounded.action == "see" and isinstance(grounded.object, Vehicle):
+        grounded = Event("appear", grounded.object)  # from when on it is seen
+        first = context.holds(grounded, *search)
+        return tuple(_interval(e, context) for e in first) or ((context.begin, context.begin),)
     episodes = context.holds(grounded, *search) or like(context, grounded, *search)
     if not episodes and (tense == "future" or event.tense in ("future", "present", "perfect")):
         return None

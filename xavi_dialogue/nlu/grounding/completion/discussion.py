@@ -12,9 +12,11 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     HowLong,
     HowMany,
+    Listing,
     Question,
     Request,
     Where,
+    Whither,
 )
 from xavi_dialogue.domain.terms import (
     At,
@@ -49,12 +51,20 @@ PROPOSITIONS: Final = (
 def proposition_of(question: Question | None) -> Proposition | None:
     """Give the proposition that a question is about."""
     match question:
+        case HowMany(of=Event() as event):
+            return Happens(event)
         case None | HowMany() | Compare():
             return None
-        case HowLong(of=event):
+        case HowLong(of=Event() as event):
             return Happens(event)
         case Where(of=Event() as event):
             return Happens(event)
+        case (
+            Doing(actor=Vehicle() as actor, besides=None)
+            | Whither(actor=Vehicle() as actor)
+            | Listing(of="beliefs", about=Vehicle() as actor)
+        ):
+            return Happens(Event("do", actor, tense="present"))
         case Doing(besides=proposition):
             return proposition
     for name in ("of", "that", "supposed", "such"):

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
+    Changed,
     Claim,
     Doing,
     Elliptic,
@@ -19,8 +20,10 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Identify,
     Listing,
+    Peak,
     Question,
     Request,
+    Summarise,
     WhatIf,
     When,
     Where,
@@ -30,34 +33,29 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
-    Back,
-    Between,
     Described,
     Ego,
     Event,
     Exit,
     Happens,
     Junction,
-    Next,
     Not,
     Pronoun,
     Related,
-    Relative,
     Thing,
-    Time,
     Unsaid,
     Vehicle,
+    Vehicles,
     Wanted,
-    Within,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
-    interval,
     main_event,
     proposition_of,
     questioned,
 )
+from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if
 from xavi_dialogue.nlu.grounding.context import Grounder
@@ -151,51 +149,30 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if question is None:
         return _frameless(spoken, g)
     new: Question = question
-    if spoken.thing is None and spoken.event is None and _is_later(spoken.time):
-        later = _then(question)
-        if later is not None:
-            return Ask(later)
+    if spoken.thing is None and spoken.event is None:
+        moved = at_another_time(spoken.time, question)
+        if moved is not None:
+            return Ask(moved)
     if spoken.event is not None:
         new = with_event(new, spoken.event)
     if spoken.thing is not None:
         new = _about_thing(new, spoken.thing, g)
     if not isinstance(spoken.time, Unsaid):
-        new = with_time(new, _from(spoken.time, question))
+        new = with_time(new, counted_from(spoken.time, question))
     if spoken.negated:
         new = _negated(new)
     return Ask(new)
 
 
-def _is_later(time: Time) -> bool:
-    return isinstance(time, Next | Within) or (
-        isinstance(time, Relative) and time.relation == "after"
-    )
-
-
-def _then(question: Question) -> Question | None:
-    """Ask whether what is not done now will be done later; None where nothing is."""
-    match question:
-        case Why(of=Not(content=Happens(event=Event(tense="present") as event))):
-            return Whether(Happens(replace(event, tense="future", modal="will", time=Unsaid())))
-    return None
-
-
-def _from(time: Time, question: Question) -> Time:
-    """Count "before that" from the part of the ride that the question was about."""
-    event = main_event(question)
-    when = None if event is None else interval(event)
-    if not isinstance(time, Back) or when is None:
-        return time
-    match time.relation:
-        case "before":
-            return Between(max(when[0] - 8.0, 0.0), max(when[0] - 0.05, 0.0))
-        case "after":
-            return Between(when[1] + 0.05, when[1] + 8.0)
-    return Between(*when)
-
-
 def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
-    """Ask the same of another thing; of what we did, ask whether that is why."""
+    """Ask the same of another thing; of what we did, ask whether that is why.
+
+    Where it cannot be asked of that thing, it is asked what that is doing.
+    """
+    event = main_event(question)
+    judged = isinstance(question, Whether) and event is not None and event.modal in _JUDGING
+    if (judged or isinstance(question, _OF_RIDE)) and isinstance(thing, _USERS):
+        return Doing(thing)
     if isinstance(question, Why) and not isinstance(thing, PLACES):
         event = main_event(question)
         if event is not None and event.actor == Ego() and not isinstance(thing, Ego):
@@ -207,8 +184,17 @@ def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
                 return replace(question, suspect=found)
             if event.object is None:
                 return with_thing(question, found, g.context)
-            return replace(question, of=with_event(question.of, replace(event, object=found)))
+            same = replace(event, object=found)
+            if not g.context.holds(same, g.context.begin, g.context.now):
+                return Doing(found)
+            return replace(question, of=with_event(question.of, same))
     return with_thing(question, thing, g.context)
+
+
+_JUDGING: Final = ("should", "could", "would")
+#: Questions about us and the ride, which are not asked of another vehicle.
+_OF_RIDE: Final = (Summarise, Peak, Changed)
+_USERS: Final = (Vehicle, Vehicles, Described, Pronoun)
 
 
 def _negated(question: Question) -> Question:
@@ -249,12 +235,23 @@ def _frameless(spoken: Elliptic, g: Grounder) -> Act | None:
     return Ask(Where(spoken.thing))
 
 
+#: What is done for, to or because of somebody: "for whom?".
+_FOR_WHOM: Final = frozenset(
+    ("wait", "give-way", "let-go", "brake", "stop", "slow-down", "follow", "stand", "swerve",
+     "signal", "honk", "flash")
+)  # fmt: skip
+
+
 def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
     """Put another question word to what was spoken of: "when?", "which one?", "how sure?"."""
     thing = spoken.thing
     if spoken.form == "which":
         if thing is None and isinstance(question, Which):
             return Ask(question)
+        event = main_event(question)
+        named = thing is not None or isinstance(question, Why)
+        if not named and event is not None and event.action in _FOR_WHOM:
+            return Ask(Which(Wanted(), Happens(replace(event, object=Wanted()))))
         return Ask(Identify(thing or Pronoun("it")))
     if spoken.form == "where" and (thing is not None or main_event(question) is None):
         told = isinstance(question, HowMuch) and question.extreme is not None

@@ -4,6 +4,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, Repair, Request
 from xavi_dialogue.domain.terms import Described, Event, Pronoun, Thing, Vehicle
+from xavi_dialogue.nlu.grounding.completion.ellipsis import complete as ellipsis_of
 from xavi_dialogue.nlu.grounding.completion.ellipsis import under_discussion
 from xavi_dialogue.nlu.grounding.completion.replacing import with_thing
 from xavi_dialogue.nlu.grounding.context import Grounder
@@ -49,6 +50,8 @@ def _picked(spoken: Repair, g: Grounder) -> Act | None:
         found = answers_clarification(spoken, g)
         if found is not None:
             return found
+    if spoken.pick is not None and not (discourse.offered or discourse.offered_things):
+        return ellipsis_of(Elliptic(Vehicle(spoken.pick)), g) if spoken.pick > 0 else None
     if spoken.pick is not None:
         return _number(spoken.pick, g)
     if spoken.kind == "yes" and len(discourse.offered) == 1:

@@ -4,7 +4,16 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, Question, WhatIf
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    Question,
+    WhatIf,
+    When,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -26,6 +35,7 @@ from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.rewriting import first
 
 PLACES: Final = (Exit, Junction, Lane)
+HALTING: Final = ("stop", "brake", "avoid", "slow-down")
 
 
 def what_if(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
@@ -67,3 +77,39 @@ def through(place: Thing, of: Proposition | None) -> Proposition:
     if event is not None and isinstance(event.object, type(place)):
         return Happens(replace(event, object=place, actor=Ego()))
     return Happens(Event("leave" if isinstance(place, Exit) else "enter", object=place))
+
+
+def subordinate(spoken: Question, g: Grounder) -> Question:
+    """Ask "would we have hit it?" of what was supposed in the question before."""
+    earlier = _supposed_before(g)
+    if earlier is None or not _hypothetical(spoken, earlier):
+        return spoken
+    g.notes.leaned = True
+    return WhatIf(earlier, spoken)
+
+
+def _hypothetical(spoken: Question, earlier: Proposition) -> bool:
+    """Tell whether a question is about a world that is only supposed."""
+    match spoken:
+        case (
+            Whether(that=Happens(event=event) | Not(content=Happens(event=event)))
+            | When(of=Happens(event=event))
+        ):
+            if first(earlier, Event) == replace(event, modal=None):
+                return False
+            if event.modal == "would":
+                return True
+            return event.modal in ("can", "could") and event.action in HALTING
+    return False
+
+
+def _supposed_before(g: Grounder) -> Proposition | None:
+    """Give what the question before supposed, or asked whether it could have been done."""
+    match g.context.discourse.question:
+        case WhatIf(supposed=supposed):
+            return supposed
+        case Whether(that=Happens(event=Event(modal="could") as event)):
+            return Happens(replace(event, modal=None, tense="perfect"))
+        case Why(of=Not(content=Happens(event=event))):
+            return Happens(replace(event, modal=None, tense="perfect"))
+    return None

@@ -46,7 +46,9 @@ class Search:
     @property
     def present_only(self) -> bool:
         """Whether nothing is said that could be true of somebody who is not in view."""
-        return self.clause is None and self.condition is None and self.fits is None
+        such = self.described.such
+        now = such is None or getattr(such, "tense", "past") == "present"
+        return self.clause is None and now and self.fits is None
 
     def match(self, vehicle: int, stage: float) -> Match | None:
         """Weigh a vehicle; None where it was never seen."""
@@ -63,7 +65,7 @@ class Search:
             return Match(vehicle, look, misses, stage)
         done = None if self.clause is None else self.clause.episode(vehicle)
         if self.clause is not None:
-            misses["doing"] = 1.0 if done is None else self.clause.cost(vehicle)
+            misses["doing"] = _undone(self, look) if done is None else self.clause.cost(vehicle)
         if self.condition is not None:
             misses["such"] = self.condition.cost(vehicle)
         deed = None if self.fits is None else self.fits(vehicle)
@@ -78,8 +80,9 @@ class Search:
         if bearing is None:
             return 0.0
         context = self.grounder.context
+        restricted = self.described.colour is not None or self.described.kind not in _ANY
         if self.reference is not None:
-            return _seen_from(self, vehicle)
+            return (0.5 if restricted else 1.0) * _seen_from(self, vehicle)
         found = [looks.bearing_cost(bearing, look)]
         if not look.in_view:
             found[0] = max(found[0], 0.4)
@@ -88,7 +91,6 @@ class Search:
             if then is not None and then.in_view:
                 found.append(0.05 + looks.bearing_cost(bearing, then))
         best = min(found)
-        restricted = self.described.colour is not None or self.described.kind not in _ANY
         return 0.5 * best if restricted and best > ACCEPT else best
 
     def _earlier(self, vehicle: int) -> tuple[Look, ...]:
@@ -148,6 +150,15 @@ def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
     ]  # fmt: skip
     yield STAGES[2], tuple(recent)
     yield STAGES[3], context.world.vehicles
+
+
+def _undone(search: Search, look: Look) -> float:
+    """Weigh that somebody has not done what is said of him: who is seen to come is said to."""
+    event = search.described.doing
+    if event is not None and event.action in ("come", "approach") and event.tense == "present":
+        nears = look.oncoming or look.bearing.startswith(("crossing", "behind"))
+        return 0.0 if nears else 0.3
+    return 1.0
 
 
 def _resolved(search: Search, good: list[Match]) -> Thing:

@@ -9,6 +9,7 @@ from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
 from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
 
+CLEAR: Final = 0.3  # salience from which a vehicle may be one of "both"
 LOST: Final = 0.1  # salience below which a pronoun does not reach back
 MISFIT: Final = 0.45  # share of its salience that is left to who did not do what is said
 LEVEL: Final = 0.98  # ratio of two saliences that do not differ
@@ -20,7 +21,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     mentions = g.context.discourse.mentions
     together = group(mentions)
     if thing.form == "them-all":
-        return Vehicles(together) if together else Everyone()
+        spoken = together or _spoken(g)
+        return Vehicles(spoken) if len(spoken) > 1 else Everyone()
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
     weighed = _weighed(g, fits)
@@ -36,6 +38,13 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         return thing
     g.notes.cost += FROM_SCENE
     return Vehicle(found)
+
+
+def _spoken(g: Grounder) -> tuple[int, ...]:
+    """Give the vehicles that were spoken of one after the other, the latest last."""
+    known = set(g.context.world.vehicles)
+    lately = [v for v, s in vehicles_of(g.context.discourse.mentions) if s >= CLEAR and v in known]
+    return tuple(reversed(lately[:2]))
 
 
 def _group_leads(g: Grounder) -> bool:

@@ -1,0 +1,71 @@
+"""Answers about our way, moments that stand out and decisions; golden/journey.txt has the texts."""
+
+from tests.nlg.scenery import BLUE, LORRY, NOW
+from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, Summit
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
+from xavi_dialogue.domain.journeys import WayStep
+from xavi_dialogue.domain.terms import Ego, Vehicle
+
+E = Ego()
+LEFT = WayStep("junction", "exit-left", 55.0, 1)
+THERE = WayStep("junction", "exit-straight", 1.0, 1)
+LATER = WayStep("junction", "exit-right", 120.0, 2)
+RING = WayStep("roundabout", "exit-straight", 40.0, 1, exit=2)
+SIDEWAYS = WayStep("roundabout", "exit-left", 1.0, 1, exit=3)
+INSIDE = WayStep("roundabout", "exit-right", 12.0, 1, exit=1, inside=True)
+FURTHER = WayStep("roundabout", "exit-right", 60.0, 1, exit=2, inside=True)
+YIELD = Episode(E, "give-way", 9.0, 12.0, object=Vehicle(1))
+BEFORE = Decided(4.0, ("continue",))
+AFTER = Decided(9.0, ("change-left",), doing=(YIELD,))
+OLD = Belief(1, 4.0, (Expectation(("exit-right",), 0.4),))
+NEW = Belief(1, 9.0, (Expectation(("exit-right",), 0.9),))
+
+
+def near(attribute: str, value: float) -> Measure:
+    """Make a measure of a moment."""
+    return Measure(attribute, E, 9.0, value, to=Vehicle(1))  # type: ignore[arg-type]
+
+
+CASES: tuple[Answer, ...] = (
+    Course("way", (LEFT,), left=200.0),
+    Course("way", (LEFT,), holds=True),
+    Course("way", (THERE, LATER), holds=False),
+    Course("way", (LATER,), then=True),
+    Course("way", (RING,)),
+    Course("way", (SIDEWAYS,)),
+    Course("way", (INSIDE,)),
+    Course("way", (FURTHER,)),
+    Course("way", (), left=200.0),
+    Course("way", (), holds=True, left=200.0),
+    Course("way", (), holds=False),
+    Course("way", (), then=True),
+    Course("road", (LEFT,), holds=False),
+    Course("road", (), holds=True, left=200.0),
+    Course("road", (), left=200.0),
+    Course("turns", (LEFT, LATER)),
+    Course("turns", (INSIDE,)),
+    Course("turns", (), left=200.0),
+    Course("roundabouts", (RING,), holds=True),
+    Course("roundabouts", (), holds=False, left=200.0),
+    Course("nearly", (), left=30.0, soon=3.0),
+    Summit("slowness", 9.0, (YIELD,), near("speed", 0.0)),
+    Summit("slowness", 9.0, (), near("speed", 5.0)),
+    Summit("speed", 9.0, (), near("speed", 13.0)),
+    Summit("braking", 9.0, (YIELD,), near("deceleration", 3.0)),
+    Summit("waiting", 9.0, (YIELD,), near("duration", 3.0)),
+    Summit("waiting", 9.0, (YIELD,), near("duration", 0.5)),
+    Summit("closeness", 9.0, (), near("distance", 2.0), (BLUE,)),
+    Summit("danger", 9.0, (YIELD,), near("time-to-collision", 2.0), (BLUE,)),
+    Summit("difficulty", 9.0, (YIELD,), near("duration", 3.0), (BLUE, LORRY)),
+    Summit("danger", 9.0, (YIELD,), near("duration", 3.0), (BLUE,)),
+    Summit("difficulty", 9.0),
+    Summit("waiting"),
+    Summit("braking"),
+    Summit("closeness"),
+    BEFORE,
+    AFTER,
+    Decided(NOW, ("exit-left",), kept=True),
+    Altered(BEFORE, AFTER, (LORRY,), ((OLD, NEW),), (YIELD,)),
+    Altered(BEFORE, AFTER, (LORRY,)),
+    Altered(BEFORE, BEFORE),
+)

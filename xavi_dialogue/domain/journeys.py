@@ -1,0 +1,59 @@
+"""Journeys: answers about our way, the moments that stand out on it, and what was decided."""
+
+from typing import Literal
+
+from planner.road import JunctionKind, Turn
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
+
+
+class WayStep(Value, frozen=True):
+    """What we do at a junction that we come to."""
+
+    kind: JunctionKind
+    turn: Turn
+    distance: float  # [m]
+    rank: int  # 1: the next junction
+    exit: int | None = None  # of a roundabout
+    inside: bool = False  # we are on it: the exits still to come are counted
+
+
+class Course(Value, frozen=True):
+    """Our way ahead: which way we take, how many turns are left, whether we stay on the road."""
+
+    form: Literal["way", "turns", "junctions", "roundabouts", "road", "nearly"]
+    steps: tuple[WayStep, ...]
+    holds: bool | None = None  # of a yes or no question
+    left: float | None = None  # [m] to the destination
+    soon: float | None = None  # [s] to it
+    then: bool = False  # it is asked what comes after what was told
+
+
+class Summit(Value, frozen=True):
+    """The moment of the ride at which something was at its most."""
+
+    of: str  # of `meaning.Peak`
+    time: float | None = None  # [s] None: there was nothing of the sort
+    deeds: tuple[Episode, ...] = ()  # what we did then, the most telling first
+    measure: Measure | None = None  # how much it was
+    others: tuple[Look, ...] = ()  # on account of whom
+
+
+class Decided(Value, frozen=True):
+    """What a decision came to."""
+
+    time: float  # [s]
+    steps: tuple[MacroAction, ...]
+    kept: bool = False  # it was the plan of before
+    doing: tuple[Episode, ...] = ()  # how we drove then
+
+
+class Altered(Value, frozen=True):
+    """What was different at one decision from an earlier one."""
+
+    before: Decided
+    after: Decided
+    appeared: tuple[Look, ...] = ()
+    beliefs: tuple[tuple[Belief, Belief], ...] = ()  # that moved, the most first
+    did: tuple[Episode, ...] = ()  # what happened between them

@@ -1,0 +1,140 @@
+"""Conduct: what can be seen of somebody's driving though no episode of that name is recorded."""
+
+import math
+
+from msgspec.structs import replace
+
+from sim.network import angle_between
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.findings import Finding, known
+from xavi_dialogue.explain.answers.moments import Window, is_ahead, is_past, window
+from xavi_dialogue.explain.answers.naming import is_us, number
+from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.priority import rule_between
+
+HALTING: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
+BENDING: tuple[ActionName, ...] = (
+    "exit-left", "exit-right", "change-left", "change-right", "continue-next-exit",
+)  # fmt: skip
+TRACK = 2.0  # [m] from our own line within which somebody drives where we drove
+ALONG = 0.6  # [rad] by which his heading there may differ from ours
+BACK = 8.0  # [s] how long ago we may have been there
+SOON = 150.0  # [m] to a turn up to which we are not going straight on
+LATELY = 6.0  # [s] since when a lane change is hardly over
+ASIDE = 1.0  # [m] sideways from which somebody is in the lane that we change to
+CLOSE, CLOSE_GAP = 1.5, 8.0  # [s], [m] up to which we moved in close ahead of him
+FIRM = 1.0  # [m/s2] deceleration from which somebody who brakes is stopping
+
+
+def conduct(asked: Asked, event: Event) -> Finding | None:
+    """Weigh what positions and speeds show of an event; None where they add nothing."""
+    if event.modal is not None or is_ahead(asked, event.time, event.tense):
+        return None
+    vehicle = number(event.actor)
+    if event.action == "cut-in" and is_us(event.actor) and number(event.object) is not None:
+        return _cutting_in(asked, event, number(event.object) or 0)
+    if vehicle is None:
+        straight = event.action in ("exit-straight", "continue") and event.tense == "present"
+        return _straight(asked) if straight and is_us(event.actor) else None
+    if event.action == "follow" and is_us(event.object) and not _over(asked, event):
+        return _following(asked, event, vehicle)
+    if event.action in HALTING:
+        return _halting(asked, event, vehicle)
+    return None
+
+
+def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:
+    """Tell whether a lane change of ours that is hardly over leads in close ahead of somebody."""
+    if occasion(asked, event) is not None:
+        return None
+    changes = asked.world.episodes(
+        actor=Ego(), actions=("change-left", "change-right"), begin=asked.now - LATELY
+    )
+    look = asked.world.look(behind, asked.now)
+    if not changes or look is None or look.ahead >= 0.0 or look.oncoming:
+        return None
+    change = changes[-1]
+    before = asked.world.look(behind, max(change.begin, asked.world.begin))
+    aside = 0.0 if before is None else before.left
+    towards = aside > ASIDE if change.action == "change-left" else aside < -ASIDE
+    if not towards or look.distance > max(look.speed * CLOSE, CLOSE_GAP):
+        return None
+    braked = occasion(asked, Event("brake", Vehicle(behind), time=event.time))
+    late = braked is not None and braked.begin >= change.begin
+    return Finding(True, (change, *((braked,) if braked is not None and late else ())))
+
+
+def _over(asked: Asked, event: Event) -> bool:
+    return is_past(asked, event.time, event.tense)
+
+
+def _straight(asked: Asked) -> Finding | None:
+    """Tell whether we go straight on: nothing else is under way, and no turn comes soon."""
+    own = asked.world.episodes(actor=Ego(), actions=BENDING, begin=asked.now - 0.2)
+    if any(e.end is None and e.begin <= asked.now for e in own):
+        return None
+    turn = asked.world.measure("turn", Ego(), asked.now)
+    far = turn.value if turn.gap is None else None
+    turning = turn.gap is None and turn.side in ("left", "right")
+    near = turning and (far is None or far <= SOON)
+    return Finding(not near, known(turn))
+
+
+def _following(asked: Asked, event: Event, vehicle: int) -> Finding | None:
+    """Tell whether somebody drives on the line that we drove shortly before, next after us."""
+    if occasion(asked, event) is not None:
+        return None
+    since = _on_our_line(asked, vehicle)
+    if since is None:
+        return None
+    others = (_on_our_line(asked, v) for v in asked.world.in_view(asked.now) if v != vehicle)
+    if any(other is not None and other > since for other in others):
+        return None
+    gap = asked.world.measure("distance", Ego(), asked.now, Vehicle(vehicle))
+    return Finding(True, known(gap))
+
+
+def _on_our_line(asked: Asked, vehicle: int) -> float | None:
+    """Tell when [s] we were where a vehicle is now; None where we were not, or long ago."""
+    look = asked.world.look(vehicle, asked.now)
+    theirs, ours = asked.ride.motion(vehicle), asked.ride.motion(EGO)
+    last = theirs.index(asked.now)
+    if look is None or not look.in_view or last is None:
+        return None
+    near = [
+        k
+        for k in ours.within(asked.now - BACK, asked.now - 0.5)
+        if math.dist(ours.position[k], theirs.position[last]) <= TRACK
+        and abs(angle_between(ours.heading[k], theirs.heading[last])) <= ALONG
+    ]
+    return ours.time[near[-1]] if near else None
+
+
+def _halting(asked: Asked, event: Event, vehicle: int) -> Finding | None:
+    """Tell whether somebody stops, or does so for us, by his braking and the right of way."""
+    if occasion(asked, event) is not None:
+        return None
+    past = _over(asked, event)
+    plain = replace(event, object=None, where=None)
+    held = occasion(asked, plain) or _braking(asked, plain, past)
+    if held is None:
+        return None
+    if event.object is None:
+        return Finding(True, (held,)) if event.action == "stop" and not past else None
+    if not is_us(event.object):
+        return None
+    about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    rule = rule_between(asked, vehicle, about)
+    return Finding(True, (held,)) if rule is not None and rule[1] == "priority" else None
+
+
+def _braking(asked: Asked, event: Event, past: bool) -> Episode | None:
+    """Give the braking with which somebody comes to a stop."""
+    found = occasion(asked, replace(event, action="brake"))
+    if found is None or (found.peak or 0.0) < FIRM:
+        return None
+    return found if past or found.end is None or found.end >= asked.now - 0.5 else None

@@ -1,0 +1,84 @@
+"""Lasting: how long a state holds or held: behind us, in our lane, in view, at a standstill."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Lasted
+from xavi_dialogue.domain.meaning import HowLong
+from xavi_dialogue.domain.terms import (
+    At,
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Now,
+    Proposition,
+    Related,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.durations import event_lasting
+from xavi_dialogue.explain.answers.moments import UNSAID, is_past, window
+from xavi_dialogue.explain.answers.naming import is_us
+from xavi_dialogue.explain.answers.weighing import weigh
+
+STEP = 0.5  # [s] between the moments that are looked at
+BREAK = 1.5  # [s] for which a state may seem to be interrupted
+MANY = 240  # moments that are looked at, at most
+
+
+def how_long(question: HowLong, asked: Asked) -> Answer:
+    """Tell how long something lasted, has lasted so far, or is expected to last.
+
+    Raises:
+        Unanswered: it did not happen.
+    """
+    of = question.of
+    if not isinstance(of, Event):
+        return state_lasting(of, asked)
+    if of.action == "follow" and isinstance(of.object, Ego | Vehicle):
+        return state_lasting(Related("behind", of.actor, of.object, of.time, of.tense), asked)
+    if of.action == "see" and is_us(of.actor) and isinstance(of.object, Vehicle):
+        return state_lasting(Is("visible", of.object, time=of.time, tense=of.tense), asked)
+    return event_lasting(of, asked)
+
+
+def state_lasting(of: Proposition, asked: Asked) -> Answer:
+    """Tell since when a state holds, or how long it held the last time.
+
+    A state that never held is answered as whether it does.
+    """
+    if isinstance(of, Happens):
+        return event_lasting(of.event, asked)
+    time = getattr(of, "time", UNSAID)
+    tense = getattr(of, "tense", "present")
+    about = window(asked, time, "perfect")
+    on = isinstance(time, Now | Unsaid) or not is_past(asked, time, tense)
+    end = asked.now if on else about.end
+    begin = max(asked.world.begin, end - MANY * STEP)
+    count = int((end - begin) / STEP)
+    last: float | None = None
+    first = end
+    for k in range(count + 1):
+        at = end - k * STEP
+        holds = weigh(at_time(of, at), asked).holds
+        if holds:
+            last = at if last is None else last
+            first = at
+        elif last is not None and first - at > BREAK:
+            break
+    if last is None:
+        return weigh(of, asked).verdict(of)
+    going = asked.now - last <= BREAK
+    return Lasted(of, first, None if going else last, asked.now, first - asked.world.begin < STEP)
+
+
+def at_time(of: Proposition, at: float) -> Proposition:
+    """Put a state at a moment [s]."""
+    if isinstance(of, Not):
+        return Not(at_time(of.content, at))
+    if isinstance(of, Compares):
+        return replace(of, left=replace(of.left, time=At(at)))
+    return replace(of, time=At(at)) if hasattr(of, "time") else of

@@ -1,0 +1,201 @@
+"""Own suppositions: what would have come of it, had we done otherwise."""
+
+from dataclasses import replace
+
+from msgspec import structs
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Contrast,
+    DidNotHappen,
+    NotApplicable,
+    SupposedOfUs,
+)
+from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Proposition,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import choices, reacting
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.closeness import closeness
+from xavi_dialogue.explain.answers.foils import foil_at
+from xavi_dialogue.explain.answers.hastening import hastened
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.reading import (
+    event_of,
+    is_own,
+    is_past,
+    manner_of,
+    subject,
+    vehicle_in,
+)
+from xavi_dialogue.explain.causes.actions import CHANGES, DRIVING, names_of
+from xavi_dialogue.explain.causes.contrast import SameAsPlan, against_best, contrast
+from xavi_dialogue.explain.causes.natural import on_way
+from xavi_dialogue.explain.causes.premise import happened, is_open, manoeuvre, premise
+from xavi_dialogue.explain.history.ride import planned
+
+EARLIER = 8.0  # [s] by which something could have been begun earlier
+SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
+GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
+
+
+def form_of(then: Question | None) -> Asking:
+    """Tell what is asked of a supposed world."""
+    if reacting.asks(then) == "collide":
+        return "crash"
+    if is_sooner(then):
+        return "quicker"
+    match then:
+        case Compare(by="safety"):
+            return "safer"
+        case Compare(by="time" | "speed"):
+            return "quicker"
+        case Whether(that=Is(state="possible", event=None)):
+            return "could"
+        case Whether(
+            that=Happens(event=Event(actor=Ego(), action="go" | "enter" | "arrive", manner=()))
+        ):
+            return "could"
+        case When(of=Happens(event=Event(action="arrive"))):
+            return "arrival"
+        case HowMuch(of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time")):
+            return "arrival"
+    return "what-if"
+
+
+def is_sooner(then: Question | None) -> bool:
+    """Tell whether it is asked if we would have gone, or been there, sooner."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or event.action not in (*GOING, "arrive", "go"):
+        return False
+    return manner_of(event, "first", "early", "fast") is not None
+
+
+def struck_in(then: Question | None) -> int | None:
+    """Tell whom it is asked whether we would collide with."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or event.action not in reacting.COLLIDING:
+        return None
+    return vehicle_in(event.object) or vehicle_in(event.actor)
+
+
+def paced(of: Proposition | None) -> Event | None:
+    """Read that we were faster or slower as driving so."""
+    match of:
+        case Compares(left=Measured(attribute="speed", thing=thing, tense=tense), comparator=how):
+            if not is_own(thing):
+                return None
+            action: ActionName = "slow-down" if how == "less" else "go"
+            return Event(action, manner=("slowly" if how == "less" else "fast",), tense=tense)
+    return None
+
+
+def of_us(
+    event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
+) -> Answer:
+    """Tell what would have come of another action of ours.
+
+    Raises:
+        Unanswered: it cannot be done; or rollouts are needed.
+    """
+    past = is_past(scene, event) or event.modal == "would"
+    event = _staying(event, scene)
+    if event.action in SQUEEZING and scene.world.episodes(Ego(), ("give-way",)):
+        return hastened(structs.replace(event, object=None), scene, form, struck)
+    if event.action in reacting.COLLIDING:
+        now = Window(scene.now, scene.now)
+        return closeness(scene, vehicle_in(event.object), now, "hit", past=False)
+    if event.action in GOING and (not _stopped(scene) or manner_of(event, "fast") is not None):
+        return hastened(event, scene, form, struck)
+    try:
+        against = _against(event, scene)
+    except SameAsPlan as same_:
+        against = against_best(scene.ride, same_.trace)
+        return SupposedOfUs(against, done=True, past=past, form=form)
+    except Unanswered as unanswered:
+        result = unanswered.result
+        if isinstance(result, DidNotHappen) and result.instead:
+            return _done(event, scene, past=past)
+        raise
+    nearest = event.action if event.action in ("brake", "slow-down") else None
+    return SupposedOfUs(
+        against, past=past, asked=nearest, form=form, arrival=arrival(scene, against)
+    )
+
+
+def _against(event: Event, scene: Asked) -> Contrast:
+    """What was decided against something else, where that could be begun last.
+
+    Raises:
+        Unanswered: it could not be done; or rollouts are needed.
+    """
+    found, foil = foil_at(event, scene)
+    try:
+        against = contrast(scene.ride, found.trace, foil, found.node)
+    except Unanswered as unanswered:
+        if found.node or not isinstance(unanswered.result, NotApplicable):
+            raise
+        ride, last = scene.ride, found.trace.sim_time
+        open_ = [t for t in ride.traces if last - EARLIER <= t.sim_time < last]
+        open_ = [t for t in open_ if is_open(ride, t, foil) and planned(t)[: len(foil)] != foil]
+        if not open_:
+            raise
+        against = contrast(ride, open_[-1], foil)
+        return on_way(open_[-1], against, ())
+    return on_way(found.trace, against, found.node)
+
+
+def _staying(event: Event, scene: Asked) -> Event:
+    """Read staying or waiting behind somebody whom we moved out for as staying in our lane."""
+    behind = event.where is not None and event.where.relation == "behind"
+    if event.action != "follow" and not (behind and event.action in ("stand", "wait", "stop")):
+        return event
+    deed = manoeuvre(scene.ride, scene.span)
+    if deed is None or deed.action not in CHANGES:
+        return event if event.action != "follow" else structs.replace(event, action="slow-down")
+    return structs.replace(event, action="keep-lane", object=None, where=None)
+
+
+def arrival(scene: Asked, against: Contrast) -> float | None:
+    """Tell when [s] we would be there under the foil."""
+    due = scene.world.measure("arrival-time", Ego(), scene.now).value
+    later = next((e.delta for e in against.effects if e.component == "time"), None)
+    return None if due is None or later is None else due + later
+
+
+def _stopped(scene: Asked) -> bool:
+    """Whether a stop was chosen, so that driving on was the other choice."""
+    trace = scene.ride.at(scene.moment)
+    return trace is not None and "stop" in planned(trace)[:1]
+
+
+def _done(event: Event, scene: Asked, *, past: bool) -> Answer:
+    """It is just what was done: with what else there was."""
+    found = premise(scene.ride, replace(subject(scene, event), is_past=True))
+    return SupposedOfUs(against_best(scene.ride, found.trace, found.node), done=True, past=past)
+
+
+def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answer:
+    """Tell what would have been had we not done what we did: the best alternative.
+
+    Raises:
+        Unanswered: it cannot be told; or rollouts are needed.
+    """
+    names = names_of(event)
+    if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
+        return hastened(event, scene, form, struck)  # no choice of its own
+    reason = choices.why(event, scene)
+    assert isinstance(reason, ChoiceReason)
+    against = reason.contrast
+    past = reason.past or event.tense == "perfect"
+    return SupposedOfUs(against, past=past, form=form, arrival=arrival(scene, against))

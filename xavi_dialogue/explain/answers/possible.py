@@ -1,0 +1,68 @@
+"""Possible: whether we could have done otherwise, and whether we had to do what we did."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.meaning import Whether
+from xavi_dialogue.domain.terms import Event, Happens, Is, Proposition
+from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.explain.answers import deciding, motions
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.own_suppositions import of_us
+from xavi_dialogue.explain.answers.reading import event_of, is_own, unwrapped
+
+#: What is no way of driving that could be chosen.
+NOT_DRIVING = frozenset[ActionName](
+    ("see", "do", "happen", "collide", "nearly-collide", "arrive", "signal", "appear", "disappear")
+)
+YIELDING = frozenset[ActionName](("give-way", "let-go", "wait"))
+FASTER = frozenset[ActionName](("speed-up",))
+
+
+def is_could(of: Proposition | None) -> bool:
+    """Tell whether it is asked of what we could have done."""
+    of, _ = unwrapped(of)
+    event = event_of(of)
+    if not isinstance(of, Happens) or event is None or not is_own(event.actor):
+        return False
+    driving = event.action not in NOT_DRIVING and event.action not in BEYOND
+    return driving and event.modal == "could" and event.tense in ("past", "perfect")
+
+
+def is_must(of: Proposition | None) -> bool:
+    """Tell whether it is asked of what we had to do; right of way is another matter."""
+    of, _ = unwrapped(of)
+    event = event_of(of)
+    if not isinstance(of, Happens) or event is None or not is_own(event.actor):
+        return False
+    named = event.object is not None or event.tense == "present"
+    owed = event.action in ("give-way", "let-go", "wait") and named
+    return event.modal == "must" and event.action not in NOT_DRIVING and not owed
+
+
+def could(question: Whether, scene: Asked) -> Answer:
+    """Tell what would have come of what we could have done.
+
+    Raises:
+        Unanswered: it could not be done; or rollouts are needed.
+    """
+    event = event_of(question.that)
+    assert event is not None
+    if event.action in FASTER or "fast" in event.manner:
+        return motions.slow(scene)
+    return of_us(replace(event, modal="would"), scene, "could")
+
+
+def must(question: Whether, scene: Asked) -> Answer:
+    """Tell whether we had to do what we did, or have to.
+
+    Raises:
+        Unanswered: we did not do it; or rollouts are needed.
+    """
+    event = event_of(question.that)
+    assert event is not None
+    if "slowly" in event.manner and event.action in ("go", "move", "continue"):
+        return motions.slow(scene)
+    plain: Event = replace(event, modal=None)
+    about = Whether(Is("necessary", event=plain, time=plain.time, tense=plain.tense))
+    return deciding.needed(about, scene)

@@ -1,0 +1,112 @@
+"""Refraining: why we did not wait, stop, slow down, or stay behind somebody."""
+
+import math
+
+from msgspec import structs
+
+from planner.trace import Action as MacroAction
+from xavi_dialogue.domain.answers import Answer, Bystander, DidNotHappen, GoReason, MotionReason
+from xavi_dialogue.domain.terms import Event, Lane, Related
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import choices, going, motions
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
+from xavi_dialogue.explain.causes.actions import CHANGES, HALTS
+from xavi_dialogue.explain.history.deeds import Deed
+
+#: What one does who goes on behind somebody, or lets him go first.
+REFRAINS = HALTS | frozenset[ActionName](
+    ("slow-down", "brake", "follow", "keep-distance", "keep-lane")
+)
+FRESH = 5.0  # [s] since when it is, though nothing says that staying behind is meant
+#: By which change of lanes a lane is left.
+LEFT_BY: dict[str, MacroAction] = {
+    "right": "change-left",
+    "rightmost": "change-left",
+    "left": "change-right",
+    "leftmost": "change-right",
+}
+LATELY = 12.0  # [s] since when a change of lanes may be what was done instead of staying behind
+
+
+def refrained(event: Event, scene: Asked) -> Answer:
+    """Tell why we did not wait, stop, slow down or stay behind: what we did instead decides.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    change, crossed = _change(scene), going.crossed(scene)
+    behind = isinstance(event.where, Related) and event.where.relation == "behind"
+    stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
+    since = math.inf if change is None else scene.moment - change.time
+    fresh = crossed is None and (since <= FRESH or event.action == "wait")
+    if change is not None and (stays or fresh):
+        past = change.ended is not None
+        foil = Event("keep-lane", tense="past" if past else event.tense, time=event.time)
+        return choices.why_not(foil, scene, Event(change.action, tense="past"))
+    if stays:
+        return choices.why_not(Event("keep-lane", tense=event.tense, time=event.time), scene)
+    if crossed is None:
+        return _undone(event, scene)
+    return _went(event, scene, crossed)
+
+
+def _change(scene: Asked) -> Deed | None:
+    """The change of lanes at the moment asked about, or shortly before it."""
+    made = [d for d in scene.ride.deeds if d.action in CHANGES]
+    before = [d for d in made if d.time <= scene.moment + 1.0]
+    late = [d for d in before if d.ended is None or d.ended >= scene.moment - LATELY]
+    return late[-1] if late else None
+
+
+def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
+    """Why we went on at a junction: who had gone, was far or stood, or was not in our way."""
+    reason = going.went(Event("go", tense="past"), scene)
+    if not isinstance(reason, GoReason):
+        return _undone(event, scene)
+    asked = vehicle_in(event.object)
+    others = reason.others
+    if asked is not None:
+        named = tuple(one for one in others if one.vehicle == asked)
+        if any(one.gone for one in named):
+            return _done(event, scene)
+        others = named or (Bystander(asked, first="none"),)
+    short = event.action if event.action in HALTS else "wait"
+    return structs.replace(reason, others=others, refrained=short, past=True)
+
+
+def _done(event: Event, scene: Asked) -> Answer:
+    """We did just that: for whom, and why."""
+    answer = motions.motion(structs.replace(event, action="give-way", tense="past"), scene)
+    if isinstance(answer, MotionReason):
+        return structs.replace(answer, form="did")
+    return answer
+
+
+def _undone(event: Event, scene: Asked) -> Answer:
+    """Why we did not, where no junction and no other lane is in question."""
+    if is_past(scene, event) and event.action != "stop":
+        try:
+            return _done(structs.replace(event, object=None), scene)
+        except Unanswered as unanswered:
+            if not isinstance(unanswered.result, DidNotHappen):
+                raise
+    foil = Event("stop", tense=event.tense, time=event.time)
+    return choices.why_not(foil, scene)
+
+
+def left_lane(event: Event, scene: Asked) -> Event | None:
+    """Find the change of lanes by which we left the lane in which we are asked to have stayed."""
+    lane = event.object
+    if event.action != "keep-lane" or not isinstance(lane, Lane) or lane.which not in LEFT_BY:
+        return None
+    change = LEFT_BY[lane.which]
+    made = [d for d in scene.ride.deeds if d.action == change and d.time <= scene.moment + 1.0]
+    return Event(change, tense="past") if made else None
+
+
+def is_refraining(event: Event) -> bool:
+    """Tell whether an event is one of waiting, slowing down or staying behind."""
+    if event.action == "keep-lane":
+        return not isinstance(event.object, Lane) or event.object.which == "own"
+    return event.action in REFRAINS

@@ -1,0 +1,161 @@
+"""Requests: what the car does instead of driving as it is told, or why it cannot."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Declined,
+    Measures,
+    MotionCause,
+    MotionReason,
+    NeedRollout,
+)
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import Request
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.explain.answers import motions
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.durations import remaining_wait, stands
+from xavi_dialogue.explain.answers.findings import known
+from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, YIELDS, macros, sided
+from xavi_dialogue.explain.answers.happenings import activity
+from xavi_dialogue.explain.answers.naming import number
+from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.talk import speed_of
+
+#: Requests to be told how fast we are, and those to be told when we are there.
+SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
+ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
+STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
+SOON = 3.0  # [s] within which what is planned is as good as begun
+TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
+
+
+def request(act: Request, asked: Asked) -> Answer:
+    """Decline to drive as told, with what the car is about to do anyway, or why it cannot.
+
+    Raises:
+        Unanswered: it is of what is unknown; or rollouts are needed.
+    """
+    event = act.event
+    able = event.action not in BEYOND
+    now = activity(asked, Ego(), asked.now)
+    if not asked.ride.traces:
+        return Declined(act, able, doing=now)
+    ahead = plan_ahead(asked)
+    ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
+    if act.negated:
+        meant = able and _meant(asked, event, now.trend)
+        cause = _cause(asked) if meant and event.action in HALTS | YIELDS | SPEEDS else None
+        return Declined(act, able, ahead, now, already=not meant, cause=cause)
+    already = able and _doing(asked, event, now.trend)
+    soon = _coming(asked, event) if able and not already else None
+    cannot = _cannot(asked, event) if able and not already and soon is None else None
+    hurried = sided(event) in STARTS | {"speed-up", "continue"}
+    cause = _cause(asked) if able and hurried and soon is None else None
+    facts = _instead(asked, event) if cause is None else ()
+    already = already and cause is None
+    return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts, cause=cause)
+
+
+def _meant(asked: Asked, event: Event, trend: str | None) -> bool:
+    """Tell whether the car does, or plans to do, what it is told not to do."""
+    if _doing(asked, event, trend):
+        return True
+    found = foreseen(asked, replace(event, actor=Ego(), manner=()))
+    return found is not None and found.share >= 0.5
+
+
+def _cause(asked: Asked) -> MotionCause | None:
+    """Tell for whom or what we slow down or stand now.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    trend = activity(asked, Ego(), asked.now).trend
+    if trend not in ("standing", "slowing"):
+        return None
+    name: ActionName = "stand" if trend == "standing" else "slow-down"
+    try:
+        found = motions.motion(Event(name, tense="present"), asked)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    causes = found.causes if isinstance(found, MotionReason) else ()
+    known = sorted(causes, key=lambda cause: cause.vehicle is None)  # somebody before something
+    return next((c for c in known if c.kind not in ("plan", "starting")), None)
+
+
+def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
+    """Tell what bears on a request: our speed, when we drive on, when we are there."""
+    action = sided(event)
+    if action in SPEEDS or "fast" in event.manner or "slowly" in event.manner:
+        found = speed_of(asked)
+        return found.measures if isinstance(found, Measures) else ()
+    if action == "keep-distance":
+        to = event.object if isinstance(event.object, Vehicle) else None
+        return known(asked.world.measure("gap", Ego(), asked.now, to))
+    if action in ENDING:
+        return known(asked.world.measure("arrival-time", Ego(), asked.now))
+    if action in STARTS | {"continue"} and stands(asked):
+        return known(remaining_wait(asked))
+    return ()
+
+
+def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
+    """Tell whether the car is just doing what it is told to do."""
+    action = sided(event)
+    if action == "keep-distance":  # more of it is asked for
+        return False
+    if action in TREND:
+        return trend == TREND[action]
+    if action in HALTS:
+        return stands(asked)
+    if action in STAYING:
+        return _stays(asked, event)
+    if action in ("go", "move"):
+        halting = foreseen(asked, Event("stop"))
+        going = halting is None or halting.share < 0.5
+        return not stands(asked) and going and not macros(event)
+    found = occasion(asked, replace(event, actor=Ego(), tense="present"))
+    return found is not None and found.end is None
+
+
+def _stays(asked: Asked, event: Event) -> bool:
+    """Tell whether the car means to stay in its lane, behind whom it is told to stay."""
+    moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
+    moving = max((f.share for f in moves if f is not None), default=0.0)
+    whom = number(event.object)
+    if whom is None or event.action != "follow":
+        return moving < 0.5
+    gap = asked.world.measure("gap", Ego(), asked.now, Vehicle(whom))
+    look = asked.world.look(whom, asked.now)
+    return moving < 0.5 and gap.value is not None and look is not None and look.ahead > 0.0
+
+
+def _coming(asked: Asked, event: Event) -> float | None:
+    """Tell when [s] the plan comes to it, where that is shortly."""
+    if sided(event) in ("continue", "do", "happen"):
+        return None
+    if sided(event) in STARTS and not stands(asked):
+        return None
+    found = foreseen(asked, replace(event, actor=Ego()))
+    if found is None or found.share < 0.5 or found.moment > asked.now + SOON:
+        return None
+    return max(found.moment, asked.now)
+
+
+def _cannot(asked: Asked, event: Event) -> str | None:
+    """Tell why the plan cannot have it, as the last decision found; None where it can."""
+    trace = asked.ride.latest
+    names = macros(event)
+    options = {o.action for o in asked.world.options(asked.now)}
+    if not names or any(name in options for name in names):
+        return None
+    reasons = [n.reason for n in trace.not_applicable if not n.node and n.action in names]
+    if len(reasons) < len(names) and trace.under_way is None:
+        return None
+    return next(iter(reasons), None)

@@ -1,0 +1,58 @@
+"""Supposed when: at which decision something that is supposed is to be tried."""
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.explain.answers import choices, motions
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reading import subject
+from xavi_dialogue.explain.causes.conduct import conduct_names, probability
+from xavi_dialogue.explain.causes.premise import happened, manoeuvre, premise
+from xavi_dialogue.explain.causes.suppositions import known_to
+
+POSSIBLE = 0.02  # probability from which it is open whether somebody does something
+
+
+def driven(scene: Asked, then: Event | None) -> Episode | None:
+    """Find the episode of driving that is asked about, where it is one and no choice."""
+    if then is None:
+        return None
+    if choices.is_choice(then) or happened(scene.ride, ("stop",), scene.span) is not None:
+        return None
+    for kinds in motions.KINDS.get(then.action, (motions.SLOWING,)):
+        found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+        chosen = scene.pick(found, lambda e: (e.begin, e.end))
+        if chosen is not None:
+            return chosen
+    return None
+
+
+def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bool) -> float:
+    """Find the time [s] of the decision that a supposition is about."""
+    if driven is not None:
+        return driven.begin  # once it is under way, planning again without its cause tells less
+    if then is not None and choices.is_choice(then):
+        try:
+            return premise(scene.ride, subject(scene, then)).trace.sim_time
+        except Unanswered:
+            return scene.moment
+    if past:
+        said = scene.past is not None and scene.past.said
+        deed = manoeuvre(scene.ride, scene.span if said else None)
+        if deed is not None and deed.action != "continue":
+            try:
+                return scene.ride.choice_of(deed).sim_time
+            except Unanswered:
+                return deed.time
+    return scene.moment
+
+
+def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float:
+    """Find the last time [s] up to a moment at which it was open whether a vehicle would do so.
+
+    The moment itself where it never was: then it is planned again with what is supposed.
+    """
+    names = conduct_names(event)
+    known = [trace for trace in known_to(scene.ride, vehicle, moment) if trace.sim_time <= moment]
+    chances = [(t.sim_time, probability(scene.ride, t, vehicle, names)) for t in known]
+    open_ = [time for time, chance in chances if POSSIBLE < chance < 1.0 - POSSIBLE]
+    return open_[-1] if open_ else moment

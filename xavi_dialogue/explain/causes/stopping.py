@@ -1,0 +1,91 @@
+"""Stopping: whether we could stop for what another vehicle suddenly does, by distances alone."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from planner.kernels.driving import EMERGENCY, REACTION
+from sim.scene import EGO, VehicleState
+from xavi_dialogue.explain.facts.approach import following
+from xavi_dialogue.explain.facts.bearings import Offset
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.thresholds import SAME_LANE, STANDING
+
+HALF_LANE = 1.8  # [m] sideways from the middle of our way that we need ourselves
+SLOWEST = 3.0  # [m/s] from which whoever moves in ahead drives on
+SETTING_OFF = 2.6  # [m/s2] with which another vehicle sets off briskly
+
+Kind = Literal["room", "short", "first", "behind", "beside", "apart", "joins", "standing"]
+
+
+@dataclass(frozen=True, slots=True)
+class Stopping:
+    """How a sudden act of another vehicle would come out for us."""
+
+    kind: Kind
+    speed: float  # [m/s] ours
+    needed: float | None = None  # [m] in which we come to a standstill
+    room: float | None = None  # [m] to it, or to where it gets in our way
+    left: float | None = None  # [m] that would be left behind a leader that brakes as hard
+
+
+def stopping_distance(speed: float) -> float:
+    """Tell in how many metres we come to a standstill, the time to react included."""
+    return speed * REACTION + speed * speed / (2.0 * EMERGENCY)
+
+
+def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Stopping | None:
+    """Tell whether we could stop in time; None where it is not known where both are.
+
+    Args:
+        states: where everybody was.
+        vehicle: the one that does something suddenly.
+        time: when [s].
+        in_lane: it is supposed to do so in its own lane: stop, brake, drive on.
+    """
+    ours, other = states.state(EGO, time), states.state(vehicle, time)
+    seen = states.offset(EGO, vehicle, time)
+    if ours is None or other is None or seen is None:
+        return None
+    speed = ours.speed
+    if seen.ahead + seen.clear <= 0.0:
+        return Stopping("behind", speed)
+    if speed < STANDING:
+        return Stopping("standing", speed, room=max(seen.ahead - seen.clear, 0.0))
+    line = following(states, EGO, vehicle, time)
+    if line is not None and line.behind == EGO:
+        return _behind(speed, other.speed, line.gap)
+    if in_lane and seen.same_way and abs(seen.left) > SAME_LANE:
+        return Stopping("apart", speed)
+    if abs(seen.ahead) <= seen.clear and seen.same_way:
+        return Stopping("beside", speed)
+    if seen.same_way and other.speed > SLOWEST:
+        return _joining(seen, speed, other.speed)
+    return _across(seen, ours, other)
+
+
+def _joining(seen: Offset, speed: float, pace: float) -> Stopping:
+    """Tell of somebody who moves in ahead of us and drives on: we need to be no faster."""
+    closing = max(speed - pace, 0.0)
+    gap = seen.ahead - seen.clear
+    kind: Kind = "joins" if stopping_distance(closing) <= gap else "short"
+    return Stopping(kind, speed, stopping_distance(speed), gap)
+
+
+def _behind(speed: float, leader: float, gap: float) -> Stopping:
+    """Tell of braking behind a leader that brakes as hard as anybody can."""
+    needed = stopping_distance(speed)
+    left = gap + leader * leader / (2.0 * EMERGENCY) - needed
+    return Stopping("room" if left > 0.0 else "short", speed, needed, gap, left)
+
+
+def _across(seen: Offset, ours: VehicleState, other: VehicleState) -> Stopping:
+    """Tell of somebody beside our way that comes into it where it is now."""
+    room = max(seen.ahead - (ours.length + other.width) / 2.0, 0.0)
+    needed = stopping_distance(ours.speed)
+    if needed <= room:
+        return Stopping("room", ours.speed, needed, room)
+    aside = max(abs(seen.left) - HALF_LANE - other.length / 2.0, 0.0)
+    reach = other.speed * other.speed + 2.0 * SETTING_OFF * aside
+    comes = (reach**0.5 - other.speed) / SETTING_OFF
+    passed = (seen.ahead + seen.clear) / ours.speed
+    return Stopping("first" if passed < comes else "short", ours.speed, needed, room)

@@ -1,0 +1,57 @@
+"""Driven: the clause of one reason for how we drove."""
+
+from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.contrasts import SURE, chances
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Quantity, Who
+
+STANDING = 0.5  # [m/s]
+
+
+def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
+    """The speed to be told; None where no numbers are wanted."""
+    if value is None or context.detail == "simpler":
+        return None
+    return Quantity(value, "m/s")
+
+
+def motion_cause(
+    cause: MotionCause, time: float, context: SpeechContext, *, past: bool, deed: str = ""
+) -> Message:
+    """Make the clause of one reason for how we drove.
+
+    Args:
+        cause: the reason.
+        time: [s] at which vehicles are described.
+        context: the situation.
+        past: it is past.
+        deed: what we did for that reason.
+    """
+    ahead = cause.kind in ("leader", "cut-in", "blocked")
+    who = None
+    if cause.vehicle is not None:
+        who = Who(Vehicle(cause.vehicle), time, placed=not ahead)
+    stands = cause.speed is not None and cause.speed < STANDING
+    unit = "m/s" if cause.kind == "limit" else "m"
+    value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
+    simple = context.detail == "simpler"
+    return message(
+        "DRIVEN_BY",
+        kind=cause.kind,
+        who=who,
+        past=past,
+        stands=stands,
+        speed=speed_told(cause.speed, context),
+        value=value,
+        number=None if simple else value,
+        lower=deed in ("slow-down", "brake"),
+        higher=deed == "speed-up",
+        foreseen=cause.kind == "cut-in" and cause.did is None and not _sure(cause),
+        **chances(cause.probability if cause.probability is not None else 1.0, context),
+    )
+
+
+def _sure(cause: MotionCause) -> bool:
+    return cause.probability is None or cause.probability >= SURE

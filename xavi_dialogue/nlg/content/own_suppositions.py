@@ -1,0 +1,79 @@
+"""Own suppositions: what would have come of it, had we done otherwise."""
+
+from typing import Any
+
+from xavi_dialogue.domain.answers import SupposedOfUs
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.contrasts import (
+    LIKELY,
+    RISK,
+    consequence_slots,
+    kind_of,
+    risks,
+    time_effect,
+    told_cause,
+)
+from xavi_dialogue.nlg.content.evidence import continued, further
+from xavi_dialogue.nlg.content.manoeuvres import CHANGES, own_verbs
+from xavi_dialogue.nlg.content.plan import Plan
+from xavi_dialogue.nlg.content.proposals import about_cause
+from xavi_dialogue.nlg.content.reasons import cause_of
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
+
+SAFER = 0.01  # probability of a collision by which something is safer
+
+
+def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
+    """Plan what would have come of another action of ours."""
+    contrast, past = answer.contrast, answer.past
+    cause = cause_of(contrast, context, past=past)
+    slots = {
+        **consequence_slots(contrast, context, past=past),
+        "fact": own_verbs(contrast.fact, contrast.foil),
+        "cause": None if context.detail == "less" else cause,
+    }
+    risk = risks(contrast, context, past=past)
+    more = further(contrast, context, past=past)
+    if answer.done:
+        just = message("JUST_THAT", fact=slots["fact"], past=past)
+        rest = (Message("INSTEAD_OF_IT", slots),) if kind_of(contrast) != "alone" else ()
+        core = (just, *(m for m in (risk,) if m is not None), *rest)
+        return Plan(core, (), more, (), about_cause(answer))
+    if answer.form != "what-if" and kind_of(contrast) != "alone":
+        told = Message("IF_ASKED", {**slots, **_asked(answer, slots)})
+        return Plan((told,), (), more, (), about_cause(answer))
+    told = Message("IF_WE", slots)
+    first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
+    core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
+    after = continued(contrast, past=past)
+    return Plan(core, (), (*(() if after is None else (after,)), *more), (), about_cause(answer))
+
+
+def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
+    """The slots for whether we could, would have collided, or when we would be there."""
+    contrast = answer.contrast
+    worse = contrast.value is None or contrast.value > 0.0
+    risk = contrast.collision
+    cause = told_cause(contrast)
+    how = None if cause is None or cause.mechanism is None else cause.mechanism.how
+    behind = cause is not None and how in ("leader", "blocked", "cut-in")
+    effect = time_effect(contrast)
+    safer = contrast.fact_collision - risk
+    later = tuple(a for a in contrast.continued if a in CHANGES)[:1]
+    return {
+        "form": answer.form,
+        "verdict": "yes" if risk >= LIKELY else "maybe" if risk >= RISK else "no",
+        "good": not worse and slots["kind"] not in ("collision", "dead", "late"),
+        "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,
+        "arrival": None if answer.arrival is None else Moment(answer.arrival),
+        "sooner": effect is not None and effect.delta < 0.0,
+        "safer": safer >= SAFER,
+        "riskier": safer <= -SAFER,
+        "risk": Chance(risk),
+        "fact_risk": Chance(contrast.fact_collision),
+        "risky": max(risk, contrast.fact_collision) >= RISK,
+        "afterwards": own_verbs(later, contrast.fact) if later else None,
+        "cause": None,
+    }

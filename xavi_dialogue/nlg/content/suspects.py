@@ -1,0 +1,36 @@
+"""Suspects: whether the vehicle that a question takes for the cause is one, with the reason."""
+
+from typing import Literal, TypeAlias
+
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Who
+
+Part: TypeAlias = Literal["main", "part", "none"]
+
+
+def suspected(
+    reason: Message,
+    suspect: int | None,
+    part: Part | None,
+    time: float,
+    cleared: tuple[int, ...] = (),
+    *,
+    told: bool,
+) -> tuple[Message, ...]:
+    """Put the verdict on the vehicle that the question takes for the cause before the reason.
+
+    Args:
+        reason: the reason that is told.
+        suspect: the vehicle; None where the question names none.
+        part: which part it has.
+        time: [s] at which it is described.
+        cleared: vehicles that make no difference.
+        told: the reason names it.
+    """
+    if suspect is None or part is None:
+        return (reason,)
+    slots = {"who": Who(Vehicle(suspect), time), "part": part, "cleared": suspect in cleared}
+    if told or part == "none":
+        return (message("VERDICT_ON", reason=reason, **slots),)
+    return (message("SUSPECTED", **slots), reason)

@@ -1,0 +1,145 @@
+"""Lasting: how long something lasts or has lasted, and how long it is until something happens."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import HowLong, HowMuch, Question, When
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    Relative,
+    Thing,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.specials import proposition_of
+
+#: What is driving as such, and no moment of the ride.
+DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
+#: What lasts beside events.
+_STATES = (Related, Is, Has, Exists, Compares, Not)
+_SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
+
+
+def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -> HowMuch:
+    """Ask for an attribute of a thing at the time of the clause."""
+    extreme = more.pop("extreme", None)
+    time = more.pop("time", clause.time)
+    actor = Ego() if thing is None or isinstance(thing, Passenger) else thing
+    if actor == more.get("to") == Ego():
+        actor = Pronoun("it")  # "how much room was there between us"
+    return HowMuch(
+        Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, clause.tense),
+                 **more), extreme,
+    )  # fmt: skip
+
+
+def meanwhile(clause: Clause, event: Event | None) -> Any:
+    """Tell the time of "how fast did you take the bend": that of the deed."""
+    if event is None or clause.tense not in ("past", "perfect") or event.action in DRIVING:
+        return clause.time
+    if event.action == "head" and isinstance(event.object, Feature):
+        event = Event("turn", event.actor, tense=event.tense)  # "take the bend"
+    if event.action == "head":
+        return clause.time
+    return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)
+
+
+def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
+    """Ask how long something lasts, or how long it is until it happens."""
+    if isinstance(clause.time, Relative) and clause.time.relation == "until":
+        return until(clause.time.anchor)
+    for phrase in clause.complements:
+        if phrase.key == "until" and phrase.sem is not None:
+            return until(as_thing(phrase.sem))
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save"):
+        return measured("delay", clause, actor)
+    if isinstance(value, Special) and value.name in ("take-time", "last"):
+        return _taking(clause, value, actor)
+    if isinstance(value, Special) and value.name in _SEEING:
+        return HowLong(_seen(value))
+    if event is not None:
+        remaining = clause.verb is not None and clause.verb.key in ("get", "have")
+        if event.action == "arrive" or (remaining and event.action in ("change-left", "go")):
+            return HowMuch(Measured("time-to-go"))  # "how long have we got left"
+        return HowLong(event)
+    subject = clause.subject
+    if isinstance(subject, Event):
+        return HowLong(subject)
+    if isinstance(value, _STATES) and (isinstance(actor, Ego) or clause.tense != "present"):
+        return HowLong(value)
+    if isinstance(subject, Noun) and subject.key == "ride":
+        return HowMuch(Measured("time" if clause.tense == "past" else "time-to-go"))
+    if isinstance(actor, Pronoun) or (isinstance(actor, Ego) and clause.bearings):
+        return measured("duration", clause, actor)
+    return measured("size", clause, actor) if actor is not None else HowMuch(Measured("time-to-go"))
+
+
+def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:
+    """Ask how long something takes."""
+    content = value.content
+    if any(isinstance(sem, Destination) for sem in value.match.phrases.values()):
+        return HowMuch(Measured("time-to-go"))
+    if isinstance(content, Happens):
+        if content.event.action == "arrive":
+            return HowMuch(Measured("time-to-go"))
+        return HowLong(content.event)
+    if isinstance(clause.subject, Event):
+        return HowLong(clause.subject)
+    return measured("duration", clause, actor)
+
+
+def _seen(value: Special) -> Proposition:
+    """Take knowing of a vehicle for seeing it."""
+    sems = (value.object, *value.match.phrases.values())
+    thing = next((t for t in map(as_thing, sems) if t is not None), None)
+    if thing is None:
+        return proposition_of(value)
+    return Related("can-see", value.subject, thing, tense=cast(Any, value.clause.tense))
+
+
+def since(clause: Clause, value: Any) -> Question | None:
+    """Ask since when something is so; None where nothing is that could last."""
+    if isinstance(value, Happens):
+        return HowLong(value.event)
+    if isinstance(value, Special):
+        value = proposition_of(value)
+    return HowLong(value) if value is not None and not isinstance(clause.subject, Measure) else None
+
+
+def until(anchor: Any) -> Question:
+    """Ask how long it is until something happens."""
+    coming = isinstance(anchor, Event) and isinstance(anchor.actor, Described | Vehicle)
+    if isinstance(anchor, Event) and coming and anchor.action in ("arrive", "come", "enter"):
+        return When(Happens(Event("pass", Ego(), anchor.actor, tense="future")))
+    if isinstance(anchor, Event) and anchor.action == "arrive":
+        if anchor.object is None or isinstance(anchor.object, Destination):
+            return HowMuch(Measured("time-to-go"))
+        return When(Happens(anchor))
+    if isinstance(anchor, Destination):
+        return HowMuch(Measured("time-to-go"))
+    if isinstance(anchor, Event):
+        ahead = anchor.tense in ("present", "perfect")
+        return When(Happens(with_fields(anchor, tense="future") if ahead else anchor))
+    if isinstance(anchor, Vehicle | Described):  # until we meet
+        return When(Happens(Event("pass", Ego(), anchor, tense="future")))
+    if anchor is not None and not isinstance(anchor, Ego | Pronoun):
+        return When(Happens(Event("arrive", Ego(), anchor, tense="future")))
+    return HowMuch(Measured("time-to-go"))

@@ -1,0 +1,48 @@
+"""Others: whom a question about another road user is of, and what its lights are asked to mean."""
+
+from typing import Any
+
+from xavi_dialogue.domain.meaning import Question, Why
+from xavi_dialogue.domain.terms import Described, Event, Happens, Pronoun, Thing, Vehicle
+from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure, as_thing
+
+
+def is_idle(event: Event) -> bool:
+    """Say whether nothing is said of what somebody else is made to do."""
+    return (
+        event.action == "do"
+        and (event.object is None or isinstance(event.object, Pronoun))
+        and isinstance(event.actor, Described | Vehicle)
+    )
+
+
+def expected_of(value: Special) -> Thing | None:
+    """Find of whom something was expected: "what did you expect of it"."""
+    phrases = value.match.phrases
+    found = (as_thing(phrases.get(key)) for key in ("of", "from", "about", "for"))
+    return next((thing for thing in found if thing is not None), None)
+
+
+def shown(clause: Clause) -> Question | None:
+    """Ask "what does his blinker mean": why he indicates."""
+    bare = clause.bare.verb if clause.bare is not None else None
+    if "mean" not in {leaf.key for leaf in (clause.verb, bare) if leaf is not None}:
+        return None
+    sem = clause.subject
+    if not isinstance(sem, Measure) or sem.of.attribute not in ("indicator", "brake-lights"):
+        return None
+    action: Any = "signal" if sem.of.attribute == "indicator" else "brake"
+    return Why(Happens(Event(action, sem.of.thing, tense="present")))
+
+
+def with_whom(clause: Clause) -> Thing | None:
+    """Find who is meant by "what is wrong with him"."""
+    found = (as_thing(p.sem) for p in clause.complements if p.key == "with")
+    return next((thing for thing in found if thing is not None and is_vehicle(thing)), None)
+
+
+def is_vehicle(thing: Thing) -> bool:
+    """Say whether a thing is or stands for a road user other than us."""
+    return isinstance(thing, Described | Vehicle | Pronoun)

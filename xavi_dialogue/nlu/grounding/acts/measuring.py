@@ -1,0 +1,138 @@
+"""Measuring: whose a measure is, to whom, of what, and at which moment of the ride."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.terms import (
+    At,
+    Back,
+    Between,
+    Described,
+    Ego,
+    Event,
+    Measured,
+    Pronoun,
+    Relative,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.completion.discussion import interval
+from xavi_dialogue.nlu.grounding.context import Grounder, Window
+from xavi_dialogue.nlu.grounding.rewriting import first, substitute
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
+
+#: What has a value at each moment.
+MOMENTARY: Final = frozenset(
+    ("speed", "limit", "excess", "gap", "headway", "distance", "time-to-collision", "lane",
+     "indicator", "brake-lights", "distance-to-go", "time-to-go"),
+)  # fmt: skip
+#: Deeds at the middle of which they are thought to happen; others at their beginning.
+AT_MIDDLE: Final = frozenset(
+    ("pass", "overtake", "cross", "turn", "exit-left", "exit-right", "exit-straight", "head",
+     "continue-next-exit", "come", "collide", "nearly-collide", "follow", "stand", "wait"),
+)  # fmt: skip
+#: What may be asked of "it" where it is our car.
+OURS: Final = frozenset(("speed", "acceleration", "deceleration"))
+PRESENT: Final = 0.5  # salience from which a vehicle is the one spoken of
+_SPOKEN: Final = ("it", "he", "she", "that", "this", "one")
+
+Timed = Callable[[Time, Any, Grounder, "Window | None"], Window]
+
+
+def measured(
+    spoken: Measured, g: Grounder, timed: Timed, outer: Window | None = None, *,
+    extreme: bool = False,
+) -> Measured:  # fmt: skip
+    """Ground a measure; `extreme`: over all of the time that is said."""
+    spoken = _corefer(spoken, g)
+    event = spoken.event
+    if event is not None:
+        event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
+    window = timed(spoken.time, spoken.tense, g, outer)
+    if event is not None and isinstance(spoken.time, Unsaid) and (when := interval(event)):
+        window = dataclasses.replace(g.window(Between(*when), "past"), said=False)
+    about = spoken.about
+    if about is not None:
+        about = g.proposition(about, "supposed", None)
+    spoken = _to_whom(spoken, g)
+    to = None if spoken.to is None else g.thing(spoken.to, window)
+    thing = g.thing(spoken.thing, window)
+    time = _moment(spoken, window, g, extreme=extreme)
+    if isinstance(time, At) and isinstance(spoken.time, Relative):
+        g.notes.span = Span(time.at, time.at, said=True)
+    return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
+
+
+def _corefer(spoken: Measured, g: Grounder) -> Measured:
+    """Let "it" in "how fast was the bus when it passed us" be the bus, and the other way round."""
+    if _is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g):
+        return replace(spoken, thing=Ego())
+    time = spoken.time
+    anchor = time.anchor if isinstance(time, Relative) else None
+    if not isinstance(anchor, Event):
+        return spoken
+    for name in ("thing", "to"):
+        thing: Thing | None = getattr(spoken, name)
+        if _is_vague(thing) and isinstance(anchor.actor, Described | Vehicle):
+            return replace(spoken, **{name: anchor.actor})
+        inner = first(anchor, Pronoun)
+        if isinstance(thing, Described | Vehicle) and inner is not None and _is_vague(inner):
+            known = g.thing(thing, g.window(Unsaid(), "past"))
+            changed: Event = substitute(anchor, inner, known)
+            return replace(spoken, **{name: known, "time": replace(time, anchor=changed)})
+    return spoken
+
+
+def _to_whom(spoken: Measured, g: Grounder) -> Measured:
+    """Take a distance that is said to nothing for that to the vehicle just spoken of."""
+    alone = isinstance(spoken.thing, Ego) and spoken.to is None and spoken.event is None
+    if spoken.attribute != "distance" or not alone:
+        return spoken
+    near = [v for v, salience in vehicles_of(g.context.discourse.mentions) if salience >= PRESENT]
+    if not near:
+        return spoken
+    g.notes.leaned = True
+    return replace(spoken, to=Vehicle(near[0]))
+
+
+def _speaks_of_us(g: Grounder) -> bool:
+    """Tell whether it is our own driving that was just spoken of, and no other vehicle."""
+    discourse = g.context.discourse
+    if any(salience >= PRESENT for _, salience in vehicles_of(discourse.mentions)):
+        return False
+    return first((discourse.question, discourse.propositions[:1]), Ego) is not None
+
+
+def _is_vague(thing: Thing | None) -> bool:
+    return isinstance(thing, Pronoun) and thing.form in _SPOKEN
+
+
+def _moment(spoken: Measured, window: Window, g: Grounder, *, extreme: bool) -> Time:
+    """Tell the moment of a value: "when you began to turn", "before you braked".
+
+    A deed that did not take place stays in the term, for the explainer to say so.
+    """
+    time, found = spoken.time, window.term
+    if isinstance(time, Back) and time.relation == "during" and isinstance(found, Between):
+        return At(found.begin) if spoken.attribute in MOMENTARY and not extreme else found
+    if not isinstance(time, Relative) or not isinstance(time.anchor, Event):
+        return found
+    if not isinstance(found, Between):
+        return found if window.ahead else replace(time, anchor=g.event(time.anchor, "asked"))
+    if spoken.attribute not in MOMENTARY or extreme:
+        return found
+    match time.relation:
+        case "before":
+            return At(found.end)
+        case "after":
+            return At(found.begin)
+        case "during":
+            middle = time.anchor.action in AT_MIDDLE
+            return At((found.begin + found.end) / 2.0 if middle else found.begin)
+    return found
