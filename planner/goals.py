@@ -37,6 +37,9 @@ PLACES: dict[Action, str] = {
     "continue": "the road straight on",
     "stop": "where it comes to a stop",
 }
+ASIDE = 40.0  # [m] into the roads of a fork at which one is seen to branch off
+#: Where a road branches off to the side of the one that goes on, neither being a turn.
+BRANCHES: dict[str, str] = {"left": "the exit on the left", "right": "the exit on the right"}
 
 
 #: The macro action that ends at an exit, the place in words, and where it is.
@@ -74,8 +77,25 @@ def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:
     leads = [lead for lane in lanes for lead in lane_end(roads, lane.id).leads]
     if ahead.distance > view or not leads:
         return [_farther(roads, here, ahead, view)]
-    forward = [lead for lead in leads if not lead.turnaround]
-    return [_exit(roads, lead.link, lead.direction) for lead in forward or leads]
+    forward = [lead for lead in leads if not lead.turnaround] or leads
+    off = _branches(network, [lead.link for lead in forward if lead.direction == "straight"])
+    found = [_exit(roads, lead.link, lead.direction) for lead in forward]
+    return [(kind, off.get(target.edge, place), target) for kind, place, target in found]
+
+
+def _branches(network: Network, links: list[Link]) -> dict[str, str]:
+    """Name the roads that branch off where several lead straight on: all but the widest."""
+    edges = sorted({network.lanes[link.to_lane].edge for link in links})
+    if len(edges) < 2:
+        return {}
+    edges.sort(key=lambda edge: -len(network.edge_lanes(edge)))
+    main = network.edge_lanes(edges[0])[0].centreline
+    found: dict[str, str] = {}
+    for edge in edges[1:]:
+        there, _ = point_at(network.edge_lanes(edge)[0].centreline, ASIDE)
+        _, aside, _ = project(main, there)
+        found[edge] = BRANCHES["left" if aside > 0.0 else "right"]
+    return found
 
 
 def _exit(roads: Roads, link: Link, direction: Direction) -> _Exit:

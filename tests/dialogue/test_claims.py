@@ -59,24 +59,31 @@ def told(turn: Turn) -> list[str]:
     return [str(answer["is"]) for answer in turn.reply.answers]
 
 
-@pytest.mark.parametrize("order", [(FREE, SLOWED), (SLOWED, FREE)])
+@pytest.mark.parametrize("order", [(FREE, FAST), (FAST, FREE)])
 def test_the_question_comes_first_and_what_is_true_is_not_commented(
     order: tuple[Act, ...],
 ) -> None:
-    assert told(said({FREE: verdict(FREE, True), SLOWED: REASON}, *order)) == ["MotionReason"]
-    false = said({FREE: verdict(FREE, False), SLOWED: UNCAUSED}, *order)
-    assert told(false) == ["MotionReason", "Verdict"]
-    assert false.reply.text == "MotionReason. Verdict."
+    assert told(said({FREE: verdict(FREE, True), FAST: SPEED}, *order)) == ["Measures"]
+    false = said({FREE: verdict(FREE, False), FAST: SPEED}, *order)
+    assert told(false) == ["Measures", "Verdict"]
+    assert false.reply.text == "Measures. Verdict."
+
+
+@pytest.mark.parametrize("order", [(FREE, SLOWED), (SLOWED, FREE)])
+def test_a_claim_beside_the_question_why_is_only_the_setting(order: tuple[Act, ...]) -> None:
+    assert told(said({FREE: verdict(FREE, False), SLOWED: UNCAUSED}, *order)) == ["MotionReason"]
 
 
 def test_what_the_answer_puts_right_is_not_put_right_again() -> None:
     assert told(said({NOBODY: AHEAD, SLOWED: REASON}, SLOWED, NOBODY)) == ["MotionReason"]
-    apart = said({NOBODY: AHEAD, SLOWED: UNCAUSED}, SLOWED, NOBODY)
-    assert told(apart) == ["MotionReason", "Verdict"]
+
+
+def test_who_is_there_is_seen_by_everybody_and_not_put_right_beside_an_answer() -> None:
+    assert told(said({NOBODY: AHEAD, FAST: SPEED}, FAST, NOBODY)) == ["Measures"]
 
 
 def test_who_is_behind_us_does_not_matter() -> None:
-    assert told(said({NOBODY: BEHIND, SLOWED: UNCAUSED}, NOBODY, SLOWED)) == ["MotionReason"]
+    assert told(said({NOBODY: BEHIND, FAST: SPEED}, NOBODY, FAST)) == ["Measures"]
 
 
 def test_opinions_are_not_disputed_nor_even_looked_at() -> None:

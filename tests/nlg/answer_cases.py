@@ -47,6 +47,7 @@ from xavi_dialogue.domain.terms import (
 )
 
 E, V, W = Ego(), Vehicle(1), Vehicle(2)
+REAR = Described("car", such=Related("behind", Wanted("car")), plural=True, definite=False)
 TURN = Happens(Event("turn", V, side="right"))
 UNSURE = Belief(1, 4.0, (Expectation(("exit-right",), 0.45), Expectation(("continue",), 0.4)))
 EXPECTED = Belief(1, 8.0, (Expectation(("exit-right",), 0.78), Expectation(("continue",), 0.2)))
@@ -118,6 +119,11 @@ CASES: tuple[Answer, ...] = (
     Counted(Event("stop"), 1, (Episode(E, "stop", 12.0, 13.0),)),
     Counted(Everyone("car"), 1),
     Counted(Everyone(), 9),
+    Counted(Everyone(), 0, such=REAR),
+    Counted(Everyone(), 0, until=10.0, such=REAR),
+    Counted(Everyone(), 1, (LORRY,), such=REAR),
+    Counted(Everyone(), 9, such=REAR),
+    Counted(Everyone(), 9, until=10.0, such=REAR),
     Happenings("list", RIDE),
     Happenings(
         "summary",

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Comfort,
     Comforting,
+    Counted,
     Declined,
     Evidence,
     GoReason,
@@ -47,7 +48,22 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import Feel, Request
-from xavi_dialogue.domain.terms import Event, Exit, Happens, Is, Junction, Nobody, Related
+from xavi_dialogue.domain.terms import (
+    At,
+    Compares,
+    Described,
+    Event,
+    Everyone,
+    Exit,
+    Happens,
+    Is,
+    Junction,
+    Measured,
+    Nobody,
+    Related,
+    Vehicle,
+    Wanted,
+)
 
 STOOD = (Episode(E, "stand", 4.0, 6.0), Episode(E, "stand", 14.0, 18.0))
 MANY = tuple(
@@ -56,6 +72,9 @@ MANY = tuple(
 )
 BLINKED = Episode(V, "signal", 8.0, 10.0, side="right")
 TURNED_OFF = Episode(V, "exit-right", 10.0, 12.0)
+TURNERS = Described("vehicle", doing=Event("turn", Wanted(), side="right", tense="past"))
+STANDERS = Described("car", such=Is("stationary", Wanted()))
+FASTER = Compares(Measured("speed", E), "more", Measured("speed", E, time=At(5.0)))
 HOPELESS = replace(RISKY, collision=0.9)
 WAY = replace(LATER, foil=("exit-left",), way=True)
 
@@ -210,4 +229,13 @@ CASES: tuple[Answer, ...] = (
     Verdict(Is("wrong", V, tense="past"), False, (TURNED_OFF,)),
     Verdict(Related("can-see", E, V, tense="future"), None, (LORRY,), "in-future"),
     Verdict(Happens(Event("let-go", Nobody(), E, tense="present")), False),
+    Measures(tuple(Measure("speed", Vehicle(n), NOW, 5.0 + n) for n in (1, 2, 3, 5))),
+    Counted(Everyone(), 0, such=TURNERS),
+    Counted(Everyone(), 2, (LORRY, BLUE), such=TURNERS),
+    Counted(Everyone(), 7, such=TURNERS),
+    Counted(Everyone("car"), 0, such=STANDERS),
+    Counted(Everyone("car"), 2, (BLUE, OTHER_BLUE), such=STANDERS),
+    Counted(Everyone("car"), 9, such=STANDERS, until=5.0),
+    Verdict(FASTER, False, (Measure("speed", E, NOW, 5.0), Measure("speed", E, 5.0, 10.0))),
+    SupposedOfUs(replace(LATER, foil=("continue",)), ahead=MotionCause("leader", 1)),
 )

@@ -45,6 +45,8 @@ def test_every_attribute_has_a_case():
 
 
 def test_every_kind_of_factual_answer_has_a_case():
-    cases = {type(case) for case in (*answer_cases.CASES, *dialogue_cases.CASES, *journey_cases.CASES)}
+    cases = {
+        type(case) for case in (*answer_cases.CASES, *dialogue_cases.CASES, *journey_cases.CASES)
+    }
     assert set(FACTS) - cases == {Measures}
     assert set(FACTS) <= set(get_args(Answer))

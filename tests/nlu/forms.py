@@ -37,7 +37,7 @@ SAID = {
     "avoid": "avoid the bus", "follow": "follow the bus", "approach": "approach the bus",
     "block": "block the bus", "collide": "hit the bus", "keep-lane": "stay in lane",
     "keep-distance": "keep your distance", "enter": "enter the roundabout",
-    "leave": "leave the roundabout", "arrive": "arrive",
+    "leave": "leave the roundabout", "arrive": "arrive", "continue-next-exit": "miss the exit",
 }  # fmt: skip
 ONLY_OTHERS = {"appear", "disappear", "come"}  # nobody says so of their own car
 UNSAID = {"do", "happen"}

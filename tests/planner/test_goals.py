@@ -80,3 +80,11 @@ def test_where_the_road_ends_its_end_is_a_goal() -> None:
     roads = drawn([lane("in_0", [(0.0, 0.0), (50.0, 0.0)])])
     (on, _) = goals_in_view(roads, (on_lane(roads, "in_0", 10.0),), VIEW)
     assert on.target == EgoGoal("in", 49.0, None)
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_a_road_that_branches_off_a_motorway_is_an_exit(number: int) -> None:
+    assert seen(shipped("motorway"), f"exit_lane_{number}", -60.0) == {
+        "ramp": ("continue", "the exit on the right"),
+        "road_on": ("continue", "the road straight on"),
+    }

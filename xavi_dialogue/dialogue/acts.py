@@ -228,7 +228,10 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
     answered = any(not isinstance(part.result, NotUnderstood) for part in replied)
     owned = (Part(None, Unfamiliar(strange)),) if doubtful and answered else ()
     before = tuple(Part(None, one) for one in understood.before)
-    after = tuple(Part(None, one) for one in understood.behind)
+    after = tuple(
+        Part(understood.named if isinstance(one, NotUnderstood) else None, one)
+        for one in understood.behind
+    )
     return (*owned, *before, *replied, *after)
 
 

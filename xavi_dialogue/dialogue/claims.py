@@ -12,22 +12,34 @@ from xavi_dialogue.dialogue.turn import Part
 from xavi_dialogue.domain.answers import (
     Acknowledged,
     Answer,
+    ChoiceReason,
+    Declined,
     DidNotHappen,
+    GoReason,
+    MotionReason,
+    OtherReason,
     Priority,
+    Reaction,
     Refusal,
+    SupposedOfOther,
+    SupposedOfUs,
+    Unslowed,
     Verdict,
 )
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.meaning import Ask, Claim, Request
+from xavi_dialogue.domain.meaning import Ask, Claim, Request, Whether
 from xavi_dialogue.domain.terms import (
     Believed,
     Compares,
     Event,
     Exists,
+    Happens,
+    Has,
     Is,
     Not,
     Proposition,
+    Related,
     Vehicle,
     Vehicles,
 )
@@ -43,6 +55,16 @@ MANNERS: Final = frozenset(
 STATES: Final = frozenset(
     ("fast", "slow", "close", "far", "big", "late", "dangerous", "uncomfortable", "normal",
      "worth-it", "better", "busy", "stuck", "comfortable", "safe")
+)  # fmt: skip
+#: Reasons: a claim beside a question after one is the setting in which it is asked.
+REASONS: Final = (
+    ChoiceReason | MotionReason | GoReason | OtherReason | SupposedOfUs | SupposedOfOther
+    | Reaction | Unslowed
+)  # fmt: skip
+#: Motions that anybody may put otherwise.
+PASSING: Final = frozenset(
+    ("go", "come", "move", "do", "head", "leave", "enter", "pull-out", "stand", "follow", "wait",
+     "see", "appear", "disappear", "approach", "pass", "happen", "keep-lane", "cross")
 )  # fmt: skip
 _BARE: Final = frozenset(("right", "wrong"))
 _REAR: Final = ("behind", "behind-left", "behind-right")
@@ -96,11 +118,13 @@ def _is_bare(act: GroundedAct) -> bool:
 
 def told(said: Sequence[Part]) -> tuple[Part, ...]:
     """Return the parts of a reply that are put into words."""
-    said = _once(said)
+    said = _without_setting(_declined_once(_once(said)))
     acts = [part.act for part in said if part.act is not None]
     answers = [part.result for part in said if not _is_claim(part)]
     if not asks(acts):
-        return tuple(part for part in said if not (_is_claim(part) and part.result == NOTED))
+        plain = tuple(part for part in said if not (_is_claim(part) and part.result == NOTED))
+        weighty = tuple(part for part in plain if not _is_remark(part))
+        return weighty if any(part.act is not None for part in weighty) else plain
     return tuple(part for part in said if not _is_claim(part) or _matters(part.result, answers))
 
 
@@ -112,6 +136,28 @@ def _once(said: Sequence[Part]) -> tuple[Part, ...]:
         p.result.vehicle: p for p in reversed(owned or rules) if isinstance(p.result, Priority)
     }
     return tuple(p for p in said if p not in rules or p in kept_rules.values())
+
+
+def _without_setting(said: Sequence[Part]) -> tuple[Part, ...]:
+    """Leave out statements with a question mark beside a reason: "..., the road is free?"."""
+    if not any(isinstance(part.result, REASONS) for part in said):
+        return tuple(said)
+    return tuple(part for part in said if not _is_statement(part))
+
+
+def _is_statement(part: Part) -> bool:
+    question = part.act.act.question if part.act and isinstance(part.act.act, Ask) else None
+    return isinstance(question, Whether) and question.tag and isinstance(part.result, Verdict)
+
+
+def _declined_once(said: Sequence[Part]) -> tuple[Part, ...]:
+    """Leave out all but one refusal to drive otherwise, and that where a reason tells as much."""
+    told_why = any(isinstance(part.result, REASONS) for part in said)
+    declined = [part for part in said if isinstance(part.result, Declined)]
+    dropped = declined[1:]
+    if told_why and declined and declined[0].result.cause is not None:  # type: ignore[union-attr]
+        dropped = declined
+    return tuple(part for part in said if not any(part is one for one in dropped))
 
 
 def kept(said: Sequence[Part]) -> tuple[Part, ...]:
@@ -130,8 +176,10 @@ def _matters(result: Result, answers: Sequence[Result]) -> bool:
     """Tell whether what a claim came to is to be said beside the answers."""
     if not isinstance(result, Verdict) or result.holds is not False or result.mistaken:
         return False
-    if any(isinstance(answer, DidNotHappen | Verdict) for answer in answers):
-        return False  # the answer tells what was so itself
+    if any(isinstance(answer, DidNotHappen | Verdict | REASONS) for answer in answers):
+        return False  # the answer tells what was so itself, or what mattered
+    if not _weighty(result.that):
+        return False
     looks = [fact for fact in result.facts if isinstance(fact, Look)]
     if looks and all(look.bearing in _REAR or not look.in_view for look in looks):
         return False
@@ -139,6 +187,30 @@ def _matters(result: Result, answers: Sequence[Result]) -> bool:
     concerned = {look.vehicle for look in looks} | _vehicles(result.that)
     denies_all = first(result.that, Exists) is not None
     return not blamed or not (denies_all or blamed & concerned)
+
+
+def _is_remark(part: Part) -> bool:
+    """Tell whether a part only agrees to what somebody sees for himself."""
+    result = part.result
+    agreed = isinstance(result, Verdict) and result.holds is True
+    return _is_claim(part) and agreed and isinstance(result, Verdict) and not _weighty(result.that)
+
+
+def _weighty(that: Proposition) -> bool:
+    """Tell whether it matters that something said beside a question is not so.
+
+    Where somebody is, or that he goes, comes or stands, is an observation: it is let pass.
+    """
+    match that:
+        case Not(content=content):
+            return _weighty(content)
+        case Happens(event=event):
+            return event.action not in PASSING
+        case Related(relation=relation):
+            return relation in ("has-priority-over", "must-yield-to")
+        case Exists() | Has():
+            return False
+    return True
 
 
 def _vehicles(that: Proposition) -> set[int]:

@@ -24,6 +24,7 @@ class Understood:
     before: tuple[Refusal, ...] = ()  # what is put right before they are
     behind: tuple[Refusal, ...] = ()  # what is declined or asked back after that
     offer: Offer | None = None  # what is offered where it is asked back
+    named: GroundedAct | None = None  # who was named in what was not understood
     aim: Literal["answer", "quiz", "again", "verdict"] = "answer"
     quiz: Quiz | None = None  # the question of ours that was answered, or was not ...
     judgement: Judgement | None = None  # ... and how

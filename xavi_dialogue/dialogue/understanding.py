@@ -11,6 +11,7 @@ from xavi_dialogue.dialogue.quizzing import judgement_of, put_again
 from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Offer, Turn
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood, Refusal, WhichOne
+from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Act, Elliptic, Quizzing, Reading, Repair, TokenShare
 from xavi_dialogue.nlu.grounding.result import Grounding
 
@@ -78,7 +79,9 @@ def grounded(grounding: Grounding) -> Understood:
     if not acts and not before and not behind:
         unknown = () if grounding.reading is None else grounding.reading.strange
         behind = (NotUnderstood(words=unknown),)
-    return Understood(acts=acts, before=before, behind=behind, offer=_offer(grounding, clarify))
+    named = None if grounding.named is None else GroundedAct(Elliptic(grounding.named))
+    offer = _offer(grounding, clarify)
+    return Understood(acts=acts, before=before, behind=behind, offer=offer, named=named)
 
 
 def _offer(grounding: Grounding, clarify: WhichOne | None) -> Offer | None:

@@ -91,7 +91,7 @@ class Measure(Value, frozen=True):
 class Expectation(Value, frozen=True):
     """What the car believed that a vehicle would do."""
 
-    actions: tuple[MacroAction, ...]
+    actions: tuple[ActionName, ...]
     probability: float
     place: str | None = None  # edge
 

@@ -46,6 +46,7 @@ class Which(Value, frozen=True):
 
     thing: Thing  # what is asked for: `Wanted`, or `Described` ("which of the red cars")
     such: Proposition | None = None  # with the `Wanted` in it; None: "who is that?" of `thing`
+    among: tuple[Thing, ...] = ()  # "who lets us in, the bus or the red car?"
 
 
 class Identify(Value, frozen=True):

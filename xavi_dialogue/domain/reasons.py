@@ -41,6 +41,7 @@ class MotionCause(Value, frozen=True):
         "plan",  # the plan calls for it, no reason beyond
         "starting",  # we have only just set off
         "picking-up",  # we speed up again, and are not there yet
+        "given-up",  # a stop was decided, and given up again
         "light",
     ]
     vehicle: int | None = None
@@ -157,6 +158,7 @@ class SupposedOfUs(Value, frozen=True):
     asked: ActionName | None = None  # where the foil is only the nearest to it: "brake" for a stop
     form: Asking = "what-if"
     arrival: float | None = None  # [s] when we would be there
+    ahead: MotionCause | None = None  # who stood in the lane that we would have stayed in
 
 
 class SupposedOfOther(Value, frozen=True):

@@ -194,8 +194,19 @@ class Relative(Value, frozen=True):
 
 
 Time: TypeAlias = (
-    Now | Unsaid | At | AtDecision | Ago | Within | Between | Relative | Back | Rank | Start
-    | WholeRide | Next
+    Now
+    | Unsaid
+    | At
+    | AtDecision
+    | Ago
+    | Within
+    | Between
+    | Relative
+    | Back
+    | Rank
+    | Start
+    | WholeRide
+    | Next
 )
 Tense: TypeAlias = Literal["past", "present", "future", "perfect"]
 

@@ -117,6 +117,7 @@ Attribute: TypeAlias = Literal[
     "route",  # the way to the destination
     "count",
     "weather", "battery", "money", "law", "world",  # what no record holds
+    "load", "occupant", "writing", "parts",  # of a vehicle: what cannot be seen from outside
 ]  # fmt: skip
 
 Relation: TypeAlias = Literal[

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Identify,
     Request,
     Summarise,
+    Which,
 )
 from xavi_dialogue.domain.terms import (
     Caused,
@@ -25,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Exit,
     Feature,
+    Happens,
     Is,
     Junction,
     Lane,
@@ -48,6 +50,8 @@ _PLACES = (Junction, Exit, Lane, Road, Feature, Destination, Record)
 _FIXED = (Junction, Exit, Road, Record)
 _ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
+#: What is not done to anybody: "who is that car coming" is no question for whom it comes to.
+_ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
 
 
@@ -64,6 +68,12 @@ def _top(act: Act) -> float:
             return ODD
         case Claim(that=Caused(cause=Described(definite=False), effect=None)):
             return ODD
+        case Ask(question=Identify(thing=Pronoun(form="he" | "she"))):
+            return DOUBTFUL  # "what is he up to now" rather asks what he does
+        case Ask(
+            question=Which(such=Happens(event=Event(action, actor, Wanted(), modal=None)))
+        ) if action in _ALONE and not isinstance(actor, Wanted):
+            return DOUBTFUL
         case Ask(question=Summarise(about=Ego())):
             return DOUBTFUL
         case Request(event=Event(action="do", object=None)):

@@ -13,6 +13,7 @@ Share = Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown
 _GRAMMAR = frozenset(
     [
         "BE",
+        "GOT",
         "DO",
         "HAVE",
         "HAD",

@@ -12,14 +12,20 @@ from xavi_dialogue.domain.meaning import (
     Elliptic,
     Fault,
     HowDecide,
+    HowMuch,
+    Identify,
     Peak,
     Repair,
+    Request,
     WhatIf,
+    Where,
     Whether,
     Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Believed,
+    Caused,
     Described,
     Destination,
     Ego,
@@ -31,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Junction,
     Lane,
+    Measured,
     Nobody,
     Not,
     Pronoun,
@@ -42,10 +49,13 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Wanted,
+    WholeRide,
 )
 
 _HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way"})
-_FORMS = frozenset({"it", "he", "she"})
+_FORMS = frozenset({"it", "he", "she", "that"})
+_SEVERAL = frozenset({"they", "them-all", "those"})
+_NEAREST = tuple(Peak("closeness", time) for time in (Unsaid(), WholeRide()))
 Owners = list[int | None]
 
 
@@ -96,6 +106,22 @@ def _under(supposed: Act, later: Act) -> Act | None:
             event=Event() as event, thing=None, form="same"
         ):  # "what are you doing that for, slowing down?"
             return Ask(Why(Happens(event)))
+        case Claim(that=that), (
+            Repair(kind="why")
+            | Elliptic(thing=None, event=None, time=Unsaid(), negated=False, form="why")
+            | Ask(question=Why(of=That() | Believed(content=That()), suspect=None))
+        ) if not isinstance(that, Caused):
+            return Ask(Why(that))  # "we are going faster, why is that?"
+        case Ask(question=Why(of=Not(content=Happens(event=Event(actor=Ego()) as event)))), Ask(
+            question=Where(of=Ego())
+        ) if event.action in ("stand", "keep-lane"):  # "why don't we stay where we were?"
+            return Ask(Why(Not(Happens(structs.replace(event, action="keep-lane")))))
+        case Repair(kind="why"), Request(event=event, negated=False):
+            return Ask(Why(Happens(event)))  # "and why crawl along?"
+        case Ask(question=WhatIf(then=None) as question), Ask(
+            question=Whether(that=Happens(event=Event(modal="would" | "could"))) as then
+        ):
+            return Ask(structs.replace(question, then=then))
         case Claim(that=that), Ask(
             question=Whether(that=Is(state="right", thing=None | Pronoun(), event=None))
         ):
@@ -108,6 +134,8 @@ def _under(supposed: Act, later: Act) -> Act | None:
             that=Related(thing=Nobody()) | Is(thing=Nobody()) | Not(content=Exists())
         ) if action in _HELD:
             return Ask(Why(that))  # "you braked although nobody was there"
+        case Ask(question=HowMuch()) as named, Ask(question=Identify(thing=Pronoun(form="it"))):
+            return named  # "the limit, what is it"
         case Claim(that=that), Elliptic() if later == Elliptic():
             return Ask(Whether(that, tag=True))
         case Ask(question=WhatIf(then=None) as question), Ask(
@@ -127,6 +155,9 @@ def _told_already(act: Act, later: Act) -> bool:
     """Say whether a bare "and why", or an opinion, asks what the answer before it tells anyway."""
     if isinstance(act, Claim) and _is_opinion(later):
         return True
+    nearest = isinstance(act, Ask) and act.question in _NEAREST
+    if nearest and later == Ask(HowMuch(Measured("distance", Pronoun("it")))):
+        return True
     bare = later in (Repair(kind="why"), Elliptic(form="why"), Elliptic(form="when"))
     return bare and isinstance(act, Ask) and isinstance(act.question, Peak)
 
@@ -145,8 +176,6 @@ def _topic(act: Act) -> Thing | None:
     match act:
         case Elliptic(thing=Vehicle() | Described() as thing, event=None, time=Unsaid(),
                       negated=False, form="same", besides=False):  # fmt: skip
-            if isinstance(thing, Described) and thing.plural:
-                return None
             return structs.replace(thing, definite=True) if isinstance(thing, Described) else thing
     return None
 
@@ -154,7 +183,8 @@ def _topic(act: Act) -> Thing | None:
 def _replaced(value: Any, topic: Thing) -> Any:
     """Replace each pronoun in a term; the term itself where there is none."""
     if isinstance(value, Pronoun):
-        return topic if value.form in _FORMS else value
+        plural = isinstance(topic, Described) and topic.plural
+        return topic if value.form in (_SEVERAL if plural else _FORMS) else value
     if isinstance(value, tuple):
         parts = tuple(_replaced(part, topic) for part in value)
         return parts if any(a is not b for a, b in zip(parts, value, strict=True)) else value

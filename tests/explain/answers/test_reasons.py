@@ -132,8 +132,9 @@ def test_whoever_is_in_front_is_the_reason_for_driving_slowly() -> None:
     question = Why(Is("slow", tense="present"), suspect=Vehicle(1))
     ride = copy.copy(story("lorry"))
     ride.whatifs = {}  # nothing was planned without it, so that nothing clears it
-    found = told(ride, question, 9.0)
-    assert isinstance(found, MotionReason)
-    assert found.deed.action == "follow"
-    assert found.causes[0].kind == "leader"
-    assert found.suspected == "main"
+    for time, action in ((9.0, "brake"), (11.0, "follow")):
+        found = told(ride, question, time)
+        assert isinstance(found, MotionReason)
+        assert found.deed.action == action
+        assert found.causes[0].kind == "leader"
+        assert found.suspected == "main"

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import (
     Answer,
     Beliefs,
@@ -78,7 +80,7 @@ def listing(question: Listing, asked: Asked) -> Answer:
         case "options":
             return _options(asked, about)
         case "beliefs":
-            return _beliefs(asked, question.about, about)
+            return _beliefs(asked, question, about)
         case "wrong-predictions":
             return _mistakes(asked, question.about, about)
         case "causes" | "reasons":
@@ -139,9 +141,7 @@ def _with_approach(asked: Asked, about: Window) -> Window:
     return Window(begin, about.end, about.said)
 
 
-def summary(
-    asked: Asked, about: Thing | None, time: Window, *, ride: bool = False
-) -> Happenings:
+def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = False) -> Happenings:
     """Give the episodes that matter of a stretch of the ride, of all of it, or of a vehicle."""
     near = time.widened(2.0) if time.instant else time
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
@@ -265,12 +265,12 @@ def _options(asked: Asked, about: Window) -> Answer:
     return Options(found, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
 
 
-def _beliefs(asked: Asked, thing: Thing | None, about: Window) -> Answer:
+def _beliefs(asked: Asked, question: Listing, about: Window) -> Answer:
     """Tell what we expect of a vehicle and how it moved; or of all in view, each with a look."""
-    vehicle = number(thing)
+    vehicle = number(question.about)
     if vehicle is not None:
-        found: Beliefs = history_of(asked, vehicle, None)
-        return found
+        found: Beliefs = history_of(asked, vehicle, None, question.time)
+        return found if found.time is not None else replace(found, time=found.history[0].time)
     at = asked.moment if asked.past is not None else asked.now
     seen = tuple(x for v in asked.world.in_view(at) if (x := asked.world.look(v, at)) is not None)
     beliefs = (asked.world.belief(look.vehicle, at) for look in seen)
@@ -282,7 +282,7 @@ def _mistakes(asked: Asked, thing: Thing | None, about: Window) -> Verdict:
     """Tell what we expected of others that came otherwise."""
     found = mistakes(asked, number(thing), about)
     return Verdict(
-        Is("wrong", thing if thing is not None else Ego()), bool(found),
+        Is("wrong", thing if thing is not None else Ego(), tense="perfect"), bool(found),
         tuple(e for _, e in found), believed=tuple(b for b, _ in found), mistaken=bool(found),
     )  # fmt: skip
 

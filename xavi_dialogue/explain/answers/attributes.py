@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 
 from xavi_dialogue.domain.answers import (
     Answer,
+    ChoiceReason,
     Evidence,
     Identified,
     Located,
@@ -30,11 +31,20 @@ from xavi_dialogue.explain.answers.counting import how_many
 from xavi_dialogue.explain.answers.durations import (
     cost_of,
     event_lasting,
+    held_for,
     remaining_wait,
     stands,
     waited,
 )
-from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, was_said, window
+from xavi_dialogue.explain.answers.moments import (
+    SHORT,
+    Window,
+    instant,
+    is_ahead,
+    is_past,
+    was_said,
+    window,
+)
 from xavi_dialogue.explain.answers.naming import (
     first_look,
     is_us,
@@ -44,7 +54,7 @@ from xavi_dialogue.explain.answers.naming import (
 )
 from xavi_dialogue.explain.answers.occasions import did_not_happen
 from xavi_dialogue.explain.answers.onward import which_way
-from xavi_dialogue.explain.answers.places import locate, where, whither
+from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
 
 #: What is chosen, and whose cost is told by what else could have been chosen.
@@ -82,10 +92,26 @@ def _duration(of: Measured, asked: Asked) -> Answer:
 def _delay(of: Measured, asked: Asked) -> Answer:
     """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
     if of.event is not None and of.event.action in CHOSEN:
-        explained = causal.explainer(Why(Happens(of.event)), asked)
-        if explained is not None:
-            return explained(Why(Happens(of.event)), asked)
-    return Measures((cost_of(asked, of.event, window(asked, of.time)),))
+        why = Why(Happens(of.event))
+        explainer = causal.explainer(why, asked)
+        if explainer is not None:
+            explained = explainer(why, asked)
+            gained = _gained(explained)
+            return explained if gained is None else Measures((gained,))
+    event = of.event
+    if event is None and number(of.thing) is not None:
+        event = held_for(asked, of.thing)
+    return Measures((cost_of(asked, event, window(asked, of.time)),))
+
+
+def _gained(explained: Answer) -> Measure | None:
+    """Tell what a choice cost or saved in time against what else there was, where that is known."""
+    if not isinstance(explained, ChoiceReason) or explained.deed is None:
+        return None
+    effects = explained.contrast.effects
+    saved = next((e.delta for e in effects if e.component == "time"), None)
+    deed = explained.deed
+    return None if saved is None else Measure("delay", Ego(), deed.begin, value=-saved)
 
 
 def _probability(of: Measured, asked: Asked) -> Answer:
@@ -112,8 +138,11 @@ def _name(of: Measured, asked: Asked) -> Answer:
 
 
 def _turn(of: Measured, asked: Asked) -> Answer:
-    """Tell which way is taken next: of others, where they are thought to be going."""
-    if number(of.thing) is not None:
+    """Tell which way is taken next: of others, where they are thought to be going, or went."""
+    other = number(of.thing)
+    if other is not None and is_past(asked, of.time, of.tense) and not was_said(asked, of.time):
+        return gone(asked, Vehicle(other))
+    if other is not None:
         return whither(Whither(of.thing, of.time), asked)
     return which_way(of, asked)
 

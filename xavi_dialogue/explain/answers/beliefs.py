@@ -48,7 +48,7 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
     time = question.time if not isinstance(question.time, Unsaid) else time_of(of)
     match of:
         case Happens(event=event) if number(event.actor) is not None:
-            return beliefs_of(asked, event, time)
+            return _under_way(asked, event, time) or beliefs_of(asked, event, time)
         case Happens(event=Event(action="collide")):
             at = instant(asked, time)
             return Verdict(of, None, probability=collision_chance(asked, at))
@@ -65,6 +65,16 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
     if vehicle is None:
         raise Unanswered(NotRecorded("not-recorded", about="probability"))
     return history_of(asked, vehicle, None, time)
+
+
+def _under_way(asked: Asked, event: Event, time: Time) -> Verdict | None:
+    """Tell that somebody does so now, of which no chance is to be told; None: he does not."""
+    if event.tense == "past" or instant(asked, time, "present") < asked.now - SHORT:
+        return None
+    found = occasion(asked, replace(event, tense="present"))
+    on = found is not None and found.end is None and event.action != "do"
+    now = Happens(replace(event, tense="present", modal=None))
+    return Verdict(now, True, (found,)) if found is not None and on else None
 
 
 def beliefs_of(asked: Asked, event: Event, time: Time = UNSAID) -> Beliefs:

@@ -61,6 +61,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return _of_whether(that, scene)
         case Which(Wanted(), such) if _holds_us_up(such):
             return _what_for
+        case HowKnow(Is(state="safe" | "possible", event=Event() as event)) if is_own(event.actor):
+            return _why_safe
         case Which(such=such) if such is not None and isinstance(unwrapped(such)[0], Caused):
             return _who_caused
         case Compare(options) if options and all(_is_option(option) for option in options):
@@ -75,6 +77,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
 def _holds_us_up(such: Proposition | None) -> bool:
     """Whether it is asked for what or whom we wait, slow down, stop or give way."""
     of, negated = unwrapped(such)
+    if isinstance(of, Is) and not negated:
+        return of.state in ("stuck", "stationary") and is_own(of.thing)
     if isinstance(of, Compares) and isinstance(of.left.thing, Wanted):
         return of.left.attribute == "delay"
     if not isinstance(of, Happens) or negated:
@@ -91,12 +95,19 @@ def _what_for(question: Which, scene: Asked) -> Answer:
     event = of.event if isinstance(of, Happens) else Event("block")
     if isinstance(of, Compares):
         event = replace(event, tense=of.left.tense, time=of.left.time)
+    if isinstance(of, Is):
+        event = Event("stand", tense=of.tense, time=of.time)
     if event.action == "block":
         event = replace(event, action="wait", actor=Ego())
     event = replace(event, object=None)
     if event.action in ("stop", "stand", "wait") and event.tense == "present":
         return reasons.why(Why(Not(Happens(Event("go", tense="present")))), scene)
     return reasons.why(Why(Happens(event)), scene)
+
+
+def _why_safe(question: HowKnow, scene: Asked) -> Answer:
+    """On what grounds we took something of ours for safe: why we did it then."""
+    return reasons.why(Why(question.of or Is("safe")), scene)
 
 
 def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
@@ -111,8 +122,17 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return possible.must
     if isinstance(of, Is) and of.state in NEEDED:
         about_us = of.event is None or is_own(of.event.actor)
+        if not about_us and of.state == "worth-it":
+            return _worth
         return deciding.needed if about_us and is_own(of.thing) else None
     return None
+
+
+def _worth(question: Whether, scene: Asked) -> Answer:
+    """Whether it was worth it, spoken of another vehicle: what we did is meant."""
+    of, _ = unwrapped(question.that)
+    tense = of.tense if isinstance(of, Is) else "past"
+    return deciding.needed(Whether(Is("worth-it", tense=tense)), scene)
 
 
 def _slowed_for(of: Proposition | None, scene: Asked) -> bool:

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Located
+from xavi_dialogue.domain.answers import Located, Measures
 from xavi_dialogue.domain.facts import Fact, Look, Measure
 from xavi_dialogue.domain.terms import (
     Compares,
@@ -47,6 +47,8 @@ SAME: dict[Attribute, float] = {
 LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
 #: What a vehicle keeps when it is out of view.
 LASTING: frozenset[Attribute] = frozenset(("colour", "kind", "size", "name", "origin"))
+#: What nobody can see of a vehicle from outside.
+INSIDE: frozenset[Attribute] = frozenset(("load", "occupant", "writing", "parts"))
 NONE = ("none", "off", "no", "")
 
 
@@ -72,6 +74,8 @@ def has(of: Has, asked: Asked) -> Finding:
 def _has(of: Has, asked: Asked, thing: Thing, at: float) -> Finding:
     values = value_at(asked, Measured(of.attribute, thing), thing, at)
     value = values[-1] if of.attribute in LASTING else values[0]
+    if of.attribute in INSIDE:
+        return Finding(None, (), value.gap, answer=Measures((value,)))
     if value.gap is not None:
         return unknown(value.gap, *known(*values))
     if of.attribute in LIGHTS:

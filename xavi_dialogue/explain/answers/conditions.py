@@ -6,7 +6,17 @@ from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
 from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
-from xavi_dialogue.domain.terms import Destination, Ego, Event, Happens, Is, Lane, Thing, Vehicle
+from xavi_dialogue.domain.terms import (
+    Destination,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Lane,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
 from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -164,6 +174,11 @@ def _seen(of: Is, asked: Asked) -> Finding:
     """Tell whether somebody is in view, hidden or lost."""
     vehicle = number(actor(of))
     about = window(asked, of.time, of.tense)
+    if isinstance(of.thing, Vehicles):
+        wanted = of.state in ("visible", "present")
+        every = looks(asked, of.thing.numbers, about.end)
+        others = tuple(look for look in every if look.in_view != wanted)
+        return Finding(not others, others or every)
     if vehicle is None:
         return unknown("not-sensed" if not is_us(actor(of)) else "not-applicable")
     look = asked.world.look(vehicle, about.end)

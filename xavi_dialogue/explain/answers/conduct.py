@@ -37,6 +37,8 @@ def conduct(asked: Asked, event: Event) -> Finding | None:
     vehicle = number(event.actor)
     if event.action == "cut-in" and is_us(event.actor) and number(event.object) is not None:
         return _cutting_in(asked, event, number(event.object) or 0)
+    if event.action == "overtake" and is_us(event.actor) and event.tense == "present":
+        return _passing(asked, event, number(event.object) or 0)
     if vehicle is None:
         straight = event.action in ("exit-straight", "continue") and event.tense == "present"
         return _straight(asked) if straight and is_us(event.actor) else None
@@ -66,6 +68,19 @@ def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:
     braked = occasion(asked, Event("brake", Vehicle(behind), time=event.time))
     late = braked is not None and braked.begin >= change.begin
     return Finding(True, (change, *((braked,) if braked is not None and late else ())))
+
+
+def _passing(asked: Asked, event: Event, other: int) -> Finding | None:
+    """Tell whether we are about to pass somebody: faster than he, beside his line or leaving it."""
+    look = asked.world.look(other, asked.now) if other else None
+    if look is None or not look.in_view or look.oncoming or occasion(asked, event) is not None:
+        return None
+    speed = asked.world.measure("speed", Ego(), asked.now)
+    change = asked.world.episodes(actor=Ego(), actions=("change-left",), begin=asked.now - LATELY)
+    aside = bool(change) or abs(look.left) > ASIDE
+    if speed.value is None or speed.value <= look.speed or not aside or look.ahead < 0.0:
+        return None
+    return Finding(True, known(speed) if not change else (change[-1],))
 
 
 def _over(asked: Asked, event: Event) -> bool:

@@ -32,6 +32,9 @@ from xavi_dialogue.explain.answers.naming import (
 from xavi_dialogue.explain.answers.occasions import merged, within
 from xavi_dialogue.explain.answers.onward import WAYS, junctions_left, turns_left
 from xavi_dialogue.explain.answers.places import told
+from xavi_dialogue.explain.answers.plans import plan_ahead
+
+CHANGES: frozenset[str] = frozenset(("change-left", "change-right", "change-lane"))
 
 
 def how_many(question: HowMany, asked: Asked) -> Answer:
@@ -44,6 +47,8 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
         event = question.of
         if event.tense == "future" and event.action in WAYS and is_us(event.actor):
             return turns_left(asked, event)
+        if event.tense == "future" and event.action in CHANGES and is_us(event.actor):
+            return _changes_left(asked, event)
         return _events(asked, event)
     check_sense(question.of)
     found = _things(asked, question.of)
@@ -60,6 +65,15 @@ def _events(asked: Asked, event: Event) -> Counted:
     times = merged(asked, (replace(e, object=None) for e in found))
     lost = any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
     return Counted(event, len(times), found, lost, about.begin, about.end)
+
+
+def _changes_left(asked: Asked, event: Event) -> Answer:
+    """Tell which lane changes our plan still holds; where it has none, that we make none."""
+    ahead = plan_ahead(asked, measures=False)
+    if any(action in CHANGES for action, _ in ahead.steps):
+        return ahead
+    done = asked.world.episodes(Ego(), ("change-left", "change-right"))
+    return Counted(replace(event, manner=("again",)) if done else event, 0)
 
 
 def _named(thing: Thing | None) -> Thing | None:
@@ -105,7 +119,7 @@ def _users(asked: Asked, of: Everyone) -> Counted:
 
 
 def _junctions(asked: Asked, of: Exit | Junction) -> Answer:
-    """Tell how many junctions are still ahead, or exits the next roundabout has."""
+    """Tell how many junctions are ahead, or which exit of how many we take."""
     road = asked.world.road(asked.moment)
     if road is None:
         raise Unanswered(NotRecorded("not-recorded", of, about="count"))
@@ -113,5 +127,5 @@ def _junctions(asked: Asked, of: Exit | Junction) -> Answer:
         ring = next((step for step in road.route if step.exits is not None), None)
         if ring is None or ring.exits is None:
             return Measures((Measure("exit-number", Ego(), asked.moment, gap="not-applicable"),))
-        return Counted(of, ring.exits)
+        return Measures((asked.world.measure("exit-number", Ego(), asked.moment),))
     return junctions_left(asked, of)

@@ -45,6 +45,8 @@ def needed(question: Whether, scene: Asked) -> Answer:
     of, _ = unwrapped(question.that)
     event = of.event if isinstance(of, Is) else event_of(of)
     state = of.state if isinstance(of, Is) else "necessary"
+    if event is not None and isinstance(of, Is) and of.tense == "past":
+        event = replace(event, tense="past")
     form: Literal["necessary", "worth-it"] = "necessary" if state == "necessary" else "worth-it"
     if event is not None and not choices.is_choice(event):
         found = _moved(event, scene)

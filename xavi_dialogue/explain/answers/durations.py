@@ -21,6 +21,9 @@ from xavi_dialogue.explain.answers.places import time_to_go
 from xavi_dialogue.explain.answers.plans import horizon, moving_on
 from xavi_dialogue.explain.history.thresholds import STANDING
 
+JOINED = 0.5  # [s] between what belongs together
+#: What costs time.
+HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
 WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
 
 
@@ -141,19 +144,32 @@ def _lost(asked: Asked, about: Window) -> bool:
 
 
 def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
-    """Tell what an episode of ours cost in time.
+    """Tell what an episode of ours cost in time, with all the slowing and waiting around it.
 
     Raises:
         Unanswered: there was none.
     """
-    if event is not None:
+    if event is not None and event.action != "block":
         found = occasion(asked, event)
     else:
-        slow: list[Episode] = list(
-            asked.world.episodes(actor=Ego(), actions=("give-way", "stop", "stand", "slow-down"))
-        )
+        slow = list(asked.world.episodes(actor=Ego(), actions=HELD))
         near = [e for e in slow if overlaps(asked, e, about.widened())]
         found = max(near or slow[-1:], key=lambda e: duration(asked, e), default=None)
     if found is None:
         raise did_not_happen(asked, event or Event("slow-down"))
-    return asked.world.delay(found)
+    return lost(asked, found) or asked.world.delay(found)
+
+
+def held_for(asked: Asked, other: Thing) -> Event:
+    """Name what we did last for another vehicle that held us up."""
+    found = asked.world.episodes(Ego(), HELD, object=other)
+    return Event(found[-1].action if found else "give-way", object=other)
+
+
+def lost(asked: Asked, deed: Episode) -> Measure | None:
+    """Tell how much time [s] the slowing and waiting cost of which a deed of ours is a part."""
+    end = asked.now if deed.end is None else deed.end
+    part = asked.world.episodes(Ego(), HELD, deed.begin - JOINED, end + JOINED)
+    costs = [asked.world.delay(e) for e in (deed, *part)]
+    told = [cost for cost in costs if cost.value is not None]
+    return max(told, key=lambda cost: cost.value or 0.0, default=None)

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Thing,
+    Unsaid,
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -62,6 +63,8 @@ def duty(asked: Asked, event: Event) -> Finding | None:
         return _went_first(asked, event)
     if event.modal not in DUTIES:
         return _unwilling(asked, event)
+    if event.modal == "should" and past and is_us(event.actor) and event.action in YIELDING:
+        return _handed(asked, Why(Not(Happens(replace(event, modal=None, time=Unsaid())))))
     pair = _pair(event)
     if pair is None and event.then is not None and _pair(event.then) is not None:
         event = replace(event.then, actor=event.actor, modal=event.modal, tense=event.tense)
@@ -81,8 +84,10 @@ def _went_first(asked: Asked, event: Event) -> Finding | None:
     if vehicle is None:
         return None
     found = priority_at(asked, vehicle, window(asked, event.time, "past"))
-    if found.first is None:
+    if found.first is None and found.rule == "none":
         return None
+    if found.first is None:
+        return Finding(None, answer=found)
     holds = isinstance(found.first, Ego) == is_us(event.actor)
     return Finding(holds, answer=replace(found, holds=holds))
 
@@ -90,7 +95,11 @@ def _went_first(asked: Asked, event: Event) -> Finding | None:
 def _unwilling(asked: Asked, event: Event) -> Finding | None:
     """Tell of somebody who is asked to stop for us that he goes first, where the rule is so."""
     if event.action in ("give-way", "let-go") and is_us(event.actor):
-        return _not_given(asked, event)
+        meant = event.tense == "future" or (event.modal == "want" and event.tense == "present")
+        if not meant or number(event.object) is None:
+            return _not_given(asked, event)
+        owed_him = _owed(asked, replace(event, tense="present"), event.actor, event.object)
+        return owed_him if owed_him.holds else None
     towards_us = event.action in (*YIELDING, *FOR_ANOTHER) and is_us(event.object)
     to_come = event.tense in ("present", "future") and event.modal in (None, "will")
     if not towards_us or not to_come or number(event.actor) is None:
@@ -174,11 +183,13 @@ def _advised(asked: Asked, event: Event) -> Finding | None:
     if held is not None:
         that = Not(Happens(plain))
         return Finding(None, answer=Verdict(that, False, (held,), claim=True, challenge=True))
-    question = Why(Not(Happens(plain)))
+    return _handed(asked, Why(Not(Happens(plain))))
+
+
+def _handed(asked: Asked, question: Why) -> Finding | None:
+    """Give the answer of the causal explainers, where they have one."""
     explainer = causal.explainer(question, asked)
-    if explainer is None:
-        return None
-    return Finding(None, answer=explainer(question, asked))
+    return None if explainer is None else Finding(None, answer=explainer(question, asked))
 
 
 def _needed(asked: Asked, event: Event) -> Finding | None:

@@ -11,7 +11,7 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import overlaps
-from xavi_dialogue.explain.history.motion import foresees
+from xavi_dialogue.explain.history.motion import branches_off, foresees
 from xavi_dialogue.explain.history.ride import planned, prediction
 
 EXPECTED = 0.5  # probability from which something was expected
@@ -54,7 +54,8 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
     total, any_known = 0.0, False
     for goal in known.goals:
         for way in goal.trajectories:
-            does = foretells(way, event)
+            does = _on_branch(event) if branches_off(goal, way) else foretells(way, event)
+            does = foretells(way, event) if does is None else does
             if does is None:
                 continue
             any_known = True
@@ -98,7 +99,14 @@ def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
     return contains(way.actions, event)
 
 
-def contains(actions: tuple[Action, ...], event: Event) -> bool | None:
+def _on_branch(event: Event) -> bool | None:
+    """Tell whether an event is what comes where a road branches off; None: that tells nothing."""
+    if event.action == "leave":
+        return True
+    return False if event.action in ("continue", "exit-straight", "keep-lane") else None
+
+
+def contains(actions: tuple[ActionName, ...], event: Event) -> bool | None:
     """Tell whether actions are of such an event; leaving means at the next exit. None: unknown."""
     names = macros(event)
     if sided(event) != event.action or event.action != "leave":

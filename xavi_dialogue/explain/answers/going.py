@@ -7,7 +7,7 @@ from xavi_dialogue.domain.answers import (
     Contrast,
     GoReason,
 )
-from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.domain.terms import Event, Exit, Junction
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices
 from xavi_dialogue.explain.answers.asked import LEEWAY, Asked
@@ -20,6 +20,10 @@ from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 CROSSING = frozenset[ActionName](("exit-left", "exit-right", "exit-straight", "continue-next-exit"))
+AS_CHANGE: dict[ActionName, ActionName] = {
+    "exit-left": "change-left",
+    "exit-right": "change-right",
+}
 BEGUN = 0.5  # [s] since when what was begun is told as past
 LATELY = 10.0  # [s] since when a junction that was crossed may be meant
 JUST = 4.0  # [s] since when a change of lanes is what "going" means
@@ -54,6 +58,17 @@ def went(event: Event, scene: Asked) -> Answer:
     if deed is not None and open_:
         deed = structs.replace(deed, begin=begun)
     return GoReason(deed, others, against, past=past)
+
+
+def sideways(event: Event, scene: Asked) -> Event:
+    """Read going left, or right, as the change of lanes that is under way, where one is."""
+    change = AS_CHANGE.get(event.action)
+    if change is None or isinstance(event.object, Junction | Exit):
+        return event
+    made = [d for d in scene.ride.deeds if d.time <= scene.moment]
+    under = [d for d in made if scene.moment <= (d.ended or scene.now) + BEGUN]
+    aside = bool(under) and under[-1].action == change
+    return structs.replace(event, action=change) if aside else event
 
 
 def crossed(scene: Asked) -> Deed | None:

@@ -4,7 +4,16 @@ from msgspec.structs import replace as with_fields
 
 from xavi_dialogue.domain.answers import Bound, Course
 from xavi_dialogue.domain.facts import Episode, Fact, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Exit, Happens, Now, Unsaid, Vehicle, WholeRide
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exit,
+    Happens,
+    Now,
+    Unsaid,
+    Vehicle,
+    WholeRide,
+)
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.closeness import closeness
@@ -12,7 +21,6 @@ from xavi_dialogue.explain.answers.findings import Finding, expected, known, unk
 from xavi_dialogue.explain.answers.foreseen import (
     HALTS,
     YIELDS,
-    belief_before,
     chance,
     collision_chance,
     macros,
@@ -20,16 +28,20 @@ from xavi_dialogue.explain.answers.foreseen import (
 )
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
+from xavi_dialogue.explain.answers.nearing import closes, nears, passes, stays
 from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
+from xavi_dialogue.explain.answers.picking import likeliest
 from xavi_dialogue.explain.answers.places import to_go, told
 from xavi_dialogue.explain.answers.plans import foreseen
 from xavi_dialogue.explain.answers.sight import comes, sees
 
 #: What is asked of somebody who is about to do it: "is he pulling out?"
 INTENDED: tuple[ActionName, ...] = ("pull-out", "let-go", "give-way", "enter", "cross")
+CHANGES: frozenset[ActionName] = frozenset(("change-left", "change-right", "change-lane"))
 RECENT = 2.0  # [s] for which it may still be told what somebody who is hidden is going to do
 NEARLY = 10.0  # [s] before we are there from which on we are nearly there
 AT_HAND = 100.0  # [m] likewise
+ROLLING = 1.0  # [m/s] from which somebody is on the move
 SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
 
 
@@ -55,10 +67,49 @@ def happens(of: Happens, asked: Asked) -> Finding:
         coming = comes(asked, event)
         if coming is not None:
             return coming
+    if (moves := _moves(asked, event) or closes(asked, event)) is not None:
+        return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
     if ahead or _intended(asked, event):
         return _to_come(asked, event)
     return _has_been(asked, event)
+
+
+def _moves(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether somebody is going: whoever is in motion is, however he came to be."""
+    plain = event.action in ("go", "move") and event.object is None and event.side is None
+    if not plain or event.modal is not None or event.where is not None or event.manner:
+        return None
+    if event.tense in ("past", "perfect"):
+        return _moved(asked, event)
+    if event.tense != "present":
+        return None
+    who = somebodies(asked, event.actor, asked.now)
+    if len(who) != 1 or asked.past is not None or not isinstance(event.time, Unsaid | Now):
+        return None
+    speed = asked.world.measure("speed", who[0], asked.now)
+    if speed.value is None:
+        return None
+    moving = speed.value >= ROLLING
+    begun = occasion(asked, with_fields(event, action="go")) if moving else None
+    doing = _under_way(asked, event, Window(asked.now, asked.now))
+    facts: tuple[Fact, ...] = (begun,) if begun is not None else (speed,) if moving else doing
+    return Finding(moving, facts or (speed,))
+
+
+def _moved(asked: Asked, event: Event) -> Finding | None:
+    """Tell that somebody went who was in motion then, or is out of sight; None of others."""
+    if number(event.actor) is None and not is_us(event.actor):
+        return None
+    if occasion(asked, event) is not None:
+        return None
+    look = look_of(asked, event.actor, asked.now)
+    if look is not None and not look.in_view:
+        return Finding(True, (look,))
+    at = asked.now if event.tense == "perfect" else window(asked, event.time, event.tense).end
+    speed = asked.world.measure("speed", event.actor, min(at, asked.now))
+    moving = speed.value is not None and speed.value >= ROLLING
+    return Finding(True, (speed,)) if moving else None
 
 
 def _all_the_way(event: Event) -> bool:
@@ -71,6 +122,8 @@ def _intended(asked: Asked, event: Event) -> bool:
     """Tell whether "is he turning off?" asks of somebody what he has not begun: what comes."""
     if event.tense != "present" or not isinstance(event.time, Unsaid | Now):
         return False
+    if is_us(event.actor) and event.action in CHANGES:
+        return asked.past is None and occasion(asked, event) is None
     if number(event.actor) is None or asked.past is not None:
         return False
     meant = bool(macros(event)) or event.action in INTENDED
@@ -83,22 +136,30 @@ def _has_been(asked: Asked, event: Event) -> Finding:
     found = occasion(asked, event)
     about = window(asked, event.time, event.tense)
     if found is not None:
-        spent = Window(found.begin, asked.now if found.end is None else found.end)
-        wrong = wrong_belief(asked, event, spent, came=True)
-        before = belief_before(asked, event, found, found.begin) if macros(event) else None
-        shown = wrong if wrong is not None else before
-        return Finding(
-            True, (found,), None, () if shown is None else (shown,), wrong is not None,
-        )  # fmt: skip
+        wrong = wrong_belief(asked, event, Window(found.begin, found.begin), came=True)
+        believed = () if wrong is None else (wrong,)
+        return Finding(True, (found,), None, believed, wrong is not None)
     lost = _lost(asked, event, about)
     if lost is not None:
         return lost
     wrong = wrong_belief(asked, event, about, came=False) if _was_to_tell(asked, event) else None
-    facts: tuple[Fact, ...] = instead(asked, event, about)
+    facts: tuple[Fact, ...] = _how_hard(asked, event) or instead(asked, event, about)
     if event.tense == "present" or not facts:
         facts = (*_under_way(asked, event, about), *_speeds(asked, event, about)) or facts
-    believed = () if wrong is None else (wrong,)
-    return Finding(False, facts, None, believed, wrong is not None)
+    shown = () if wrong is None else (wrong,)
+    return Finding(False, facts, None, shown, wrong is not None)
+
+
+def _how_hard(asked: Asked, event: Event) -> tuple[Fact, ...]:
+    """Tell how hard somebody braked who did not brake hard."""
+    if event.action not in ("brake", "slow-down") or "hard" not in event.manner:
+        return ()
+    manner = tuple(m for m in event.manner if m != "hard")
+    found = occasion(asked, with_fields(event, manner=manner))
+    if found is None or found.peak is None:
+        return ()
+    return (Measure("deceleration", found.actor, found.begin, value=found.peak,
+                    until=found.end, extreme="highest"),)  # fmt: skip
 
 
 def _to_come(asked: Asked, event: Event) -> Finding:
@@ -113,24 +174,29 @@ def _to_come(asked: Asked, event: Event) -> Finding:
         other = _other_exit(asked, event)
         if other is not None:
             return Finding(False, (other,))
-        nearing = _nearing(asked, event)
+        nearing = nears(asked, event)
         if nearing is not None:
             return nearing
         found = foreseen(asked, event)
-        if found is None and event.action in ("continue", "keep-lane"):
+        if found is None and event.action in ("continue", "keep-lane", "follow"):
             moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
             remains = 1.0 - max((f.share for f in moves if f is not None), default=0.0)
             return expected(remains, *going)
         if found is None:
             return Finding(False, going, probability=0.0)
+        if going and event.action in CHANGES:
+            return Finding(True, going)
         begins = Measure(
             "time", event.actor, now, value=found.moment, low=found.low, high=found.high
         )
         return expected(found.share, *going, begins)
     vehicle = number(event.actor)
     if vehicle is None:
-        return _anybody(asked, event)
+        return likeliest(asked, event)
     look = look_of(asked, event.actor, now)
+    settled = passes(asked, event) or stays(asked, event, going)
+    if settled is not None:
+        return settled
     belief = asked.world.belief(vehicle, now)
     share = chance(asked, event, now)
     if share is None and belief is not None and (look is None or look.in_view):
@@ -138,19 +204,6 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if look is not None and not look.in_view and now - (look.seen or now) > RECENT:
         return Finding(None, (look,), "out-of-view", () if belief is None else (belief,))
     return expected(share, *going, believed=() if belief is None else (belief,))
-
-
-def _nearing(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether we are going to reach somebody in front: by how fast we both are now."""
-    look = look_of(asked, event.object, asked.now) if event.object is not None else None
-    if event.action not in ("approach", "pass") or look is None or not look.in_view:
-        return None
-    if look.oncoming or look.ahead <= 0.0:
-        return None
-    speeds = known(*(asked.world.measure("speed", who, asked.now)
-                     for who in (Ego(), Vehicle(look.vehicle))))  # fmt: skip
-    ours = next((m.value for m in speeds if isinstance(m.thing, Ego)), None)
-    return None if ours is None else Finding(ours > look.speed, speeds)
 
 
 def _other_exit(asked: Asked, event: Event) -> Measure | None:
@@ -161,21 +214,6 @@ def _other_exit(asked: Asked, event: Event) -> Measure | None:
     if taken.value is None or taken.count is None or taken.value == event.object.rank:
         return None
     return taken
-
-
-def _anybody(asked: Asked, event: Event) -> Finding:
-    """Tell what is to come of any of several vehicles: the likeliest of them counts."""
-    found = [
-        (share, v)
-        for v in somebodies(asked, event.actor, asked.now)
-        if isinstance(v, Vehicle)
-        and (share := chance(asked, with_fields(event, actor=v), asked.now)) is not None
-    ]
-    if not found:
-        return expected(None)
-    share, who = max(found, key=lambda one: one[0])
-    look = look_of(asked, who, asked.now)
-    return expected(share, *(() if look is None else (look,)))
 
 
 def _arrived(asked: Asked, event: Event) -> Finding:

@@ -16,12 +16,12 @@ from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.durations import lost
 from xavi_dialogue.explain.answers.reading import manner_of, vehicle_in
 from xavi_dialogue.explain.causes.crossing import Crossing, crossing
 from xavi_dialogue.explain.causes.driving import ego_speed
 
 SLOW = 4.0  # [m/s] below which going now is setting off
-SLOWING: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "give-way")
 JOINED = 0.5  # [s] between what belongs together
 LATELY = 1.0  # [s] since when what is named is still now
 NEAR = 25.0  # [s] around the slowing in which somebody let go counts
@@ -57,7 +57,8 @@ def hastened(
         causes = (MotionCause("right-of-way", vehicle=named),)
     met = _met(scene, deed, named, causes, setting_off=now is not None)
     first = next((c for c in causes if met is None or c.vehicle == met.vehicle), None)
-    saved = None if now is not None else _lost(scene, deed)
+    cost = None if now is not None else lost(scene, deed)
+    saved = None if cost is None else cost.value
     due = scene.world.measure("arrival-time", Ego(), scene.now).value
     whom = _let_go(scene, deed) | {c.vehicle for c in causes if c.kind == "right-of-way"}
     return Unslowed(
@@ -90,14 +91,6 @@ def _letting(scene: Asked, vehicle: int) -> Episode | None:
     slowed = scene.world.episodes(Ego(), ("slow-down", "brake"), begin - JOINED, begin + JOINED)
     known = [e for e in (*slowed, gave[-1]) if e.speed_from is not None]
     return known[0] if known else gave[-1]
-
-
-def _lost(scene: Asked, deed: Episode) -> float | None:
-    """How much time [s] the slowing and waiting cost of which a deed is a part."""
-    end = scene.now if deed.end is None else deed.end
-    part = scene.world.episodes(Ego(), SLOWING, deed.begin - JOINED, end + JOINED)
-    costs = [scene.world.delay(e).value for e in part if e.action in SLOWING]
-    return max((cost for cost in costs if cost is not None), default=None)
 
 
 def _now(event: Event, scene: Asked) -> Episode | None:

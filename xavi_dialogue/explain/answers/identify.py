@@ -38,7 +38,7 @@ from xavi_dialogue.explain.answers.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, occasions, overlaps
-from xavi_dialogue.explain.answers.picking import extreme_of, lately_lost
+from xavi_dialogue.explain.answers.picking import extreme_of, lately_lost, owed_by_other
 from xavi_dialogue.explain.answers.places import locate
 from xavi_dialogue.explain.answers.weighing import weigh
 
@@ -89,6 +89,10 @@ def which(question: Which, asked: Asked) -> Answer:
     such = question.such
     if such is None:
         return identified(asked, question.thing, asked.moment)
+    owed = owed_by_other(such)
+    given = None if owed is None else _who_did(replace(question, thing=Wanted()), owed, asked)
+    if isinstance(given, Identified) and not given.none:
+        return given
     first = who_first(asked, such)
     if first is not None:
         return first
@@ -233,6 +237,8 @@ def _candidates(question: Which, asked: Asked, *, ever: bool) -> tuple[Ego | Veh
     """Find who may be meant: those of the kind asked for; ours too where no kind is said."""
     thing, world = question.thing, asked.world
     at = asked.moment
+    if question.among:
+        return tuple(v for one in question.among for v in somebodies(asked, one, at))
     match thing:
         case Vehicle() | Vehicles():
             return somebodies(asked, thing, at)

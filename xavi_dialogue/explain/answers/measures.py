@@ -18,8 +18,9 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Thing,
     Vehicle,
+    WholeRide,
 )
-from xavi_dialogue.domain.vocabulary import Attribute
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.attributes import SPECIAL
 from xavi_dialogue.explain.answers.comfort import stretch
@@ -45,6 +46,8 @@ NUMBERS: frozenset[Attribute] = frozenset(
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
 #: Of two: the other one is ours where none is said.
 MUTUAL: frozenset[Attribute] = frozenset(("gap", "headway", "distance", "time-to-collision"))
+#: What takes no other name where somebody was near: "how close was it when it went by?".
+PASSING: frozenset[ActionName] = frozenset(("pass", "overtake", "cross", "come", "approach"))
 #: Whose extreme is over all vehicles where none is named.
 ANYBODY: frozenset[Attribute] = frozenset(("distance", "time-to-collision"))
 #: Answered of our own way, whatever thing was named.
@@ -61,6 +64,8 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
     check_sense(of.thing)
     check_sense(of.to)
     if isinstance(of.time, Relative) and isinstance(of.time.anchor, Event):
+        if question.extreme is not None and of.time.anchor.action in PASSING:
+            return how_much(replace(question, of=replace(of, time=WholeRide())), asked)
         raise did_not_happen(asked, of.time.anchor)
     if of.attribute == "speed" and of.to is not None:
         return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)

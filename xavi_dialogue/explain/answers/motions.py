@@ -16,10 +16,10 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
+from xavi_dialogue.explain.answers.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes import when
 from xavi_dialogue.explain.causes.contrast import against_best
 from xavi_dialogue.explain.causes.driving import ego_speed, reasons_for
@@ -45,6 +45,7 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
 }
 STILL: tuple[ActionName, ...] = ("stop", "stand")
 STANDING = 0.3  # [m/s]
+CREEPING = 2.5  # [m/s] down to which one has not stopped
 BEGUN = 0.3  # [s] after which the decision that led to it was in force
 WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
 
@@ -66,6 +67,19 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     if present and named != "speed-up":
         return _state(scene, event, named)
     raise _denied(scene, event, rows)
+
+
+def is_our_speed(of: Compares) -> bool:
+    """Tell whether our own speed is compared."""
+    right = isinstance(of.right, Measured) and is_own(of.right.thing)
+    return of.left.attribute == "speed" and (is_own(of.left.thing) or right)
+
+
+def is_slowing(scene: Asked) -> bool:
+    """Tell whether we are slowing down, and still drive."""
+    found = scene.world.episodes(Ego(), SLOWING, begin=scene.now - BEGUN)
+    speed = ego_speed(scene.ride, scene.now)
+    return any(e.end is None for e in found) and speed is not None and speed >= STANDING
 
 
 def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
@@ -196,9 +210,11 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     stopping = deed.action in (*STILL, *SLOWING) and _chose_stop(scene, deed, reasons.trace)
     if not ours and stopping:
         contrast = against_best(scene.ride, reasons.trace)
-        if contrast.decisive is not None and not contrast.close:
+        if contrast.decisive == "collision" and not contrast.close:
             past = is_past(scene, event)
             return ChoiceReason("why", deed, contrast, past=past)
+        if _given_up(scene, deed):
+            reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
     return MotionReason(
         deed=deed,
         causes=reasons.causes,
@@ -216,6 +232,13 @@ def _chose_stop(scene: Asked, deed: Episode, trace: PlanTrace) -> bool:
     """Whether stopping was what had been decided when it began."""
     begun = scene.ride.at(deed.begin + BEGUN)
     return chose(trace, "stop") or (begun is not None and chose(begun, "stop"))
+
+
+def _given_up(scene: Asked, deed: Episode) -> bool:
+    """Whether a stop that had been decided was given up before we stood."""
+    if deed.action in STILL or chose(scene.ride.latest, "stop"):
+        return False
+    return deed.speed_to is None or deed.speed_to > CREEPING
 
 
 def _state(scene: Asked, event: Event, named: ActionName) -> Answer:

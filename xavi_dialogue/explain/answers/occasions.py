@@ -7,13 +7,15 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotRecorded
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Everyone, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Ego, Event, Everyone, Junction, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.when import LEEWAY
 
+PAUSE = 0.5  # [s] between two of one kind, by which the second is another one
+CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
 GOING = 0.5  # [s] since when something still counts as going on
 TOLD = 2  # episodes that are told in place of what did not happen
 #: What goes on most of the time, and is told only where nothing else is there.
@@ -64,6 +66,12 @@ def _otherwise(event: Event) -> tuple[ActionName, ...]:
     """Give other names of what an event may be: who leaves a roundabout turns right."""
     if event.action == "turn" and event.side == "left":
         return ()
+    if event.action == "leave" and event.object == Junction("roundabout"):
+        return ("exit-right", "exit-straight", "exit-left")
+    if event.action == "leave" and event.object is None and not is_us(event.actor):
+        return ("turn", "disappear")
+    if event.action == "pass" and event.object is None:
+        return ("cross", "exit-straight", "exit-left", "exit-right")  # "has he got through"
     return OTHERWISE.get(event.action, ())
 
 
@@ -181,9 +189,15 @@ def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:
     found: list[Episode] = []
     for episode in sorted(episodes, key=lambda e: (e.begin, -_end(asked, e))):
         last = next((e for e in reversed(found) if e.actor == episode.actor), None)
-        if last is None or episode.begin > _end(asked, last) + 0.5 or _parted(last, episode):
+        if last is None or _parted(last, episode) or _is_after(asked, last, episode):
             found.append(episode)
     return tuple(found)
+
+
+def _is_after(asked: Asked, one: Episode, other: Episode) -> bool:
+    """Tell whether one has ended before another begins; lane changes may follow at once."""
+    pause = 0.0 if one.action == other.action and one.action in CHANGED else PAUSE
+    return other.begin >= _end(asked, one) + pause
 
 
 def duration(asked: Asked, episode: Episode) -> float:

@@ -80,6 +80,8 @@ def which_way(of: Measured, asked: Asked) -> Answer:
     if past or at < asked.now - SHORT:
         return _way_taken(of, asked, at)
     steps = steps_ahead(asked)
+    if of.event is not None:  # "after how many metres do we turn?"
+        return course(asked, "way", _turning(steps, of.event)[:1])
     round_ = isinstance(of.to, Junction) and of.to.form == "roundabout"
     if round_ or of.attribute == "exit-number":
         steps = tuple(s for s in steps if s.kind == "roundabout")
@@ -108,12 +110,16 @@ def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
 
 def turns_left(asked: Asked, event: Event) -> Course:
     """Tell how many turns are still to come, and which: roundabouts count."""
+    return course(asked, "turns", _turning(steps_ahead(asked), event))
+
+
+def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
+    """List where we turn as asked about: roundabouts count."""
     wanted = None if event.action == "turn" else event.action
-    steps = [
-        s for s in steps_ahead(asked)
+    return tuple(
+        s for s in steps
         if s.kind == "roundabout" or (s.turn == wanted if wanted else s.turn != "exit-straight")
-    ]  # fmt: skip
-    return course(asked, "turns", tuple(steps))
+    )  # fmt: skip
 
 
 def junctions_left(asked: Asked, of: Junction) -> Course:
@@ -141,15 +147,24 @@ def whether_ours(question: Whether, asked: Asked) -> Course | None:
     if place is not None and asked.past is None:
         found = junctions_left(asked, place)
         return replace(found, holds=bool(found.steps))
+    missed = _missed(question.that, asked)
+    if missed is not None:
+        left = _by_exit(asked, steps_ahead(asked), missed)
+        return None if left is None else replace(left, holds=False)
     event = _own_way(question.that)
     if event is None or (asked.past is not None and not isinstance(event.time, WholeRide)):
         return None
     steps = steps_ahead(asked)
     if isinstance(event.object, Road):
         turning = tuple(s for s in steps if s.turn != "exit-straight" or s.kind == "roundabout")
+        if event.action == "leave" and turning:
+            return course(asked, "way", turning[:1], holds=True)
         return course(asked, "road", turning[:1], holds=not turning)
     if event.tense == "present" and occasion(asked, event) is not None:
         return None
+    if event.action == "enter":
+        ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
+        return course(asked, "way", ring) if ring else None
     if isinstance(event.object, Exit) or event.action == "leave":
         return _by_exit(asked, steps, event)
     rank = event.object.rank if isinstance(event.object, Junction) else None
@@ -168,6 +183,19 @@ def _ahead_of_us(that: Proposition) -> Junction | None:
         that = that.content
     if isinstance(that, Exists) and that.tense != "past" and isinstance(that.thing, Junction):
         return that.thing
+    match that:  # "are we going on the roundabout?"
+        case Happens(event=Event(action="enter", actor=Ego(), object=Junction() as place) as event):
+            ahead = place.form == "roundabout" and event.tense in ("present", "future")
+            return place if ahead and event.modal is None else None
+    return None
+
+
+def _missed(that: Proposition, asked: Asked) -> Event | None:
+    """Take "did we go past our exit?" for whether we have left, where we did not pass one."""
+    match that:
+        case Happens(event=Event(action="pass", object=Exit()) as event) if is_us(event.actor):
+            if occasion(asked, event) is None:
+                return replace(event, action="leave", object=None, tense="present", time=Now())
     return None
 
 
@@ -184,8 +212,11 @@ def _own_way(that: Proposition) -> Event | None:
         return None
     if event.action == "continue":
         return event if event.object is None or isinstance(event.object, Road) else None
+    if event.action == "enter":
+        return event if event.object == Junction("roundabout") else None
     if event.action == "leave":
-        return event if event.object is None or _is_exit(event.object) else None
+        placed = isinstance(event.object, Road) or _is_exit(event.object)
+        return event if event.object is None or placed else None
     return event if event.action in WAYS and not isinstance(event.object, Road) else None
 
 

@@ -64,6 +64,20 @@ def why(event: Event, scene: Asked, *, negated: bool) -> Answer:
     return _deed(event, scene, vehicle)
 
 
+def slows(scene: Asked, vehicle: int) -> bool:
+    """Tell whether it is slowing down or stands, rather than driving slowly all the time."""
+    begin = scene.now - RECENT
+    return bool(scene.world.episodes(Vehicle(vehicle), STILL | SLOWING, begin, scene.now))
+
+
+def slowly(scene: Asked, vehicle: int) -> Answer:
+    """Tell why it drives slowly, who does not slow down: who is in its way, if anybody."""
+    speed = scene.world.measure("speed", Vehicle(vehicle), scene.now).value
+    deed = Episode(Vehicle(vehicle), "move", scene.now, speed_to=speed)
+    hindered = at_present(scene.ride, vehicle, scene.now)
+    return OtherReason(vehicle, deed, None, hindered.causes, None, hindered.evidence)
+
+
 def believed(content: Proposition, scene: Asked) -> Answer:
     """Tell what made us expect something of another vehicle.
 

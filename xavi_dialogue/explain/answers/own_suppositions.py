@@ -9,6 +9,7 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Contrast,
     DidNotHappen,
+    MotionCause,
     NotApplicable,
     SupposedOfUs,
 )
@@ -20,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Happens,
     Is,
+    Lane,
     Measured,
     Proposition,
 )
@@ -39,12 +41,15 @@ from xavi_dialogue.explain.answers.reading import (
     vehicle_in,
 )
 from xavi_dialogue.explain.causes.actions import CHANGES, DRIVING, names_of
+from xavi_dialogue.explain.causes.blocking import blocking
 from xavi_dialogue.explain.causes.contrast import SameAsPlan, against_best, contrast
-from xavi_dialogue.explain.causes.natural import on_way
+from xavi_dialogue.explain.causes.natural import STAYING, on_way
 from xavi_dialogue.explain.causes.premise import happened, is_open, manoeuvre, premise
 from xavi_dialogue.explain.history.ride import planned
 
+STANDING = 0.5  # [m/s]
 EARLIER = 8.0  # [s] by which something could have been begun earlier
+PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
 
@@ -97,6 +102,10 @@ def paced(of: Proposition | None) -> Event | None:
                 return None
             action: ActionName = "slow-down" if how == "less" else "go"
             return Event(action, manner=("slowly" if how == "less" else "fast",), tense=tense)
+        case Is(state="fast" | "slow" as state, thing=thing, tense=tense) if is_own(thing):
+            if state == "slow":
+                return Event("slow-down", manner=("slowly",), tense=tense)
+            return Event("go", manner=("fast",), tense=tense)
     return None
 
 
@@ -128,9 +137,17 @@ def of_us(
             return _done(event, scene, past=past)
         raise
     nearest = event.action if event.action in ("brake", "slow-down") else None
-    return SupposedOfUs(
-        against, past=past, asked=nearest, form=form, arrival=arrival(scene, against)
-    )
+    due, ahead = arrival(scene, against), _standing_ahead(scene, against)
+    return SupposedOfUs(against, past=past, asked=nearest, form=form, arrival=due, ahead=ahead)
+
+
+def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
+    """Tell who stood in our lane where it is supposed that we had stayed in it."""
+    fact = against.fact[:1]
+    if against.foil != STAYING or not fact or fact[0] not in CHANGES:
+        return None
+    found = blocking(scene.ride, scene.world, against.decided, fact[0])
+    return found if found is not None and (found.speed or 0.0) < STANDING else None
 
 
 def _against(event: Event, scene: Asked) -> Contrast:
@@ -158,6 +175,9 @@ def _against(event: Event, scene: Asked) -> Contrast:
 def _staying(event: Event, scene: Asked) -> Event:
     """Read staying or waiting behind somebody whom we moved out for as staying in our lane."""
     behind = event.where is not None and event.where.relation == "behind"
+    lane = None if event.where is None else event.where.to
+    if isinstance(lane, Lane) and lane.which == "own" and event.action in ("pass", "overtake"):
+        return structs.replace(event, action="keep-lane", object=None, where=None)
     if event.action != "follow" and not (behind and event.action in ("stand", "wait", "stop")):
         return event
     deed = manoeuvre(scene.ride, scene.span)
@@ -194,8 +214,16 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
     names = names_of(event)
     if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
         return hastened(event, scene, form, struck)  # no choice of its own
-    reason = choices.why(event, scene)
+    try:
+        reason = choices.why(event, scene)
+    except Unanswered as unanswered:
+        around = event.action in PAST and isinstance(unanswered.result, DidNotHappen)
+        moved = [deed for deed in scene.ride.deeds if deed.action in CHANGES]
+        if not around or not moved:
+            raise
+        reason = choices.why(Event(moved[-1].action), replace(scene, span=None))
     assert isinstance(reason, ChoiceReason)
     against = reason.contrast
     past = reason.past or event.tense == "perfect"
-    return SupposedOfUs(against, past=past, form=form, arrival=arrival(scene, against))
+    due, ahead = arrival(scene, against), _standing_ahead(scene, against)
+    return SupposedOfUs(against, past=past, form=form, arrival=due, ahead=ahead)

@@ -2,10 +2,28 @@
 
 from collections.abc import Callable
 
-from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.terms import Described, Thing, Vehicle
-from xavi_dialogue.explain.answers.asked import Asked
+from msgspec.structs import replace
 
+from xavi_dialogue.domain.answers import Verdict
+from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Everyone,
+    Happens,
+    Nobody,
+    Proposition,
+    Related,
+    Thing,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.findings import Finding, expected
+from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.naming import somebodies
+
+LIKELY = 0.5  # probability from which it is told who of several is going to do something
 LATELY = 10.0  # [s] for which one that was lost from view may still be around
 
 
@@ -30,3 +48,33 @@ def lately_lost(asked: Asked, look: Look) -> bool:
         return False
     shown = asked.world.measure("visibility", Vehicle(look.vehicle), asked.now)
     return shown.word == "hidden" or look.seen >= asked.now - LATELY
+
+
+def owed_by_other(such: Proposition) -> Happens | None:
+    """Take "who has right of way over vehicle 2" for whom it gives way to; None: else."""
+    match such:
+        case Related("has-priority-over", Wanted() | Described(), Vehicle() as by):
+            pass
+        case Related("must-yield-to", Vehicle() as by, Wanted() | Described()):
+            pass
+        case _:
+            return None
+    return Happens(Event("give-way", by, Wanted(), time=such.time, tense=such.tense))
+
+
+def likeliest(asked: Asked, event: Event) -> Finding:
+    """Tell what is to come of any of several vehicles: the likeliest of them counts."""
+    anybody = isinstance(event.actor, Nobody)  # "will anybody let us in?"
+    found = [
+        (share, v)
+        for v in somebodies(asked, Everyone() if anybody else event.actor, asked.now)
+        if isinstance(v, Vehicle)
+        and (share := chance(asked, replace(event, actor=v), asked.now)) is not None
+    ]
+    if not found:
+        return expected(None)
+    share, who = max(found, key=lambda one: one[0])
+    if share < LIKELY:
+        return expected(share)
+    told = Verdict(Happens(replace(event, actor=who)), None, probability=share)
+    return Finding(None, probability=share, answer=told)

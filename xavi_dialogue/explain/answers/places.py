@@ -28,6 +28,7 @@ from xavi_dialogue.explain.answers.naming import check_sense, first_look, looks,
 from xavi_dialogue.explain.answers.occasions import taken_place
 from xavi_dialogue.explain.answers.plans import current_plan, plan_ahead
 
+TOLD = 2  # vehicles of which it is told where they have gone
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
 #: What somebody did of whom it is asked where he has gone.
 LEAVING: frozenset[ActionName] = frozenset(
@@ -46,6 +47,8 @@ def where(question: Where, asked: Asked) -> Answer:
     if isinstance(of, Event):
         if isinstance(of.actor, Vehicle) and of.action in LEAVING and of.object is None:
             return gone(asked, of.actor)
+        if isinstance(of.actor, Everyone) and of.action in LEAVING:
+            return _vehicles(asked, Vehicles(_left_behind(asked)), asked.now)
         return took_place(asked, of)
     return locate(asked, of, instant(asked, question.time))
 
@@ -224,6 +227,14 @@ def _vehicles(asked: Asked, thing: Thing, at: float) -> Located:
         return Located(thing, tuple(x for x in first if x is not None), gap="out-of-view")
     lost = bool(seen) and not any(look.in_view for look in seen)
     return Located(thing, seen, gap="out-of-view" if lost else None)
+
+
+def _left_behind(asked: Asked) -> tuple[int, ...]:
+    """Tell who is no longer around: those out of view, else those behind us."""
+    seen = looks(asked, asked.world.vehicles, asked.now)
+    lost = sorted((x for x in seen if not x.in_view), key=lambda x: -(x.seen or 0.0))
+    gone_by = tuple(look.vehicle for look in seen if look.ahead < 0.0)
+    return tuple(look.vehicle for look in lost[:TOLD]) or gone_by[:TOLD]
 
 
 def _last_way(asked: Asked, vehicle: int) -> Episode | None:

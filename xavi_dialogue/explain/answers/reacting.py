@@ -101,7 +101,11 @@ def reaction(
     action = None if event is None or negated else event.action
     in_lane = action in IN_LANE
     if past and not (scene.past is not None and scene.past.said):
-        time = _closest(scene, vehicle, scene.now, in_lane=in_lane)
+        ahead = _closest(scene, vehicle, scene.now, in_lane=in_lane)
+        if ahead is None and action in STARTING:  # it stood beside our way, not on it
+            in_lane = False
+            ahead = _closest(scene, vehicle, scene.now, in_lane=False)
+        time = scene.now if ahead is None else ahead
     found = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
     if found is None:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=time))
@@ -123,10 +127,11 @@ def reaction(
     )
 
 
-def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float:
+def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float | None:
     """The time [s] up to the last one at which a sudden act would have left us the least room.
 
-    Somebody who stops or brakes matters to us while it drives ahead of us, else while we wait.
+    Somebody who stops or brakes matters to us while it drives ahead of us, else while we wait;
+    None where it never did.
     """
     found = []
     for k in range(round(LOOK_BACK / STEP) + 1):
@@ -137,7 +142,7 @@ def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float
         rank = 0 if one.left is not None else 1 if one.kind == "standing" or not in_lane else 2
         if rank < 2 or not in_lane:
             found.append((rank, one.room - (one.needed or 0.0), time))
-    return min(found)[2] if found else last
+    return min(found)[2] if found else None
 
 
 def is_somebody(event: Event | None) -> bool:

@@ -3,6 +3,7 @@
 from msgspec import structs
 
 from xavi_dialogue.domain.answers import Answer, DidNotHappen
+from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -31,6 +32,8 @@ from xavi_dialogue.explain.answers import (
     signalling,
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reading import (
     check_able,
     check_seen,
@@ -82,6 +85,9 @@ def why(question: Why, scene: Asked) -> Answer:
 
 def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:
     match of:
+        case Happens(event) if not negated and _goes_first(event):
+            past = scene.past or Span(scene.now, scene.now)
+            return priority_at(scene, vehicle_in(event.actor), Window(past.begin, past.end))
         case Happens(event) if not is_own(event.actor) and vehicle_in(event.actor) is not None:
             return others.why(event, scene, negated=negated)
         case Happens(event):
@@ -90,8 +96,10 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
             return _state(of, scene, question, negated=negated)
         case Related():
             return _related(of, scene, question)
-        case Compares(left=left) if is_own(left.thing) and left.attribute == "speed":
-            return motions.fast(scene) if of.comparator == "more" else motions.slow(scene)
+        case Compares(left=left) if motions.is_our_speed(of):
+            ahead = of.comparator == "more" and is_own(left.thing)
+            behind = of.comparator == "less" and not is_own(left.thing)
+            return motions.fast(scene) if ahead or behind else motions.slow(scene)
         case Compares(left=left) if left.attribute in LASTING and vehicle_in(left.thing) is None:
             return motions.motion(Event("wait", tense=left.tense, time=left.time), scene)
         case Compares(left=left) if left.attribute in ("gap", "headway", "distance"):
@@ -107,6 +115,12 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
     return choices.why(None, scene)
 
 
+def _goes_first(event: Event) -> bool:
+    """Whether another vehicle is said to go first: its right of way tells why."""
+    going = event.action in GOING and manner_of(event, "first") is not None
+    return going and vehicle_in(event.actor) is not None
+
+
 def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     """Tell why we did something, or drove so.
 
@@ -116,6 +130,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     check_able(event)
     if event.action in ("collide", "nearly-collide"):
         return deciding.how_avoid(HowAvoid(Happens(event)), scene)  # nobody decides to collide
+    event = going.sideways(event, scene)
     instead = None if question is None else question.instead
     if event.action in GOING | {"continue"}:
         if manner_of(event, "suddenly") is not None and manner_of(event, "slowly") is not None:
@@ -224,8 +239,12 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if vehicle is not None and of.state in SLOW | {"moving", "fast"}:
         action: ActionName = "stand" if of.state in ("stationary", "stuck") else "slow-down"
         event = Event(action, of.thing or _nobody(), tense=of.tense)
+        if of.state == "slow" and scene.past is None and not others.slows(scene, vehicle):
+            return others.slowly(scene, vehicle)
         return others.why(event, scene, negated=negated and of.state == "moving")
     if of.state in SLOW and is_own(of.thing):
+        if of.tense == "present" and motions.is_slowing(scene):
+            return motions.motion(Event("slow-down", tense="present"), scene)
         return motions.standing_or_slow(scene, Event("move", tense=of.tense))
     if of.state == "fast" and is_own(of.thing):
         return motions.fast(scene)

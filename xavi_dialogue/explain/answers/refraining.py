@@ -6,10 +6,13 @@ from msgspec import structs
 
 from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import Answer, Bystander, DidNotHappen, GoReason, MotionReason
+from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.terms import Event, Lane, Related
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, going, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
 from xavi_dialogue.explain.causes.actions import CHANGES, HALTS
 from xavi_dialogue.explain.history.deeds import Deed
@@ -39,7 +42,8 @@ def refrained(event: Event, scene: Asked) -> Answer:
     behind = isinstance(event.where, Related) and event.where.relation == "behind"
     stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
     since = math.inf if change is None else scene.moment - change.time
-    fresh = crossed is None and (since <= FRESH or event.action == "wait")
+    slowing = event.action in ("slow-down", "brake")
+    fresh = crossed is None and not slowing and (since <= FRESH or event.action == "wait")
     if change is not None and (stays or fresh):
         past = change.ended is not None
         foil = Event("keep-lane", tense="past" if past else event.tense, time=event.time)
@@ -85,12 +89,20 @@ def _done(event: Event, scene: Asked) -> Answer:
 
 def _undone(event: Event, scene: Asked) -> Answer:
     """Why we did not, where no junction and no other lane is in question."""
+    vehicle = vehicle_in(event.object)
+    if vehicle is not None and event.action in ("let-go", "give-way", "wait"):
+        past = scene.past or Span(scene.now, scene.now)
+        rule = priority_at(scene, vehicle, Window(past.begin, past.end))
+        if rule.rule == "priority":
+            return rule
     if is_past(scene, event) and event.action != "stop":
         try:
             return _done(structs.replace(event, object=None), scene)
         except Unanswered as unanswered:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise
+    if event.action in ("slow-down", "brake") and not is_past(scene, event):
+        return motions.fast(scene)
     foil = Event("stop", tense=event.tense, time=event.time)
     return choices.why_not(foil, scene)
 

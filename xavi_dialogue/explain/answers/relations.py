@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Fact, Look, Relating
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Road, Thing, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Road, Thing, Unsaid, Vehicle
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
@@ -48,7 +48,8 @@ def related(of: Related, asked: Asked) -> Finding:
     if of.relation == "same-as":
         one, other = number(of.thing), number(of.to)
         both = somebodies(asked, of.thing, about.end) + somebodies(asked, of.to, about.end)
-        seen = looks(asked, tuple(v.number for v in both if isinstance(v, Vehicle)), about.end)
+        numbers = dict.fromkeys(v.number for v in both if isinstance(v, Vehicle))
+        seen = looks(asked, tuple(numbers), about.end)
         return Finding(one == other, seen)
     found = [_between(of, asked, thing, to, about) for thing in _each(asked, of.thing, about.end)
              for to in _each(asked, of.to, about.end)]  # fmt: skip
@@ -77,6 +78,8 @@ def holds_over(
 
 def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) -> Finding:
     near = about if is_past(asked, of.time, of.tense) else Window(asked.now, asked.now)
+    if of.relation == "with" and isinstance(of.time, Unsaid):
+        near = Window(asked.now, asked.now)  # who came with us is with us
     holds, at = holds_over(asked, of.relation, thing, to, near)
     facts = _facts(of, asked, thing, to, at)
     if holds is False and is_us(to) and of.relation in ("behind", "ahead-of"):

@@ -39,6 +39,7 @@ def request(act: Request, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is of what is unknown; or rollouts are needed.
     """
+    act = replace(act, event=_paced(act.event))
     event = act.event
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)
@@ -58,6 +59,13 @@ def request(act: Request, asked: Asked) -> Answer:
     facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None
     return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts, cause=cause)
+
+
+def _paced(event: Event) -> Event:
+    """Read going past somebody slowly, or fast, as a wish about our speed."""
+    if event.action in ("pass", "overtake", "go", "move") and "slowly" in event.manner:
+        return replace(event, action="slow-down", object=None, manner=())
+    return event
 
 
 def _meant(asked: Asked, event: Event, trend: str | None) -> bool:

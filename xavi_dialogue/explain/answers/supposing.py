@@ -83,13 +83,25 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
         raise Unanswered(CannotSay("unsupported-condition"))
     if vehicle is not None:
         return _of_other(question, scene, of, vehicle, negated=negated)
-    event = event or paced(of)
+    event = event or _faster(paced(of), question.then)
+    if event is not None and event.object is not None and "fast" in event.manner:
+        form = "could"
     if event is None or not is_own(event.actor):
         raise Unanswered(CannotSay("unsupported-condition"))
     struck = struck_in(question.then)
     if negated:
         return undone(event, scene, form, struck)
     return of_us(event, scene, form, struck)
+
+
+def _faster(event: Event | None, then: Question | None) -> Event | None:
+    """Read "if you were faster, could you have gone before him?" as going before him."""
+    asked = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or asked is None or "fast" not in event.manner:
+        return event
+    if not is_own(asked.actor) or asked.object is None:
+        return event
+    return structs.replace(asked, modal="would", manner=(*asked.manner, "fast"))
 
 
 def _asks_of_other(then: Question | None) -> bool:
@@ -125,6 +137,9 @@ def _of_other(
     question: WhatIf, scene: Asked, of: Proposition | None, vehicle: int, *, negated: bool
 ) -> Answer:
     event = event_of(of)
+    if event is not None and event.then is not None and event.then.action in reacting.COLLIDING:
+        event = structs.replace(event, action="cut-in", object=None, then=None)
+        of = Happens(event)
     past = _past(scene, of, _then(question.then), vehicle, now=_asks_now(question.then))
     if event is not None and event.action in reacting.COLLIDING:
         return closeness(scene, vehicle, Window(scene.now, scene.now), "hit", past=False)

@@ -5,12 +5,14 @@ from dataclasses import replace as refound
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Priority, Verdict
-from xavi_dialogue.domain.meaning import Claim, Whether, Why
+from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
+    Compares,
     Happens,
     Is,
+    Measured,
     Not,
     Proposition,
     Related,
@@ -20,9 +22,10 @@ from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.conditions import handed
 from xavi_dialogue.explain.answers.findings import Finding
-from xavi_dialogue.explain.answers.naming import first_look, is_us
+from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.onward import whether_ours
+from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.weighing import weigh
 
 #: Manners that are a matter of opinion: what we did so is met with its reason.
@@ -99,13 +102,27 @@ def claim(act: Claim, asked: Asked) -> Answer:
 
 
 def _disputed(that: Proposition, asked: Asked) -> Answer | None:
-    """Give the reason for what we did, where it is said to have been late, early or long."""
+    """Give the reason for what we did that is said to be late, early or long, or what it cost."""
     match that:
         case Happens(event=event) if event.modal is None and is_us(event.actor):
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
             return handed(Why(that), asked) if slow or judged else None
+        case Compares(left=Measured(attribute="delay" | "duration" as lasts) as left, right=None):
+            timed = lasts == "delay" or number(left.thing) is not None
+            return _cost(HowMuch(replace(left, attribute="delay")), asked) if timed else None
     return None
+
+
+def _cost(question: HowMuch, asked: Asked) -> Answer:
+    """Tell what something cost in time, where it is said or asked whether it cost any."""
+    # Deferred: measures may themselves be of what holds.
+    from xavi_dialogue.explain.answers.measures import how_much
+
+    event = question.of.event
+    if event is not None and event.modal in ("would", "could"):
+        return of_us(event, asked, "quicker")
+    return how_much(question, asked)
 
 
 def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:

@@ -147,8 +147,8 @@ def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> fl
 
 
 def _sound(way: _Way) -> bool:
-    """Whether an option is no worse a choice: it neither collides nor loses the way."""
-    return all(
+    """Whether an option is no worse a choice: it is no stop, collides not nor loses the way."""
+    return way.foil[:1] != ("stop",) and all(
         way.there.outcomes[name] <= max(way.here.outcomes[name], 0.05)
         for name in ("collision", "dead")
     )

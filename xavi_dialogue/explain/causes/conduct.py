@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from planner.trace import PlanTrace, TrajectoryPrediction
+from planner.trace import GoalPrediction, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotRecorded
@@ -11,7 +11,7 @@ from xavi_dialogue.domain.terms import Event, Lane, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.actions import EXITS, TURN_WORDS, names_of
 from xavi_dialogue.explain.causes.involved import expected_actions
-from xavi_dialogue.explain.history.motion import foresees
+from xavi_dialogue.explain.history.motion import branches_off, foretold, steps
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, prediction
 
 #: What a vehicle does as far as predicted ways can tell, by what people say.
@@ -55,14 +55,14 @@ def matching(model: CausalModel, vehicle: int, names: Sequence[ActionName]) -> f
     return frozenset(
         (g, t)
         for g, t in model.choices(vehicle)
-        if any(_does(known.goals[g].trajectories[t], name) for name in names)
+        if any(_does(known.goals[g], known.goals[g].trajectories[t], name) for name in names)
     )
 
 
-def _does(way: TrajectoryPrediction, name: ActionName) -> bool:
+def _does(goal: GoalPrediction, way: TrajectoryPrediction, name: ActionName) -> bool:
     """Whether a predicted way contains an action; of leaving, that it does so at the next exit."""
-    if name != "leave":
-        return foresees(way, name)
+    if name != "leave" or branches_off(goal, way):
+        return foretold(goal, way, name)
     first = next((action for action in way.actions if action != "continue"), None)
     return first in EXITS
 
@@ -91,10 +91,10 @@ def likeliest(
 def belief_of(ride: Ride, trace: PlanTrace, vehicle: int) -> Belief:
     """Tell what a decision expects of a vehicle, likeliest first: its actions, and how probable."""
     known = prediction(trace, vehicle)
-    found: dict[Actions, tuple[float, str | None]] = {}
+    found: dict[tuple[ActionName, ...], tuple[float, str | None]] = {}
     if known is not None:
         for (g, t), chance in ride.model(trace).choices(vehicle).items():
-            actions = known.goals[g].trajectories[t].actions
+            actions = steps(known.goals[g], known.goals[g].trajectories[t])
             before, edge = found.get(actions, (0.0, known.goals[g].edge))
             found[actions] = (before + chance, edge)
     ranked = sorted(found, key=lambda actions: -found[actions][0])

@@ -42,7 +42,8 @@ def speeding_up(ride: Ride, deed: Episode) -> tuple[MotionCause, ...]:
     stood = [t for t, v in zip(motion.time, motion.speed, strict=True) if v < STANDING]
     if any(deed.begin - AGAIN <= t <= deed.begin + AGAIN for t in stood):
         found.append(MotionCause("starting"))
-    limit = limit_at(ride, deed.begin)
+    known = [limit_at(ride, t) for t in (deed.begin, ride.now if deed.end is None else deed.end)]
+    limit = max((one for one in known if one is not None), default=None)
     if limit is not None and deed.speed_from is not None and deed.speed_from < limit:
         found.append(MotionCause("limit", value=limit))
     return tuple(found) or (MotionCause("plan"),)

@@ -21,6 +21,7 @@ class Kind:
 ATTRIBUTES: Mapping[Attribute, Kind] = {
     "speed": Kind("m/s", 0.5),
     "limit": Kind("m/s", 0.1),
+    "speed-change": Kind("m/s", 0.5),
     "excess": Kind("m/s", 0.3),
     "acceleration": Kind("m/s2", 0.3),
     "deceleration": Kind("m/s2", 0.3),
@@ -63,6 +64,10 @@ ATTRIBUTES: Mapping[Attribute, Kind] = {
     "money": Kind(""),
     "law": Kind(""),
     "world": Kind(""),
+    "load": Kind(""),
+    "occupant": Kind(""),
+    "writing": Kind(""),
+    "parts": Kind(""),
 }
 
 

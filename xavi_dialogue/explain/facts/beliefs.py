@@ -6,7 +6,7 @@ from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import SIDES, covered, somebody
 from xavi_dialogue.explain.facts.states import States
-from xavi_dialogue.explain.history.motion import EPSILON, foresees
+from xavi_dialogue.explain.history.motion import EPSILON, foretold, steps
 from xavi_dialogue.explain.history.ride import prediction
 
 
@@ -45,12 +45,13 @@ def _belief(trace: PlanTrace, vehicle: int) -> Belief | None:
     for goal in known.goals:
         for way in goal.trajectories:
             chance = goal.probability * way.probability
-            found[way.actions] = found.get(way.actions, 0.0) + chance
-            if chance > edges.get(way.actions, (-1.0, None))[0]:
-                edges[way.actions] = (chance, goal.edge)
+            actions = steps(goal, way)
+            found[actions] = found.get(actions, 0.0) + chance
+            if chance > edges.get(actions, (-1.0, None))[0]:
+                edges[actions] = (chance, goal.edge)
     ranked = sorted(found.items(), key=lambda item: -item[1])
     expected = tuple(
-        Expectation(actions, min(chance, 1.0), edges[actions][1])  # type: ignore[arg-type]
+        Expectation(actions, min(chance, 1.0), edges[actions][1])
         for actions, chance in ranked
     )
     return Belief(vehicle, trace.sim_time, expected)
@@ -66,12 +67,13 @@ def probability(states: States, event: Event, at: float) -> float | None:
     known = None if k is None else prediction(states.ride.traces[k], vehicle)
     if known is None:
         return None
-    actions = {a for a in covered(frozenset((event.action,))) if _side_fits(a, event)}
+    covering = covered(frozenset((event.action,)))
+    actions = frozenset(action for action in covering if _side_fits(action, event))
     chances = [
         goal.probability * way.probability
         for goal in known.goals
         for way in goal.trajectories
-        if any(foresees(way, action) for action in actions)
+        if any(foretold(goal, way, action) for action in actions)
     ]
     return min(sum(chances), 1.0)
 

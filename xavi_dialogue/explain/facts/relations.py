@@ -54,11 +54,18 @@ def _placed(fits: Callable[[Offset], bool]) -> Callable[[States, int, int, float
 
 
 def _ahead(seen: Offset) -> bool:
-    return seen.ahead > 0.0 and abs(seen.left) <= max(ROAD_WIDTH, 0.5 * seen.ahead)
+    near = abs(seen.left) <= max(ROAD_WIDTH, 0.5 * seen.ahead)
+    return seen.ahead > 0.0 and near and not _alongside(seen)
 
 
 def _behind(seen: Offset) -> bool:
-    return seen.ahead < 0.0 and abs(seen.left) <= max(ROAD_WIDTH, -0.5 * seen.ahead)
+    near = abs(seen.left) <= max(ROAD_WIDTH, -0.5 * seen.ahead)
+    return seen.ahead < 0.0 and near and not _alongside(seen)
+
+
+def _alongside(seen: Offset) -> bool:
+    """Whether it drives our way in a lane beside us: neither ahead nor behind."""
+    return seen.same_way and abs(seen.ahead) <= seen.clear and abs(seen.left) > SAME_LANE
 
 
 def _beside(seen: Offset) -> bool:
@@ -162,12 +169,18 @@ def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
     return None
 
 
-def _followed(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether the first drives with, after or before the second on one line."""
+def _together(states: States, thing: int, to: int, at: float) -> Told:
+    """Whether two drive along together: on one road or roundabout, or one behind the other."""
+    here, there = states.place(thing, at), states.place(to, at)
+    if here is None or there is None:
+        alike = False
+    else:
+        alike = here.edge == there.edge or (here.roundabout and there.roundabout)
+    if alike:
+        return True
     if EGO not in (thing, to):
         return None
-    other = to if thing == EGO else thing
-    found = followings(states, other)
+    found = followings(states, to if thing == EGO else thing)
     return any(e.begin <= at <= _end(states, e.end) + EPSILON for e in found)
 
 
@@ -187,5 +200,5 @@ OF_TWO: Mapping[Relation, Callable[[States, int, int, float], Told]] = {
     "in-the-way-of": _in_the_way,
     "faster-than": _speeds(1.0),
     "slower-than": _speeds(-1.0),
-    "with": _followed,
+    "with": _together,
 }

@@ -15,7 +15,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.trace import SAMPLE_PERIOD, TrajectoryPrediction
+from planner.goals import BRANCHES
+from planner.trace import SAMPLE_PERIOD, GoalPrediction, TrajectoryPrediction
 from sim.scene import Point
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.history.thresholds import (
@@ -261,6 +262,25 @@ def _sideways(motion: Motion) -> Array:
     fits = known & (np.abs(now - then) <= ALONG) & (slant <= SLANT) & (first * last > 0.0)
     fits &= time[:, None] - time[before] <= LANE_TIME + EPSILON
     return np.where(fits, np.where(np.abs(first) < np.abs(last), first, last), 0.0)
+
+
+def branches_off(goal: GoalPrediction, way: TrajectoryPrediction) -> bool:
+    """Whether the way to a goal ends on a road that branches off the one that goes on."""
+    return goal.place in BRANCHES.values() and way.actions[-1:] == ("continue",)
+
+
+def steps(goal: GoalPrediction, way: TrajectoryPrediction) -> tuple[ActionName, ...]:
+    """What a vehicle does on the way to a goal; where its road branches off, it leaves."""
+    return (*way.actions[:-1], "leave") if branches_off(goal, way) else way.actions
+
+
+def foretold(goal: GoalPrediction, way: TrajectoryPrediction, action: ActionName) -> bool:
+    """Whether the way to a goal contains an action; a road that branches off is not straight on."""
+    if not branches_off(goal, way):
+        return foresees(way, action)
+    if action in ("continue", "exit-straight"):
+        return False
+    return action == "leave" or foresees(way, action)
 
 
 def foresees(way: TrajectoryPrediction, action: ActionName) -> bool:

@@ -29,6 +29,7 @@ from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 STATES = frozenset(("see", "have", "happen"))
 PLACES = (Junction, Exit, Lane, Road)  # they are blocked as such, not their way
 LEAVING = frozenset(("leave", "exit-left", "exit-right", "exit-straight", "turn"))
+_AS = {"same-as": "like", "with": "with"}  # beside what is done, in place of the relation
 _PREPOSITIONS = frozenset(("for", "to", "of", "at", "from", "with"))
 
 
@@ -119,6 +120,7 @@ def event_clause(
     coming = event.action in ("come", "approach")  # that says itself that it is towards us
     if event.where is not None and not coming and not isinstance(event.where.to, Unknown):
         place = word("doings", "relation", event.where.relation).lstrip("+!").partition(" ")[2]
+        place = _AS.get(event.where.relation, place)
         adverbs = (*adverbs, place, Who(event.where.to, at))
     if event.then is not None:
         after = event_clause(
@@ -133,7 +135,8 @@ def event_clause(
     lasting = told == "present" and modal is None and event.action not in STATES
     if obliged:
         verb, modal = f"have to {verb}", None
-    adverb = next((m for m in event.manner if m in ("still", "already")), "")
+    told_of = ("still",) if negated else ("still", "already")
+    adverb = next((m for m in event.manner if m in told_of), "")
     return Clause(
         subject_of(event.actor, event.action, at),
         verb,
@@ -161,9 +164,11 @@ def episode_clause(
     if roundabout and episode.exit is not None:
         target = Exit(episode.exit)
     time = episode.begin if told == "past" else None
+    halted = episode.action == "stop" and over is None and episode.standing and told == "present"
     verb, rest = verb_phrase(
-        episode.action, episode.actor, target, episode.side, roundabout=roundabout, time=time
-    )
+        "stand" if halted else episode.action, episode.actor, target, episode.side,
+        roundabout=roundabout, time=time,
+    )  # fmt: skip
     return Clause(
         subject_of(episode.actor, episode.action, time),
         verb,

@@ -68,7 +68,9 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     """Plan what can be said of not having slowed down, or of going now."""
     cause = answer.cause
     vehicle = answer.vehicle or (None if cause is None else cause.vehicle)
-    time = answer.deed.begin if answer.past else None
+    begin = answer.deed.begin
+    seen = vehicle is not None and context.look(vehicle, begin) is not None
+    time = begin if answer.past and seen else None
     ahead = None
     if answer.ours is not None and answer.theirs is not None:
         ahead = answer.theirs - answer.ours

@@ -64,9 +64,8 @@ def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> l
             part = measure_message(one, context)
             parts.append(message("LAST_VALUE", who=Who(one.thing, placed=False), part=part))
             continue
-        bare = (
-            (limits and one.attribute in ("speed", "limit"))
-            or (rivals > 1 and one.attribute == "speed")
+        bare = (limits and one.attribute in ("speed", "limit")) or (
+            rivals > 1 and one.attribute == "speed"
         )
         part = measure_message(one, context, bare=bare, when=one.time != said)
         seconds = _seconds_beside(one, measures)

@@ -24,6 +24,8 @@ UNITS: Mapping[Attribute, Unit] = {
 WORLDLY = frozenset(("weather", "battery", "money", "law", "world"))
 TOPICS = {"weather": "the weather", "battery": "my battery", "money": "the price of this ride",
           "law": "the law", "world": "the world outside this ride"}  # fmt: skip
+UNSEEN = frozenset(("load", "occupant", "writing", "parts"))  # of a vehicle, from outside
+INSIDE = frozenset(("load", "occupant"))  # of what is inside a vehicle
 _NAMES = {"distance-to-go": "the distance to our destination", "turn": "the next turn on our way",
           "exit-number": "the exit that we take", "time-to-go": "the time that we still need",
           "arrival-time": "the time of arrival"}  # fmt: skip
@@ -67,6 +69,8 @@ def measure_message(
 
 def _has_value(one: Measure) -> bool:
     """Whether there is what the sentence of the attribute is about."""
+    if one.attribute in UNSEEN:
+        return False
     if one.attribute in ("indicator", "brake-lights", "name"):
         return True
     if one.attribute in _WORDED:
@@ -93,7 +97,7 @@ def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
     return {
         "attribute": one.attribute, "who": who, "ego": ego, "past": told, "noun": noun,
         "named": _named(one, who, noun), "vague": one.attribute in _VAGUE,
-        "topic": TOPICS.get(one.attribute, "that"),
+        "topic": TOPICS.get(one.attribute, "that"), "inside": one.attribute in INSIDE,
         "when": Moment(one.time) if past and when else None,
         "moment": Moment(one.time) if past else None,
         "to": Who(one.to, at, placed=plain) if one.to is not None else None,
@@ -155,13 +159,20 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
         case "speed":
             slots["standing"] = value < STANDING
             if one.low is not None and one.high is not None:
-                slots |= {"ranged": one.high - one.low > EVEN_SPEED, "even": True,
-                          "low": Quantity(one.low, "m/s"), "high": Quantity(one.high, "m/s")}
+                slots |= {
+                    "ranged": one.high - one.low > EVEN_SPEED,
+                    "even": True,
+                    "low": Quantity(one.low, "m/s"),
+                    "high": Quantity(one.high, "m/s"),
+                }
             slots["above"] = one.reference is not None and value > one.reference + OVER
         case "speed-change":
-            slots |= {"even": abs(value) < EVEN_SPEED, "slower": value < 0,
-                      "low": Quantity(one.low or 0.0, "m/s"),
-                      "high": Quantity(one.high or 0.0, "m/s")}
+            slots |= {
+                "even": abs(value) < EVEN_SPEED,
+                "slower": value < 0,
+                "low": Quantity(one.low or 0.0, "m/s"),
+                "high": Quantity(one.high or 0.0, "m/s"),
+            }
         case "excess":
             slots |= {"over": value > 0.3, "even": abs(value) <= 0.3}
         case "acceleration":
@@ -175,8 +186,11 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
         case "delay":
             slots |= {"even": abs(value) < 0.5, "saved": value < 0}
         case "time-to-go":
-            slots |= {"arrived": value <= 0.0, "level": isinstance(one.to, Vehicle),
-                      "reach": isinstance(one.to, Junction)}
+            slots |= {
+                "arrived": value <= 0.0,
+                "level": isinstance(one.to, Vehicle),
+                "reach": isinstance(one.to, Junction),
+            }
             slots["bound"] = one.low is not None and one.high is None
     return slots
 

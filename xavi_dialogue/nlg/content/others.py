@@ -18,7 +18,7 @@ from xavi_dialogue.nlg.content.tenses import PRESENT
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
-from xavi_dialogue.nlg.surface.values import Chance, Clause, Who
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Who
 
 CERTAIN = 0.95  # probability from which a reason is given without hedging
 #: What a question may call a deed without taking it for granted.
@@ -103,6 +103,9 @@ def _hedge(cause: MotionCause) -> Chance | None:
 
 def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> Clause:
     """What it did; for whom, is told by the reason."""
+    if deed.action == "move" and deed.speed_to is not None:
+        speed = Quantity(deed.speed_to, "m/s")
+        return Clause(Who(deed.actor, deed.begin), "drive", ("at", speed), "present", True)
     causes = {cause.vehicle for cause in answer.causes}
     other = deed.object
     number = other.number if isinstance(other, Vehicle) else 0 if isinstance(other, Ego) else None

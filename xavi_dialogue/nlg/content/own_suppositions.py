@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.answers import SupposedOfUs
+from xavi_dialogue.domain.answers import Contrast, SupposedOfUs
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import (
     LIKELY,
@@ -36,6 +36,10 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     }
     risk = risks(contrast, context, past=past)
     more = further(contrast, context, past=past)
+    if answer.ahead is not None and answer.ahead.vehicle is not None and not answer.done:
+        who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
+        blocked = message("IF_BLOCKED", who=who, past=past, form=answer.form, **_verbs(contrast))
+        return Plan((blocked,), (), more, (), about_cause(answer))
     if answer.done:
         just = message("JUST_THAT", fact=slots["fact"], past=past)
         rest = (Message("INSTEAD_OF_IT", slots),) if kind_of(contrast) != "alone" else ()
@@ -49,6 +53,10 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
     after = continued(contrast, past=past)
     return Plan(core, (), (*(() if after is None else (after,)), *more), (), about_cause(answer))
+
+
+def _verbs(contrast: Contrast) -> dict[str, object]:
+    return {"foil": own_verbs(contrast.foil, contrast.fact)}
 
 
 def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Has,
+    Is,
     Nobody,
     Proposition,
     Thing,
@@ -30,7 +31,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import clock, number
 from xavi_dialogue.nlg.surface.referring import listed
 from xavi_dialogue.nlg.surface.tables import word
-from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, Tense, Who
 
 PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
 CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
@@ -209,10 +210,9 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     span = _span(answer, context)
     if isinstance(answer.of, Event):
         never = answer.count == 0
-        whole = bool(span.get("whole"))
-        told = event_clause(
-            answer.of, context.now, tense="perfect" if whole else "past", negated=never
-        )
+        tense: Tense = "perfect" if span.get("whole") else "past"
+        tense = "future" if answer.of.tense == "future" else tense
+        told = event_clause(answer.of, context.now, tense=tense, negated=never)
         whens = _occasions(answer)
         first = message("COUNTED_EVENTS", clause=told, never=never, times=times(answer.count),
                         at_least=answer.at_least, whens=whens, one=answer.count == 1,
@@ -227,11 +227,21 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
                         unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip
         return Plan((doers,))
     past = answer.until is not None and context.now - answer.until > PRESENT
+    if such is not None and such.such is not None and not _only_there(such.such):
+        rows = tuple(Who(Vehicle(f.vehicle)) for f in answer.facts if isinstance(f, Look))
+        those = message("COUNTED_SUCH", none=answer.count == 0, number=amount, past=past,
+                        rows=rows if len(rows) <= FEW else ())  # fmt: skip
+        return Plan((those,))
     first = message("COUNTED_THINGS", past=past, number=amount, **_which(answer.of, context),
                     at_least=answer.at_least, **(span if past else {}))  # fmt: skip
     if len(facts) > FEW:
         return Plan((first,), (), _listed(facts))
     return Plan((first,), _listed(facts))
+
+
+def _only_there(that: Proposition) -> bool:
+    """Tell whether nothing but that they are there was said of what is counted."""
+    return isinstance(that, Is) and that.state == "present"
 
 
 def _occasions(answer: Counted) -> tuple[Message, ...] | None:

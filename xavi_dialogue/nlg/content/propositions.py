@@ -90,6 +90,8 @@ def _extended(clause: Clause, tail: tuple[object, ...]) -> Clause:
 def _related(that: Related, now: float, negated: bool, tense: Tense | None) -> Clause:
     told = tense or tense_of(that.tense, that.time, now)
     at = moment_of(that.time)
+    if that.relation == "same-as" and that.thing == that.to and not negated:
+        return Clause("that", "be", (Who(that.to, at),), told)
     phrase = word("doings", "relation", that.relation)
     placed = that.relation not in PLACES
     modal = None

@@ -13,20 +13,19 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Compares,
     Ego,
-    Event,
     Everyone,
     Exists,
-    Has,
-    Is,
+    Nobody,
     Not,
     Proposition,
     Related,
     Vehicle,
 )
+from xavi_dialogue.nlg.content.borne_out import bare, telling, tells_it, within_limit
 from xavi_dialogue.nlg.content.clauses import event_clause
 from xavi_dialogue.nlg.content.facts import episode_message, fact_message, look_message, verbs_of
 from xavi_dialogue.nlg.content.joint_measures import measure_messages
-from xavi_dialogue.nlg.content.measures import STANDING, UNITS, measure_message
+from xavi_dialogue.nlg.content.measures import UNITS, measure_message
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.propositions import PLACES, clause_of, eventful, two_times
 from xavi_dialogue.nlg.content.tenses import PRESENT
@@ -35,11 +34,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import number
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Tense, Who
 
-#: How the bearing of what stands in a relation to us begins.
-_BEARINGS = {"ahead-of": "ahead", "behind": "behind", "beside": "beside", "oncoming-to": "oncoming",
-             "left-of": "left", "right-of": "right"}  # fmt: skip
 ON = frozenset(("signal", "wait", "stand", "follow", "give-way", "let-go", "block"))
-TELLING = frozenset(("brake", "slow-down", "speed-up"))
 CERTAIN = 0.95  # probability from which what we plan is told as such
 LIKELY = 0.5  # probability from which it is told when something comes
 AT_ONCE = 1.0  # [s] within which it comes at once
@@ -54,9 +49,9 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
         return _likelihood(answer, context)
     if answer.holds is None:
         return _unknown(answer, context)
-    if isinstance(_inner(answer.that), Believed) and answer.believed:
+    if isinstance(bare(answer.that), Believed) and answer.believed:
         answer = replace(answer, facts=(*answer.believed[:1], *answer.facts), believed=())
-    answer = replace(answer, facts=_telling(answer))
+    answer = replace(answer, facts=telling(answer))
     facts = [m for f in together(answer.facts) for m in _facts(f, answer, context)]
     beliefs = tuple(fact_message(b, context) for b in answer.believed[:1])
     challenge = answer.challenge and answer.claim
@@ -64,17 +59,17 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
     slots["either"] = answer.either
     said = clause_of(answer.that, context.now, negated=not answer.holds)
     inside, outside = tuple(facts[:IN_ONE]), tuple(facts[IN_ONE:])
-    if two_times(_inner(answer.that)) and (then := _now_and_then(answer)) is not None:
+    if two_times(bare(answer.that)) and (then := _now_and_then(answer)) is not None:
         it = message("NOW_AND_THEN", it=said, **then)
         return Plan((message("YES" if answer.holds else "NO", it=it, **slots),))
-    limited = _within_limit(answer)
+    limited = within_limit(answer)
     if limited is not None:
         it = Message("MEASURE_SPEED", {**measure_message(limited, context).slots, "told": True})
         return Plan((message("YES" if answer.holds else "NO", it=it, **slots),), beliefs)
     seen = [f for f in answer.facts if isinstance(f, Look) and f.in_view]
-    if seen and isinstance(_inner(answer.that), Exists):
+    if seen and isinstance(bare(answer.that), Exists):
         return _there(answer, seen, said, slots)
-    if _tells_it(answer, context):
+    if tells_it(answer, context):
         # The fact says all that the clause would: "Yes, I stopped at 0:21."
         first = message("YES" if answer.holds else "NO", it=facts[0], **slots)
         return Plan((first,), (*facts[1:], *beliefs))
@@ -95,57 +90,6 @@ def _now_and_then(answer: Verdict) -> dict[str, object] | None:
             "when": Moment(then.time)}  # fmt: skip
 
 
-def _telling(answer: Verdict) -> tuple[Fact, ...]:
-    """The facts that say something beside the verdict, as much as one sentence holds."""
-    that, event = answer.that, eventful(answer.that)
-    placed = isinstance(that, Related) and that.relation in PLACES
-    facts: list[Fact] = []
-    for fact in answer.facts:
-        if isinstance(fact, Relating) and isinstance(that, Related):
-            same = (fact.relation, fact.thing, fact.to) == (that.relation, that.thing, that.to)
-            if same and fact.holds == answer.holds:
-                continue
-        if _said_by_other(fact, answer.facts) or _said_by_verdict(fact, answer):
-            continue
-        asked = event is not None and event.action == "change-plan"
-        if isinstance(fact, Episode) and fact.action == "change-plan" and not asked:
-            continue
-        facts.append(fact)
-    if placed:
-        facts.sort(key=lambda f: not isinstance(f, Look))
-    return tuple(facts)
-
-
-def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
-    """Whether another fact tells it already: a change of speed the speed, or that it moves."""
-    if isinstance(fact, Measure) and fact.attribute == "speed":
-        thing = fact.thing
-        deeds = [f for f in facts if isinstance(f, Episode) and f.actor == thing]
-        stands = (fact.value or 0.0) < STANDING
-        if stands and any(f.action in ("stand", "stop", "wait", "give-way") for f in deeds):
-            return True
-        return any(f.action in TELLING and f.speed_to is not None for f in deeds)
-    if isinstance(fact, Episode) and fact.action in ("go", "move"):
-        return any(
-            isinstance(f, Episode) and f.actor == fact.actor and f.action == "speed-up"
-            for f in facts
-        )
-    return False
-
-
-def _said_by_verdict(fact: Fact, answer: Verdict) -> bool:
-    """Whether it is the speed of what is said to stand still."""
-    that = _inner(answer.that)
-    if not isinstance(that, Is) or not isinstance(fact, Measure) or fact.attribute != "speed":
-        return False
-    still = that.state == "stationary" and answer.holds != isinstance(answer.that, Not)
-    return still and fact.value is not None and fact.value < STANDING
-
-
-def _inner(that: Proposition) -> Proposition:
-    return _inner(that.content) if isinstance(that, Not) else that
-
-
 def _settled(answer: Verdict) -> bool:
     """Whether it is a matter of fact by now, not of expectation."""
     return answer.holds is not None and any(isinstance(f, Episode) for f in answer.facts)
@@ -158,11 +102,11 @@ def _facts(facts: tuple[Fact, ...], answer: Verdict, context: SpeechContext) -> 
         if _by_number(answer.that):  # the reference is the number that was asked about
             measures = tuple(replace(m, reference=None) for m in measures)
         return tuple(measure_messages(measures, context))
-    return tuple(_fact(f, answer, context) for f in facts)
+    return tuple(_told(f, answer, context) for f in facts)
 
 
 def _by_number(that: Proposition) -> bool:
-    inner = _inner(that)
+    inner = bare(that)
     return isinstance(inner, Compares) and isinstance(inner.right, terms.Quantity)
 
 
@@ -171,7 +115,7 @@ def together(facts: tuple[Fact, ...]) -> list[tuple[Fact, ...]]:
     return [tuple(row) for _, row in groupby(facts, key=lambda f: isinstance(f, Measure))]
 
 
-def _fact(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
+def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
     if isinstance(fact, Look) and isinstance(answer.that, Exists) and fact.in_view:
         who = Who(Vehicle(fact.vehicle), fact.time, placed=answer.that.thing == Everyone())
         return message("WHO_FAR", who=who, far=Quantity(fact.distance, "m"))
@@ -192,44 +136,6 @@ def _since(fact: Episode, answer: Verdict, context: SpeechContext) -> bool:
     return past and fact.end is None and fact.action in ON and context.now - fact.begin > PRESENT
 
 
-def _tells_it(answer: Verdict, context: SpeechContext) -> bool:
-    """Whether the first fact by itself says what the verdict says."""
-    if not answer.facts:
-        return False
-    fact, event = answer.facts[0], eventful(answer.that)
-    if not answer.holds:
-        did = isinstance(answer.that, Not) and isinstance(fact, Episode) and event is not None
-        if did and isinstance(fact, Episode) and event is not None:
-            return fact.actor == event.actor and _alike(fact, event)
-        return _other_value(answer.that, fact)
-    if isinstance(answer.that, Not):
-        return False
-    if isinstance(fact, Episode) and event is not None:
-        return fact.actor == event.actor and _alike(fact, event)
-    if isinstance(fact, Measure):
-        that = answer.that
-        if isinstance(that, Compares):
-            return _other_value(that, fact)
-        return isinstance(that, Has) and that.attribute == fact.attribute
-    if isinstance(fact, Look):
-        that = answer.that
-        if not isinstance(that, Related) or that.thing != Vehicle(fact.vehicle):
-            return False
-        return fact.bearing.startswith(_BEARINGS.get(that.relation, "?"))
-    if isinstance(fact, Belief):
-        return isinstance(answer.that, Believed)
-    return isinstance(fact, Relating)
-
-
-def _within_limit(answer: Verdict) -> Measure | None:
-    """The speed beside the limit, where that is what being allowed, fast or slow comes to."""
-    that = _inner(answer.that)
-    if not isinstance(that, Is) or that.state not in ("allowed", "fast", "slow"):
-        return None
-    speeds = (f for f in answer.facts if isinstance(f, Measure) and f.attribute == "speed")
-    return next((m for m in speeds if m.reference is not None and m.value is not None), None)
-
-
 def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
     """Plan who is there, the nearest first; or that nobody is, and who is nearest."""
     near = sorted(seen, key=lambda look: look.distance)
@@ -245,29 +151,9 @@ def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, obj
     return Plan((message("YES" if answer.holds else "NO", it=told, **slots),))
 
 
-def _other_value(that: Proposition, fact: Fact) -> bool:
-    """Whether a fact gives the value that is so instead of the one asked for."""
-    if isinstance(that, Compares) and that.comparator == "same" and isinstance(fact, Measure):
-        number = isinstance(that.right, terms.Quantity)
-        return number and (that.left.attribute, that.left.thing) == (fact.attribute, fact.thing)
-    if isinstance(that, Has) and isinstance(fact, Measure):
-        return that.attribute == fact.attribute and that.thing == fact.thing
-    return False
-
-
-def _alike(episode: Episode, event: Event) -> bool:
-    """Whether an episode, said as it is, affirms an event by its own name."""
-    place = isinstance(event.object, terms.Junction)
-    if event.object is not None and not place and event.object != episode.object:
-        return False
-    return episode.action == event.action or (
-        event.action in ("turn", "change-lane") and event.side == episode.side
-    )
-
-
 def _unknown(answer: Verdict, context: SpeechContext) -> Plan:
     clause = clause_of(answer.that, context.now)
-    facts = tuple(_fact(f, answer, context) for f in answer.facts)
+    facts = tuple(_told(f, answer, context) for f in answer.facts)
     if answer.gap is None:
         return Plan((message("UNKNOWN_BARE", it=clause),), facts)
     past = clause.tense != "present"
@@ -278,17 +164,18 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
     """Plan what is still to come: a word of chance, the percentage, and what is likelier."""
     if isinstance(answer.that, Not) and eventful(answer.that) is not None:
         sought = 1.0 - (answer.probability or 0.0)
-        answer = replace(answer, that=_inner(answer.that), probability=sought)
+        answer = replace(answer, that=bare(answer.that), probability=sought)
     assert answer.probability is not None
     event = eventful(answer.that)
     tense: Tense = "present"
     if event is not None and not isinstance(answer.that, Not):
         clause = event_clause(event, context.now, tense=tense)
-        clause = Clause(clause.subject, clause.verb, clause.rest, "future", plural=clause.plural)
+        subject = "anybody" if isinstance(event.actor, Everyone | Nobody) else clause.subject
+        clause = Clause(subject, clause.verb, clause.rest, "future", plural=clause.plural)
     else:
         clause = clause_of(answer.that, context.now, tense="future")
     when = next((f for f in answer.facts if isinstance(f, Measure) and f.attribute == "time"), None)
-    facts = tuple(_fact(f, answer, context) for f in answer.facts if f is not when)
+    facts = tuple(_told(f, answer, context) for f in answer.facts if f is not when)
     if when is not None and when.value is not None and answer.probability >= LIKELY:
         soon = Quantity(max(when.value - context.now, 0.0), "s")
         at_once = soon.value < AT_ONCE

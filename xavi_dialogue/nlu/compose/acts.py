@@ -2,15 +2,11 @@
 
 from typing import Any, cast
 
-from msgspec.structs import replace
-
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     AskHelp,
-    Claim,
     Elliptic,
-    Fault,
     HowKnow,
     Identify,
     Question,
@@ -22,57 +18,39 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
-    Believed,
-    Compares,
     Described,
     Ego,
-    Event,
-    Everyone,
     Happens,
-    Is,
-    Measured,
-    Nobody,
-    Not,
-    Passenger,
     Pronoun,
-    Proposition,
-    Related,
-    That,
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.domain.vocabulary import Manner
-from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.fragments import Fragments
 from xavi_dialogue.nlu.compose.nominal import asked_each
 from xavi_dialogue.nlu.compose.orders import Orders
 from xavi_dialogue.nlu.compose.phrases import Phrases
-from xavi_dialogue.nlu.compose.polar import judged
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Notes, as_thing
-from xavi_dialogue.nlu.compose.states import ungoverned
-from xavi_dialogue.nlu.compose.talk import feeling_of, says, talk_act
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, words_of
-from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements
+from xavi_dialogue.nlu.compose.talk import says, talk_act
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
 from xavi_dialogue.nlu.compose.whys import lacking
 from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-Acts = tuple[Act, ...]
-Found = list[tuple[Acts, float]]
 _AUXILIARY = frozenset({"BE", "DO", "HAVE", "HAD", "MODAL"})
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
 NOTHING = 2.5  # cost of a unit of which nothing can be made
 SHORT = 0.5  # of "if you had" before an order
-STATED = 0.15  # of a statement taken for a question
 #: What is asked rather than bidden where it ends with a question mark.
 _WAYS = frozenset({"exit-left", "exit-right", "exit-straight", "turn", "change-left",
-                   "change-right", "change-lane", "reverse", "continue", "leave", "go"})  # fmt: skip
+                   "change-right", "change-lane", "reverse", "continue", "leave",
+                   "go"})  # fmt: skip
 
 
-class Composer:
+class Composer(Statements):
     """Composes the units of one utterance."""
 
     def __init__(self, budget: Budget, end_mark: str = "") -> None:
@@ -83,6 +61,7 @@ class Composer:
         self.phrases = Phrases(self.propositions, self.questions, self.notes)
         self.questions.phrases = self.phrases
         self.questions.propositions = self.propositions
+        self.questions.asking.propositions = self.propositions
         self.orders = Orders(self)
         self.fragments = Fragments(self)
 
@@ -157,102 +136,6 @@ class Composer:
         if not found and unit.name == "polar_short":
             return self.fragments.short(clause)
         return [((Ask(q),), cost) for q, cost in found]
-
-    # --- statements --------------------------------------------------
-
-    def _declarative(self, unit: Node) -> Found:
-        clause = self.phrases.slots.fill(unit.parts)
-        meant = self._meant(clause)
-        if meant is not None:
-            return [((meant,), 0.0)]
-        order = self.orders.stated(clause)
-        if order is not None:
-            return [(order, 0.0)]
-        if isinstance(clause.subject, Ego) and any(
-            key in ("rude", "opinion") for key, _ in clause.adjectives
-        ):
-            return [((Social("insult"),), 0.0)]
-        opinion = any(key == "opinion" for key, _ in clause.adjectives)
-        if opinion and not isinstance(clause.subject, Ego):
-            return [((Ask(Fault(That(), judged(clause))),), 0.0)]
-        candidates = self.propositions.readings(clause)
-        tagged = _tagged(unit)
-        if (tagged or self.asks or not candidates) and not clause.feelings:
-            compared = self.questions.comparison(clause)
-            if compared is not None:
-                return [((Ask(self.questions.framed(compared, clause, None)),), STATED)]
-        found: Found = []
-        for candidate in candidates:
-            acts = self._stated(clause, candidate.value, tagged, words_of(unit))
-            found.append((acts, candidate.cost))
-        if not candidates and clause.feelings:
-            feeling = feeling_of(clause, None)
-            if feeling is not None:
-                found.append(((feeling,), ungoverned(clause)))
-        return found
-
-    def _meant(self, clause: Clause) -> Act | None:
-        """Read "I meant the red one", "I was asking about vehicle 3"."""
-        if clause.verb is None or not isinstance(clause.subject, Passenger):
-            return None
-        if clause.verb.key not in ("mean", "ask", "talk", "refer", "speak"):
-            return None
-        sems = [p.sem for p in clause.complements] + [sem for sem, _ in clause.objects]
-        thing = next((t for sem in sems if (t := as_thing(sem)) is not None), None)
-        return Repair("meant", thing) if thing is not None and thing != Ego() else None
-
-    def _stated(self, clause: Clause, value: Any, tagged: bool, unit_words: str) -> Acts:
-        feeling = feeling_of(clause, value)
-        if feeling is not None:
-            return (feeling,)
-        asked = self._embedded(clause, value)
-        if asked:
-            return asked
-        of = self.propositions.joined(clause, fact(value))
-        if (why := _groundless(unit_words, of)) is not None:
-            return (Ask(why),)
-        if isinstance(value, Special) and isinstance(clause.subject, Passenger) and _thinks(value):
-            of = Not(value.content) if value.content is not None else of
-        of = _in_our_place(of, clause)
-        if clause.there and clause.inner is not None and isinstance(of, Not | Is):
-            return (Ask(Why(Happens(replace(clause.inner, tense=cast(Any, clause.tense))))),)
-        if isinstance(value, Special) and isinstance(clause.subject, Passenger):
-            expected = self._expected(value)
-            if expected is not None:
-                return (Ask(expected),)
-        if tagged or self.asks:
-            question = self.questions.polar(clause, value, tag=True)
-            match question:
-                case Whether(that=Is(state="stationary") as still) if "not moving" in unit_words:
-                    question = Whether(Not(replace(still, state="moving")), True)
-            if isinstance(value, Special) and isinstance(of, Believed):
-                question = Whether(of, True)
-            return (Ask(self.questions.framed(question, clause, value)),)
-        if clause.because is not None and isinstance(of, Happens):
-            return (Ask(self.questions.polar(clause, value, tag=False)),)
-        if isinstance(of, Related) and of.thing == Passenger() and of.relation == "with":
-            return (Social("acknowledge"),)
-        supposed = self.questions.supposition(clause)
-        if supposed is not None:
-            return (Ask(self.questions.framed(Whether(of, True), clause, value)),)
-        return (Claim(of, _disputes(of, clause)),)
-
-    def _expected(self, value: Special) -> Question | None:
-        """Take "I expected you to stop" for the question why not."""
-        if value.name in ("believe", "wish", "want") and value.content is not None:
-            content = value.content
-            if _thinks(value):
-                return None
-            if value.clause.negated:
-                return Why(content)
-            return Why(content.content if isinstance(content, Not) else Not(content))
-        return None
-
-    def _embedded(self, clause: Clause, value: Any) -> Acts:
-        """Find the question behind "I wonder", "I do not understand", "do you know"."""
-        if not isinstance(value, Special) or clause.question is None:
-            return ()
-        return self.orders.embedded(clause)
 
     # --- the rest ----------------------------------------------------
 
@@ -351,63 +234,5 @@ def _of_you(unit: Node, clause: Clause) -> bool:
     return any(leaf.category == "YOU" for leaf in leaves_of(unit)) and not clause.complements
 
 
-def _tagged(unit: Node) -> bool:
-    for part in unit.parts:
-        if isinstance(part, Node) and part.name == "tail":
-            if leaf_of(part, "TAGWORD") or any(isinstance(p, Node) for p in part.parts):
-                return True
-            if leaf_of(part, "NOT"):
-                return True
-    return False
-
-
 def _forbids(unit: Node) -> bool:
     return any(isinstance(p, Leaf) and p.category == "NOT" for p in unit.parts)
-
-
-_GROUNDLESS = ("for no reason", "for no good reason", "for nothing", "without reason",
-               "without any reason", "without a reason", "needlessly", "unnecessarily")  # fmt: skip
-
-
-def _groundless(words: str, of: Proposition) -> Question | None:
-    """Take "you braked for nothing" for the question why: what it disputes is the reason."""
-    if not any(phrase in words for phrase in _GROUNDLESS) or not isinstance(of, Happens):
-        return None
-    event = of.event
-    return Why(Happens(replace(event, object=None) if event.object == Nobody() else event))
-
-
-def _thinks(value: Special) -> bool:
-    """Say whether it is "I do not think that ...": the contrary is claimed."""
-    verb = "" if value.clause.verb is None else value.clause.verb.key
-    return value.clause.negated and verb in ("think", "believe", "suppose", "reckon")
-
-
-def _in_our_place(of: Proposition, clause: Clause) -> Proposition:
-    """Take what "any driver would have done" for what we should have."""
-    match of:
-        case Not(content=content):
-            return Not(_in_our_place(content, clause))
-        case Compares(left=Measured(attribute="speed", thing=driver), comparator=more) if (
-            driver == Described(definite=False) and clause.modal == "would"
-        ):
-            paces: tuple[Manner, ...] = ("slowly",) if more == "less" else ("fast",)
-            return Happens(Event("move", Ego(), None, None, paces, tense="past", modal="should"))
-        case Happens(event=Event(actor=actor, modal="would", tense="past") as event) if (
-            actor == Described(definite=False) or isinstance(actor, Everyone)
-        ):
-            return Happens(replace(event, actor=Ego(), modal="should"))
-        case Happens(event=Event(actor=Nobody(), modal="would", tense="past") as event):
-            return Not(Happens(replace(event, actor=Ego(), modal="should")))
-    return of
-
-
-def _disputes(of: Proposition, clause: Clause) -> bool:
-    """Say whether a claim disputes what the car said: "that is wrong", "you could have known"."""
-    match of:
-        case Not() | Believed():
-            return True
-        case Happens(event=Event(actor=Ego(), modal=modal)) if modal in ("could", "should"):
-            return True
-    state = getattr(of, "state", "")
-    return state in ("wrong", "dangerous")

@@ -154,9 +154,10 @@ def compared(clause: Clause, event: Event) -> Proposition | None:
     if event.action in ("move", "go") and (found := exceeding(clause, event)) is not None:
         return found
     thing = as_thing(clause.than)
-    if key not in _COMPARED or thing is None or clause.comparisons[0][1] == "as":
+    if key not in _COMPARED or thing is None:
         return None
     attribute, direction = _COMPARED[key]
+    direction = "same" if clause.comparisons[0][1] == "as" else direction
     right: Thing = Ego() if isinstance(thing, Passenger) else thing
     return Compares(
         Measured(cast(Any, attribute), event.actor, time=event.time, tense=event.tense),

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Believed,
     Ego,
     Event,
     Exists,
@@ -33,22 +34,26 @@ from xavi_dialogue.domain.terms import (
     That,
 )
 from xavi_dialogue.nlu.compose.adoption import adopted, as_of, timed, with_fields
+from xavi_dialogue.nlu.compose.amounts import amounts
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.grades import amounts, graded
+from xavi_dialogue.nlu.compose.grades import graded
 from xavi_dialogue.nlu.compose.lasting import measured, since
 from xavi_dialogue.nlu.compose.nominal import propose
+from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh, content_of, deed_of, fact, is_that, time_of
 from xavi_dialogue.nlu.compose.what import What
 from xavi_dialogue.nlu.compose.which import WhichOne
 
-_MOVING = frozenset({"go", "head", "move", "turn", "leave", "take-turn", "continue", "exit-left",
-                     "exit-right", "change-lane"})  # fmt: skip
+_MOVING = frozenset({"go", "pull-out", "head", "move", "turn", "leave", "take-turn", "continue",
+                     "exit-left", "exit-right", "change-lane"})  # fmt: skip
 
 
 class Asking(What, WhichOne):
     """Builds questions."""
+
+    propositions: Propositions
 
     def why(self, clause: Clause, value: Any) -> Question:
         """Ask why it is so, or not."""
@@ -60,6 +65,8 @@ class Asking(What, WhichOne):
         of = fact(value)
         if isinstance(of, Happens) and of.event.action == "do" and is_that(of.event.object):
             of = Happens(of.event)
+        if isinstance(of, Happens) and is_that(of.event.actor) and not clause.aux:
+            of = Happens(with_fields(of.event, actor=Ego()))  # "why all this weaving?"
         suspect = as_thing(clause.because) if not isinstance(clause.because, Clause) else None
         return Why(of, suspect=suspect)
 
@@ -115,6 +122,9 @@ class Asking(What, WhichOne):
         if isinstance(value, Special) and value.name == "change":
             return HowSure(None, clause.time, changed=True)
         of = fact(value)
+        if isinstance(of, Is) and of.state == "sure" and clause.that is not None:
+            content = self.propositions.plain(clause.that)
+            return When(of if content is None else Believed(content, tense=of.tense))
         ours = isinstance(of, Happens) and isinstance(of.event.actor, Ego)
         if isinstance(of, Happens) and ours and of.event.tense == "present":  # "when do we turn?"
             of = Happens(with_fields(of.event, tense="future"))
@@ -143,10 +153,20 @@ class Asking(What, WhichOne):
             return Summarise(None, clause.time)
         of = fact(value)
         if isinstance(of, Happens) and of.event.action == "avoid":
-            return HowAvoid(_avoided(clause, of.event))
+            return HowAvoid(self._avoided(clause, of.event))
         if isinstance(of, Happens) and of.event.action == "happen":
             return Why(That())
         return HowDecide(of)
+
+    def _avoided(self, clause: Clause, event: Event) -> Proposition | None:
+        """Find what is avoided: a deed of whoever avoids it."""
+        governed = None if clause.gerund is None else self.propositions.as_event(clause.gerund)
+        named = (governed, *(sem for sem, _ in clause.objects))
+        deed = next((sem for sem in named if isinstance(sem, Event)), None)
+        if deed is None or isinstance(event.actor, Pronoun):
+            return None if is_that(event.object) else propose(deed_of(event))
+        actor = event.actor if isinstance(deed.actor, Ego) else deed.actor
+        return Happens(with_fields(deed, actor=actor, tense=event.tense))
 
     def _how_special(self, clause: Clause, value: Special) -> Question | None:
         match value.name:
@@ -217,12 +237,3 @@ def _onward(clause: Clause) -> bool:
         or clause.has("be")
         or clause.modal in ("must", "want", "should")
     )
-
-
-def _avoided(clause: Clause, event: Event) -> Proposition | None:
-    """Find what is avoided: a deed of whoever avoids it."""
-    deed = next((sem for sem, _ in clause.objects if isinstance(sem, Event)), None)
-    if deed is None or isinstance(event.actor, Pronoun):
-        return None if is_that(event.object) else propose(deed_of(event))
-    actor = event.actor if isinstance(deed.actor, Ego) else deed.actor
-    return Happens(with_fields(deed, actor=actor, tense=event.tense))

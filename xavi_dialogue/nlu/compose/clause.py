@@ -83,6 +83,8 @@ class Clause:
         if modal:
             return "past" if self.has("have") else "present"
         if self.has("have"):
+            if "semi-must" in self.aux and self.verb is not None and self.verb.form == "base":
+                return "present"  # "have we got to turn"
             return "past" if "have-past" in self.aux else "perfect"
         if not {"do-past", "be-past", "semi-past"}.isdisjoint(self.aux):
             return "past"
@@ -101,13 +103,21 @@ class Clause:
             return False
         return self.verb.key not in _RESULTING or any(c.key == "by" for c in self.complements)
 
+    @property
+    def only_subject(self) -> bool:
+        """Say whether nothing but the subject is said: "than we are", "than he does"."""
+        said = self.objects or self.complements or self.bearings or self.adjectives
+        bare = self.verb is None or self.verb.key == "do"
+        return bare and not said and self.subject is not None
+
     def aux_last(self) -> str:
         """Name the last auxiliary before the verb."""
         plain = [a for a in self.aux if not a.startswith("semi")]
         return plain[-1].split("-")[0] if plain else ""
 
 
-_AUX = {"BE": "be", "DO": "do", "HAVE": "have", "HAD": "have", "MODAL": "modal", "SEMI": "semi"}
+_AUX = {"BE": "be", "GOT": "be", "DO": "do", "HAVE": "have", "HAD": "have", "MODAL": "modal",
+        "SEMI": "semi"}  # fmt: skip
 #: First words of verbs before other verbs that are past: "had to", "wanted to", "decided to".
 _PAST = frozenset(
     {"had", "needed", "wanted", "tried", "intended", "planned", "hoped", "decided", "chose",
@@ -120,7 +130,7 @@ _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "
 
 
 #: Verbs that are written alike in the past, and say what is over in a moment: "you cut in".
-_UNCHANGED = frozenset({"hit", "cut"})
+_UNCHANGED = frozenset({"hit", "cut", "let"})
 #: Verbs whose participle after "be" tells a state of the subject: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
     ("allow", "permit", "stick", "sit", "stand", "head", "park", "stop", "go", "finish", "come",
@@ -146,7 +156,7 @@ class Slots:
 
     def _leaf(self, leaf: Leaf, clause: Clause) -> None:
         match leaf.category:
-            case "BE" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
+            case "BE" | "GOT" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
                 clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key}")
                 clause.negated ^= leaf.category == "SEMI" and leaf.key == "not"
                 if leaf.category == "SEMI" and leaf.words[0] in _PAST and not clause.has("be"):

@@ -6,6 +6,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exit,
     Feature,
     Junction,
     Lane,
@@ -81,11 +82,25 @@ def event_of(clause: Clause, match: Match) -> Event:
     elif action == "take-exit":
         action = "leave"
     if action == "let-go" and isinstance(thing, Feature):
-        action, thing = "give-way", as_thing(match.phrases.get("into"))
+        whom = match.phrases.get("for")
+        action = "give-way" if whom is None else "let-go"
+        thing = as_thing(whom or match.phrases.get("into"))
     action = _paced(action, clause)
     struck = isinstance(thing, Ego | Described | Pronoun | Vehicle)
+    struck = struck or (action == "collide" and thing is None)
     if action in ("collide", "head") and struck and clause.focus & _ALMOST:
         action = "nearly-collide"
+    out = thing is None and isinstance(clause.subject, Passenger) and clause.verb is not None
+    if out and clause.verb.key == "get" and action in ("pull-out", "leave"):  # type: ignore[union-attr]
+        action = "arrive"  # "when can I get out?"
+    if action == "stop" and clause.focus & _ALMOST:
+        action = "slow-down"
+    time = when(clause, match)
+    place = where(clause, match)
+    if action in _AT_EXITS and thing is None and place is not None:
+        thing, place = _exit_meant(place)
+    if action == "leave" and "at" in match.phrases and not isinstance(thing, Exit | Junction):
+        thing = Exit(thing.rank if isinstance(thing, Described) else None)
     manner = list(clause.manner)
     manner += [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
     if clause.than is None and not action.startswith(("speed", "slow")):  # "had come faster"
@@ -94,9 +109,21 @@ def event_of(clause: Clause, match: Match) -> Event:
         manner.append(cast(Manner, match.sense.manner))
     return Event(
         cast(ActionName, action), actor_of(clause), thing, cast(Any, side),
-        tuple(dict.fromkeys(manner)), when(clause, match), cast(Any, clause.tense),
-        cast(Any, clause.modal), None, where(clause, match),
+        tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
+        cast(Any, clause.modal), None, place,
     )  # fmt: skip
+
+
+_AT_EXITS = frozenset({"leave", "exit-left", "exit-right", "turn"})
+
+
+def _exit_meant(place: Related) -> tuple[Thing | None, Related | None]:
+    """Read "at the next one" beside turning off as an exit, not as a vehicle."""
+    to = place.to
+    ranked = isinstance(to, Described) and to.rank is not None and to == Described(rank=to.rank)
+    if ranked and isinstance(to, Described) and place.relation in ("near", "on"):
+        return Exit(to.rank), None
+    return None, place
 
 
 _ALMOST = frozenset({"nearly", "almost"})
@@ -191,6 +218,6 @@ def where(clause: Clause, match: Match) -> Related | None:
         match.cost -= 0.25
         return Related(cast(Any, relation), actor_of(clause), thing)
     for bearing, _ in clause.bearings:
-        if bearing not in ("there", "here", "around"):
+        if bearing not in ("there", "here", "around") and f"bearing-{bearing}" not in match.phrases:
             return Related(cast(Any, relation_of(bearing)), actor_of(clause), Ego())
     return None

@@ -2,8 +2,9 @@
 
 from typing import Any, cast
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.meaning import (
-    HowLong,
     HowMany,
     HowMuch,
     HowSure,
@@ -16,6 +17,8 @@ from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
+    Exit,
+    Feature,
     Happens,
     Is,
     Junction,
@@ -26,18 +29,20 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Relative,
-    That,
     Thing,
-    Unknown,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.lasting import long_lasting, meanwhile, measured, until
-from xavi_dialogue.nlu.compose.nominal import counted
-from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.specials import proposition_of
+from xavi_dialogue.nlu.compose.lasting import long_lasting, meanwhile, measured
+from xavi_dialogue.nlu.compose.predicates import tense_of
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing
+
+_PACES = frozenset({"faster", "slower", "quicker"})
+_PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
+CHANGING = frozenset({"slow-down", "speed-up"})
+WAYS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 
 
 def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Question:
@@ -47,6 +52,8 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         event = value.content.event
     actor = event.actor if event is not None else as_thing(clause.subject)
     match grade:
+        case "fast" if _permitted(clause):
+            return measured("limit", clause, actor if isinstance(actor, Described) else Ego())
         case "fast":
             return measured("speed", clause, actor, time=meanwhile(clause, event))
         case "hard" if isinstance(clause.subject, Event):
@@ -55,17 +62,22 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "hard":
             return measured("deceleration", clause, actor, event=event)
         case "far":
-            if {"further", "farther"} & set(words) and not isinstance(actor, Described):
+            on = {"further", "farther"} & set(words) and not isinstance(actor, Described)
+            if on and reference(clause) is None and not isinstance(actor, (Exit, Junction)):
                 return measured("distance-to-go", clause, Ego())
-            return _far(clause, event, value, actor)
+            return far_to(clause, event, value, actor)
         case "close":
             return _close(clause, event, value, actor)
         case "long":
             return long_lasting(clause, event, value, actor)
+        case "big" if isinstance(actor, Feature) and (to := reference(clause)) is not None:
+            return measured("distance", clause, Ego(), to=to)  # "the space to the lorry"
+        case "big" if isinstance(clause.subject, Measure):
+            return measured("distance", clause, actor, to=clause.subject.of.to)
         case "big":
             return measured("size", clause, actor)
         case "likely":
-            return _sure(clause, value)
+            return sure_of(clause, value)
         case "often":
             return HowMany(event) if event is not None else HowMany(Event("do"))
         case "late":
@@ -79,12 +91,25 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return measured("speed-change", clause, actor)
         case "faster":
             return measured("delay", clause, actor, event=event)
+        case "many" if event is not None and event.action in _DONE_TO and event.object is None:
+            done = with_fields(event, object=Wanted())
+            return HowMany(Described(doing=cast(Event, done), plural=True, definite=False))
         case "many":
             return HowMany(actor or Described(plural=True, definite=False))
         case "much":
             return _much(clause, value, actor)
         case _:
             return _quality(clause, words, value, actor)
+
+
+def _permitted(clause: Clause) -> bool:
+    """Say whether it is asked how fast one may go: "how fast can we go here?"."""
+    able = clause.modal in ("can", "might", "should") and clause.tense == "present"
+    allowed = any(key == "allowed" for key, _ in clause.adjectives)
+    named = (clause.subject, *(sem for sem, _ in clause.objects))
+    allowed |= any(isinstance(s, Measure) and s.of.attribute == "limit" for s in named)
+    allowed |= clause.verb is not None and clause.verb.key in ("allow", "permit")
+    return allowed or "semi-allowed" in clause.aux or (able and clause.verb is not None)
 
 
 def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | None) -> Question:
@@ -99,21 +124,34 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
                       tense=cast(Any, clause.tense)))  # fmt: skip
 
 
-def _sure(clause: Clause, value: Any) -> Question:
+def sure_of(clause: Clause, value: Any) -> Question:
+    """Ask how sure we are of what a clause says."""
     content: Proposition | None = None
     if isinstance(value, Special):
         content = value.content
     elif isinstance(value, Happens) and not isinstance(value.event.object, Wanted):
         content = value
+    elif isinstance(clause.subject, Event):
+        content = Happens(_met(clause, clause.subject))
     return HowSure(content, clause.time)
 
 
-def _far(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
+def _met(clause: Clause, deed: Event) -> Event:
+    """Add to a deed with whom it is: "a collision with the bus"."""
+    found = (as_thing(part.sem) for part in clause.complements if part.key == "with")
+    whom = next((thing for thing in found if thing is not None), deed.object)
+    return replace(deed, object=whom, tense=tense_of(clause))
+
+
+def far_to(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how far it is to something; what is left is to the destination."""
     if clause.side == "left" and not clause.objects:
         return HowMuch(Measured("distance-to-go"))
-    to = _reference(clause)
-    if to is None and _remaining(clause, actor):
+    turn = _next_turn(clause)
+    if turn is not None and not remaining(clause, actor):
+        return HowMuch(Measured("turn", event=turn))
+    to = reference(clause)
+    if to is None and remaining(clause, actor):
         return measured("distance-to-go", clause, Ego())
     arriving = event is not None and event.action == "arrive"
     if arriving or isinstance(to, Destination):
@@ -127,7 +165,15 @@ def _far(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -
     return measured("distance", clause, actor, to=to)
 
 
-def _remaining(clause: Clause, actor: Thing | None) -> bool:
+def _next_turn(clause: Clause) -> Event | None:
+    """Find the turn of ours to which it is asked how far it is."""
+    named = [clause.subject, *(p.sem for p in clause.complements), *(s for s, _ in clause.objects)]
+    turns = (sem for sem in named if isinstance(sem, Event) and sem.action in WAYS)
+    found = next(turns, None)
+    return found if clause.tense in ("present", "future") else None
+
+
+def remaining(clause: Clause, actor: Thing | None) -> bool:
     """Say whether "left" asks for what remains: "how far is left", "how much distance is left"."""
     subject = clause.subject
     if isinstance(subject, Event) and subject.action == "exit-left":
@@ -141,7 +187,8 @@ def _remaining(clause: Clause, actor: Thing | None) -> bool:
     return leaving or ("left",) in named
 
 
-def _reference(clause: Clause) -> Thing | None:
+def reference(clause: Clause) -> Thing | None:
+    """Find the thing up to which it is measured."""
     for phrase in clause.complements:
         thing = _reached(phrase.sem)
         if thing is not None and phrase.key not in ("at", "by"):
@@ -166,8 +213,8 @@ def _reached(sem: Sem | None) -> Thing | None:
 
 
 def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
-    to = _reference(clause) or (event.object if event is not None else None)
-    if to is None and _remaining(clause, actor):
+    to = reference(clause) or (event.object if event is not None else None)
+    if to is None and remaining(clause, actor):
         return measured("distance-to-go", clause, Ego())
     before = isinstance(clause.time, Relative) and clause.time.relation == "before"
     if isinstance(clause.time, Relative) and before and to in (None, Ego()):
@@ -180,16 +227,20 @@ def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
     return measured("distance", clause, actor, to=to, extreme=extreme)
 
 
+#: What is done to other road users: "how many have we overtaken?".
+_DONE_TO = frozenset({"overtake", "pass", "let-go", "give-way", "wait", "follow"})
 _DIFFERENCES = {"fast": "speed", "slow": "speed", "close": "distance", "far": "distance"}
 
 
 def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
     subject = clause.subject
+    if subject is None and remaining(clause, actor):
+        return measured("distance-to-go", clause, Ego())
     if isinstance(subject, Measure) and subject.of.attribute == "speed" and clause.verb is not None:
         return measured("speed-change", clause, subject.of.thing)
     if isinstance(subject, Measure):
         return HowMuch(subject.of, subject.extreme)
-    if isinstance(value, Happens) and value.event.action in _CHANGING:
+    if isinstance(value, Happens) and value.event.action in CHANGING:
         return measured("speed-change", clause, actor, event=value.event)
     if clause.comparisons and clause.comparisons[0][0] in _DIFFERENCES:
         than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
@@ -198,105 +249,10 @@ def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
         return measured("delay", clause, actor)
     if any(key == "allowed" for key, _ in clause.adjectives):
         return measured("limit", clause, Ego())
+    if isinstance(value, Happens) and value.event.action in _PASSING:
+        to = actor if isinstance(value.event.object, Ego) else value.event.object
+        return measured("distance", clause, Ego(), to=to, extreme="lowest")
     if isinstance(value, Happens):
         return measured("deceleration" if value.event.action in ("brake", "slow-down") else "speed",
                         clause, actor, event=value.event)  # fmt: skip
     return measured("count", clause, actor)
-
-
-def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
-    """Ask "how many cars", "how much time" of a clause; "how many more turns" are to come."""
-    if isinstance(sem, Event) and _to_come(clause, value, words):
-        return HowMany(cast(Event, with_fields(sem, tense="future")))
-    actor = as_thing(clause.subject)
-    event = value.event if isinstance(value, Happens) else None
-    counting = isinstance(sem, Noun) and sem.key == "time" and sem.plural
-    if (isinstance(sem, Moment) and sem.unit == "times") or counting:
-        if event is not None and isinstance(event.actor, Unknown):
-            event = with_fields(event, actor=Ego())  # it is the word "times"
-        return HowMany(event or Event("do"))
-    if (isinstance(sem, Moment) and sem.unit in ("s", "min", "h")) or (
-        isinstance(sem, Noun) and sem.key == "time"
-    ):
-        return _stretch(clause, value, actor, event)
-    if isinstance(sem, Moment):
-        return _lengths(sem, clause, value, actor, event)
-    if isinstance(sem, Measure) and sem.of.attribute == "speed" and _changes(clause, event):
-        return measured("speed-change", clause, actor, event=event)
-    if isinstance(sem, Measure):
-        to = _reference(clause)
-        if sem.of.attribute == "distance" and to is None and _remaining(clause, actor):
-            return measured("distance-to-go", clause, Ego())
-        return measured(sem.of.attribute, clause, sem.of.to or actor, to=to)
-    if isinstance(sem, Noun) and sem.key in ("side",):
-        return measured("distance", clause, actor)
-    question = counted(sem)
-    if isinstance(question, HowMany):
-        return HowMany(_restricted(question.of, value))
-    return question or measured("count", clause, actor)
-
-
-def _to_come(clause: Clause, value: Any, words: tuple[str, ...]) -> bool:
-    """Say whether it is asked how many are left, or still to come."""
-    coming = isinstance(value, Happens) and value.event.action in ("come", "go", "leave", "move")
-    left = clause.side == "left" and clause.verb is None
-    ahead = any(key == "ahead" for key, _ in clause.bearings) or clause.tense == "future"
-    return "more" in words or left or ahead or (coming and clause.tense != "past")
-
-
-_PACES = frozenset({"faster", "slower", "quicker"})
-_CHANGING = frozenset({"slow-down", "speed-up"})
-_GAINING = frozenset({"lose", "gain", "drop", "shed", "put", "add"})
-
-
-def _changes(clause: Clause, event: Event | None) -> bool:
-    """Say whether a clause is of a change of speed: "how much speed did we lose"."""
-    if event is not None and event.action in _CHANGING:
-        return True
-    return clause.verb is not None and clause.verb.key in _GAINING
-
-
-def _left_over(event: Event | None) -> bool:
-    """Say whether it is "left" that stands as a verb: "how much time have we left"."""
-    return event is not None and event.action == "leave" and event.object is None
-
-
-def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | None) -> Question:
-    if isinstance(clause.time, Relative) and clause.time.relation == "until":
-        return until(clause.time.anchor)
-    if isinstance(value, Special) and value.name in ("cost", "delay", "save"):
-        by = value.match.phrases.get("by")
-        deed = with_fields(by, tense=clause.tense) if isinstance(by, Event) else None
-        return measured("delay", clause, actor, event=deed)
-    if _left_over(event):
-        return HowMuch(Measured("time-to-go"))  # "how much time have we left"
-    if event is not None:
-        return HowLong(event) if event.action != "arrive" else HowMuch(Measured("time-to-go"))
-    return long_lasting(clause, event, value, actor)
-
-
-def _lengths(
-    sem: Moment, clause: Clause, value: Any, actor: Thing | None, event: Event | None
-) -> Question:
-    if sem.unit in ("kmh", "mph", "ms"):
-        return measured("speed", clause, actor)
-    if sem.unit == "percent":
-        return _sure(clause, value)
-    if sem.unit in ("km", "mile") and _reference(clause) is None and event is None:
-        return measured("distance-to-go", clause, Ego())
-    return _far(clause, event, value, actor)
-
-
-def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
-    """Say of what is counted what it does: "how many cars can you see"."""
-    if not isinstance(of, Described):
-        return of
-    fields: dict[str, Any] = {k: getattr(of, k) for k in of.__struct_fields__}
-    if isinstance(value, Special):
-        value = proposition_of(value)
-    if isinstance(value, Happens):
-        fields["doing"] = value.event
-    elif value is not None and not isinstance(value, That):
-        fields["such"] = value
-    fields.update(plural=True, definite=False)
-    return Described(**fields)

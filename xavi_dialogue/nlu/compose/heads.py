@@ -10,13 +10,13 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Exit,
     Feature,
+    Is,
     Junction,
     Lane,
     Measured,
     Nobody,
     Passenger,
     Pronoun,
-    Proposition,
     Rank,
     Record,
     Road,
@@ -37,6 +37,7 @@ from xavi_dialogue.nlu.compose.sem import (
     as_thing,
     is_thing,
 )
+from xavi_dialogue.nlu.compose.traits import Traits, described
 from xavi_dialogue.nlu.compose.tree import (
     words_of,
 )
@@ -58,56 +59,6 @@ _PLACES: dict[str, Thing] = {
     "here": Unknown("here"),
     "there": Unknown("there"),
 }
-
-
-class Traits:
-    """What stands before and behind the head of a noun phrase."""
-
-    def __init__(self) -> None:
-        self.fields: dict[str, Any] = {}
-        self.determiner = ""
-        self.owner: Sem | None = None
-        self.side: str | None = None
-        self.ordinal: int | None = None
-        self.following = False  # "next"
-        self.extreme: str | None = None
-        self.adjectives: list[str] = []
-        self.unknown: list[str] = []
-        self.kind: str | None = None
-        self.of: Sem | None = None
-        self.about: list[tuple[str, Sem]] = []
-        self.event: Event | None = None
-        self.other = False
-        self.gerund: Node | None = None
-        self.clause: Proposition | None = None
-
-
-def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
-    """Describe a road user by what is said of it."""
-    fields = {k: v for k, v in traits.fields.items() if k in Described.__struct_fields__}
-    if traits.side and "bearing" not in fields:
-        fields["bearing"] = traits.side
-    if traits.ordinal is not None:
-        fields["rank"] = traits.ordinal
-    if traits.extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
-        fields["extreme"] = traits.extreme
-    elif traits.extreme == "smallest":
-        fields["size"] = "small"
-    for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
-        if key in traits.adjectives:
-            fields.setdefault(*value)
-    standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
-    for adjective in traits.adjectives:
-        if adjective in standing:
-            fields.setdefault("doing", Event(cast(Any, standing[adjective]), Wanted()))
-    indefinite = traits.determiner in ("indef", "many", "no", "") and not fields.get("rank")
-    fields["definite"] = not indefinite or (traits.determiner == "" and not plural)
-    if traits.determiner == "indef" and traits.other:
-        fields["definite"] = False
-    return Described(
-        kind=cast(Any, kind), plural=plural or traits.fields.get("number", 1) > 1,
-        other=traits.other, **fields,
-    )  # fmt: skip
 
 
 def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
@@ -201,6 +152,10 @@ def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
         return Nobody(found)
     if head.words == ("one",) and traits.determiner in ("that", "this") and not special:
         return Pronoun(cast(Any, traits.determiner))
+    quality = quality_of(traits.extreme, [])
+    happened = traits.event is None or traits.event.action == "happen"
+    if head.words == ("thing",) and quality in ("danger", "difficulty") and happened:
+        return Noun("peak", word="thing", quality=quality)  # "the scariest thing that happened"
     if head.words == ("thing",) and traits.determiner in ("that", "this") and not special:
         return Pronoun(cast(Any, traits.determiner))
     return found
@@ -230,6 +185,13 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     beside = traits.fields.get("bearing") or traits.side
     if head.key == "space" and beside in ("left", "right"):
         return Measure(Measured("gap", to=Lane(cast(Any, beside))))  # "room on the left"
+    if head.key == "queue" and isinstance(traits.of, Described) and traits.of.plural:
+        said = {k: v for k, v in traits.fields.items() if k in ("bearing", "of", "doing", "such")}
+        fields = {k: getattr(traits.of, k) for k in Described.__struct_fields__}
+        return Described(**{**fields, **said})
+    apart = next((as_thing(s) for k, s in traits.about if k in ("into", "with", "from")), None)
+    if head.key == "space" and isinstance(apart, Described | Vehicle | Pronoun):
+        return Measure(Measured("distance", to=apart))  # "the space to the lorry"
     if head.key == "circle-shape":
         return Junction("roundabout")
     return Feature(cast(Any, head.key))
@@ -257,6 +219,8 @@ def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lan
 
 def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     of = traits.of or traits.owner
+    if head.key == "limit" and "number" in traits.fields:
+        return described("vehicle", traits)  # "a fifty zone"
     things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
     to = next((t for t in things if t is not None), None)
     if head.key == "probability" and of is None:
@@ -269,19 +233,27 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         of, to = members[0], as_thing(members[1])
     event = of if isinstance(of, Event) else traits.event
     thing = of if is_thing(of) and not isinstance(of, Pronoun) else as_thing(of)
+    if head.key == "colour" and "colour" in traits.fields and of is None:
+        return described("vehicle", traits)  # "the one in green colour"
     if head.key == "distance" and isinstance(to, Destination):
         return Measure(
             Measured("distance-to-go", cast(Thing, thing) if thing is not None else Ego())
         )
     key = head.key
+    if key == "speed" and isinstance(traits.clause, Is) and traits.clause.state == "allowed":
+        key = "limit"  # "the speed that is permitted"
+    if traits.deed is not None and key in ("duration", "delay") and event is None:
+        event = of = Event(cast(Any, traits.deed), tense="past")
     if key == "speed-difference":
-        key, to = "speed", to or Pronoun("it")
+        other = thing is not None and not isinstance(thing, Ego)
+        key, to = "speed", to or (Ego() if other else Pronoun("it"))
     measured = Measured(
         cast(Any, key), cast(Thing, thing) if thing is not None else Ego(), to,
         event if isinstance(of, Event) else None,
     )  # fmt: skip
     highest = {"nearest": "lowest", "fastest": "highest", "slowest": "lowest",
-               "farthest": "highest", "biggest": "highest", "smallest": "lowest"}  # fmt: skip
+               "farthest": "highest", "biggest": "highest", "smallest": "lowest",
+               "difficult": "highest"}  # fmt: skip
     extreme = highest.get(traits.extreme or "", traits.extreme)
     closest = "lowest" if {"closest", "nearest", "close", "minimum"} & set(head.words) else None
     extreme = extreme if extreme in ("highest", "lowest", "mean", "total") else closest
@@ -301,6 +273,8 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
     side = cast(Any, traits.side)
     action = head.key
+    if traits.kind and action in _SLOWING | {"wait", "stand"}:
+        actor = described(traits.kind, traits)  # "made the bus wait"
     if action == "brake" and traits.extreme in ("highest", "lowest"):
         return Measure(Measured("deceleration", actor), cast(Any, traits.extreme))
     if action in ("change-lane", "turn") and side in ("left", "right"):

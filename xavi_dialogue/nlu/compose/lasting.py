@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Relative,
     Thing,
+    Unknown,
     Unsaid,
     Vehicle,
 )
@@ -30,11 +31,13 @@ from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.specials import proposition_of
+from xavi_dialogue.nlu.compose.tree import words_of
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
 #: What lasts beside events.
 _STATES = (Related, Is, Has, Exists, Compares, Not)
+_TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
@@ -43,6 +46,10 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     extreme = more.pop("extreme", None)
     time = more.pop("time", clause.time)
     actor = Ego() if thing is None or isinstance(thing, Passenger) else thing
+    if attribute == "delay" and isinstance(actor, Unknown):
+        actor = Ego()  # "all that stopping"
+    if attribute == "delay" and isinstance(clause.subject, Event) and more.get("event") is None:
+        more["event"], actor = with_fields(clause.subject, tense=clause.tense), Ego()
     if actor == more.get("to") == Ego():
         actor = Pronoun("it")  # "how much room was there between us"
     return HowMuch(
@@ -53,13 +60,26 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
 
 def meanwhile(clause: Clause, event: Event | None) -> Any:
     """Tell the time of "how fast did you take the bend": that of the deed."""
-    if event is None or clause.tense not in ("past", "perfect") or event.action in DRIVING:
+    if event is None or clause.tense not in ("past", "perfect"):
+        return clause.time
+    if event.action in DRIVING and _round(clause) and isinstance(clause.time, Unsaid):
+        return Relative("during", Event("turn", event.actor, tense=event.tense))
+    if event.action in DRIVING:
         return clause.time
     if event.action == "head" and isinstance(event.object, Feature):
         event = Event("turn", event.actor, tense=event.tense)  # "take the bend"
     if event.action == "head":
         return clause.time
     return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)
+
+
+def _round(clause: Clause) -> bool:
+    """Say whether it is told of a bend: "how fast did we go round there?"."""
+    places = [c for c in clause.complements if c.key == "bearing-around"]
+    bends = all(c.sem is None or isinstance(as_thing(c.sem), Feature | Unknown) for c in places)
+    around = any(leaf.key == "around" for leaf in clause.particles)
+    around = around or any(words_of(part).startswith("round") for _, part in clause.bearings)
+    return bends and (bool(places) or around)
 
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
@@ -77,6 +97,9 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowLong(_seen(value))
     if event is not None:
         remaining = clause.verb is not None and clause.verb.key in ("get", "have")
+        ahead = event.tense == "present" and isinstance(event.actor, Ego)
+        if ahead and event.action in _TURNS:
+            return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
         if event.action == "arrive" or (remaining and event.action in ("change-left", "go")):
             return HowMuch(Measured("time-to-go"))  # "how long have we got left"
         return HowLong(event)

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Peak,
     Question,
     Summarise,
+    WhatIf,
     WhatWouldChange,
     When,
     Where,
@@ -176,8 +177,12 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return Summarise(of, time)
         case "problem":
             return Why(That())
+        case "difference" if isinstance(about, Happens):
+            return WhatIf(about)
         case "difference":
             return Summarise(None, time)
+        case "time" if isinstance(sem.of, Measure) and sem.of.extreme is not None:
+            return HowMuch(sem.of.of, sem.of.extreme)  # "the time of the closest approach"
         case "time":
             return _clock(about, time)
         case "moment":

@@ -1,9 +1,20 @@
 """Others: whom a question about another road user is of, and what its lights are asked to mean."""
 
-from typing import Any
+from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import Question, Why
-from xavi_dialogue.domain.terms import Described, Event, Happens, Pronoun, Thing, Vehicle
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Passenger,
+    Pronoun,
+    Related,
+    Thing,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Measure, as_thing
@@ -46,3 +57,35 @@ def with_whom(clause: Clause) -> Thing | None:
 def is_vehicle(thing: Thing) -> bool:
     """Say whether a thing is or stands for a road user other than us."""
     return isinstance(thing, Described | Vehicle | Pronoun)
+
+
+def is_other(thing: Thing) -> bool:
+    """Say whether a thing is somebody else on the road, of whom we cannot tell what he thinks."""
+    return is_person(thing) or isinstance(thing, Described | Vehicle)
+
+
+def is_person(thing: Thing | None) -> bool:
+    """Say whether a thing is a pronoun for somebody on the road."""
+    return isinstance(thing, Pronoun) and thing.form in ("he", "she", "they")
+
+
+def placed(relation: str, thing: Thing, to: Thing) -> Thing:
+    """Add to a description where the thing is."""
+    bearings: dict[str, Any] = {
+        "ahead-of": "ahead", "behind": "behind", "left-of": "left", "right-of": "right",
+        "beside": "beside", "oncoming-to": "oncoming", "near": "around",
+    }  # fmt: skip
+    of = None if isinstance(to, (Ego, Passenger)) else to
+    if relation == "near" and isinstance(thing, Pronoun) and isinstance(to, Described):
+        return to  # "that on the motorbike", "this in green"
+    if isinstance(thing, Pronoun) and thing.form in ("that", "this"):
+        thing = Described()
+    if isinstance(thing, Described) and thing.bearing is None and relation in bearings:
+        return cast(Thing, with_fields(thing, bearing=bearings[relation], of=of))
+    return thing
+
+
+def nearest(value: Related, wanted: Thing) -> Thing:
+    """Describe whoever is nearest to us, in the direction that is said."""
+    kind = getattr(wanted, "kind", "vehicle")
+    return placed(value.relation, Described(cast(Any, kind), extreme="nearest"), value.to)

@@ -3,23 +3,19 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import Ago, Back, Event, Proposition, Quantity, Unsaid, Wanted
+from xavi_dialogue.nlu.compose.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.things import Nouns
-from xavi_dialogue.nlu.compose.times import relative, time_of
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-_CLAUSES = ("finite", "finite_short", "finite_topic", "inverted", "inverted_short", "vp",
-            "copular", "state", "gerund", "bare", "infinitive")  # fmt: skip
-
-
 EARLIER = 5.0  # [s] that "than before" reaches back
-_NOUNS = ("np", "group", "accusative", "accusative_group")
+_SEEMING = frozenset({"feel", "look", "seem", "sound", "appear"})
 
 
-class Phrases:
+class Phrases(Adjuncts):
     """Reads the phrases of a clause; knows of noun phrases and of the clauses inside."""
 
     def __init__(self, propositions: Any, questions: Any, notes: Notes) -> None:
@@ -33,7 +29,7 @@ class Phrases:
 
     def inner(self, part: Part) -> Sem:
         """Read what stands behind a preposition: a noun phrase or a gerund."""
-        if isinstance(part, Node) and part.name in _CLAUSES:
+        if isinstance(part, Node) and part.name in CLAUSES:
             return cast(Sem, self.propositions.as_deed(self.clause(part)))
         return self.nouns.read(cast(Node, part))
 
@@ -82,6 +78,10 @@ class Phrases:
         elif inner.name == "dative":
             clause.subject = self.nouns.read(cast(Node, inner.parts[0]))
         elif inner.name == "gerund":
+            last = inner.parts[-1]
+            if isinstance(last, Node) and last.name == "comparison" and len(inner.parts) > 1:
+                inner = Node("gerund", inner.parts[:-1], inner.start, inner.end, inner.cost)
+                self._on_comparison(last, clause)  # "was stopping better than turning"
             clause.subject = self.inner(inner)
         else:
             clause.subject = self.nouns.read(inner)
@@ -181,7 +181,8 @@ class Phrases:
                 clause.comparisons.append((leaf.key, "as"))
 
     def _on_then_than(self, node: Node, clause: Clause) -> None:
-        self._on_comparison(node, clause)
+        if leaf_of(node, "COMPAR") is not None:
+            self._on_comparison(node, clause)
         self._on_than(node, clause)
 
     def _on_than(self, node: Node, clause: Clause) -> None:
@@ -190,96 +191,32 @@ class Phrases:
             then = self.slots.fill((inner,), Clause(subject=clause.subject)).time
             clause.than_time = Ago(EARLIER) if then == Back("before") else then
             return
-        clause.than = self.clause(inner, clause) if inner.name in _CLAUSES else self.inner(inner)
+        than: Clause | Sem | None
+        than = self.clause(inner, clause) if inner.name in CLAUSES else self.inner(inner)
+        if isinstance(than, Clause) and than.only_subject:
+            if not isinstance(than.time, Unsaid):
+                clause.than_time = Ago(EARLIER) if than.time == Back("before") else than.time
+            than = than.subject
+        clause.than = than
+
+    def _on_as_than(self, node: Node, clause: Clause) -> None:
+        self._on_comparison(node, clause)
+        self._on_than(node, clause)
+        than = clause.than
+        if isinstance(than, Clause) and than.verb is not None and than.verb.key in _SEEMING:
+            clause.adjectives.append((clause.comparisons.pop()[0], ""))
+            clause.than = None  # "as hard as it felt"
+
+    def _on_within(self, node: Node, clause: Clause) -> None:
+        """Read "within two metres of us" as being closer than that."""
+        clause.comparisons.append(("close", "within"))
+        amount = cast(Node, node.parts[1])
+        amount = Node("np", (amount,), amount.start, amount.end, 0.0)
+        clause.than = self.nouns.read(amount)
+        to = self.nouns.read(cast(Node, node.parts[3]))
+        clause.complements.append(Complement("into", to, node))
 
     # --- adverbial clauses -------------------------------------------
-
-    def _time(self, node: Node, clause: Clause) -> None:
-        if isinstance(clause.time, Unsaid):
-            clause.time = time_of(node)
-        leaf = leaf_of(node, "P")
-        asking = leaf is not None and leaf.key in ("for", "about")
-        asking = asking or words_of(node).startswith("about a ")
-        if node.name == "time_ago" and asking:  # "what for, a second ago"
-            clause.complements.append(Complement("for", None, node))
-
-    _on_time_adverb = _on_time_clock = _on_time_amount = _on_time_ago = _time
-    _on_time_span = _on_time_rank = _on_time_between = _on_time_since = _time
-    _on_time_decision = _on_time_decisions = _on_time_bare = _time
-
-    def _on_lead_time(self, node: Node, clause: Clause) -> None:
-        for part in node.parts:
-            if isinstance(part, Node):
-                self._time(part, clause)
-
-    def _on_lead_clause(self, node: Node, clause: Clause) -> None:
-        inner = cast(Node, node.parts[0])
-        if inner.name == "hads":
-            clause.condition = self.clause(inner)
-        else:
-            self.slots.fill(node.parts, clause)
-
-    def _on_hads_clause(self, node: Node, clause: Clause) -> None:
-        clause.condition = self.clause(cast(Node, node.parts[0]))
-
-    def _on_when(self, node: Node, clause: Clause) -> None:
-        if len(node.parts) == 1:
-            node = cast(Node, node.parts[0])
-        leaf = cast(Leaf, node.parts[0])
-        inner = cast(Node, node.parts[1])
-        if inner.name in _CLAUSES:
-            event = self.propositions.as_event(self.clause(inner, clause))
-        else:
-            event = self.nouns.read(inner)
-        anchor = self.propositions.anchor(event)
-        if anchor is not None and isinstance(clause.time, Unsaid):
-            clause.time = relative(leaf.key, anchor)
-
-    def _on_when_np(self, node: Node, clause: Clause) -> None:
-        self._on_when(node, clause)
-
-    def _on_if_clause(self, node: Node, clause: Clause) -> None:
-        clause.condition = self.condition(cast(Node, node.parts[1]), clause)
-
-    def condition(self, inner: Node, outer: Clause | None) -> Clause:
-        """Read what is supposed: a clause, or a thing that might be there."""
-        if inner.name == "np_not":
-            sem = self.nouns.read(cast(Node, inner.parts[-1]))
-            negated = leaf_of(inner, "NOT") is not None
-            return Clause(there=True, objects=[(sem, inner)], negated=negated)
-        clause = self.clause(inner)
-        if clause.subject is None and not clause.there and outer is not None:
-            clause.subject = outer.subject
-        return clause
-
-    def _on_because(self, node: Node, clause: Clause) -> None:
-        inner = cast(Node, node.parts[-1])
-        if inner.name in _CLAUSES:
-            clause.because = self.clause(inner, clause)
-        else:
-            clause.because = self.nouns.read(inner)
-
-    def _on_without(self, node: Node, clause: Clause) -> None:
-        inner = cast(Node, node.parts[-1])
-        if inner.name == "gerund":
-            return  # "without looking": how it was done
-        if inner.name in _CLAUSES:
-            clause.condition = self.clause(inner, clause)
-            clause.condition.negated = True
-        else:
-            clause.without = self.nouns.read(inner)
-
-    def _on_contrast(self, node: Node, clause: Clause) -> None:
-        inner = node.parts[-1]
-        if isinstance(inner, Leaf):
-            clause.contrast = inner.key
-        elif inner.name in _CLAUSES:
-            clause.contrast = self.clause(inner, clause)
-        elif inner.name in _NOUNS:
-            sem = self.nouns.read(inner)
-            clause.contrast = sem.side if isinstance(sem, SideOf) else sem
-        else:
-            clause.contrast = self.slots.fill((inner,), Clause(subject=clause.subject))
 
     # --- complement clauses ------------------------------------------
 
@@ -294,8 +231,16 @@ class Phrases:
 
     def _on_that_clause(self, node: Node, clause: Clause) -> None:
         bare = node_of(node, "finite_bare")
-        inner = node_of(bare or node, *_CLAUSES)
+        inner = node_of(bare or node, *CLAUSES)
         clause.that = self.clause(inner) if inner is not None else self.slots.fill(node.parts)
+
+    def _on_here_clause(self, node: Node, clause: Clause) -> None:
+        inner = node_of(node, "finite")
+        clause.that = None if inner is None else self.clause(inner)
+        clause.focus.add("where")  # "is this where we get off"
+
+    def _on_tagged_state(self, node: Node, clause: Clause) -> None:
+        self.slots.fill(node.parts, clause)  # "nearly there, aren't we?"
 
     def _on_wh_clause(self, node: Node, clause: Clause) -> None:
         clause.question = self.questions.embedded(node, clause)

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Time,
     Unknown,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
@@ -42,12 +43,17 @@ from xavi_dialogue.nlu.compose.sem import (
     Specified,
     as_thing,
 )
+from xavi_dialogue.nlu.compose.things import relation_of
 from xavi_dialogue.nlu.compose.tree import words_of
 
 Found = tuple[Proposition, float]
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
 #: [km/h] numbers that are limits where nothing else is said.
 LIMITS = frozenset({20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0, 130.0})
+
+
+NOMINATIVE = 1.0  # cost of "the car in front is he", where "is he" rather begins a question
+_NOMINATIVE = frozenset({"he", "she", "they", "we", "i"})
 
 
 def lights(clause: Clause, subject: Measure) -> list[Found]:
@@ -76,6 +82,8 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = sem.of.to or Everyone()
         return [(Related("has-priority-over", sem.of.thing, other, time, tense), 0.0)]
+    if isinstance(sem, Measure) and (kept := _kept(clause, sem, subject)) is not None:
+        return [(Is("safe", kept, time=time, tense=tense), 0.0)]
     if isinstance(sem, Measure):
         return [
             (
@@ -100,7 +108,12 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
         return [(Is("right", None, clause.subject, time=time, tense=tense), 0.1)]
     if isinstance(sem, Event):
         return [(Is("right", subject, sem, time=time, tense=tense), 0.5)]
-    thing = as_thing(sem)
+    return _same(clause, as_thing(sem), subject, time)
+
+
+def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> list[Found]:
+    """Compose "it was him", "that is our exit", "it is there"."""
+    tense = tense_of(clause)
     if isinstance(thing, Unknown) and thing.words in ("here", "there"):
         if isinstance(subject, Ego):
             return [(arrived(clause), 0.0)]
@@ -109,19 +122,39 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     placed = _placed(thing, subject, time, tense)
     if placed is not None:
         return [(placed, 0.05)]
+    same: Proposition = Related("same-as", subject, thing, time, tense)
+    if words_of(clause.objects[0][1]) in _NOMINATIVE:
+        return [(same, NOMINATIVE)]
     if isinstance(thing, (Described, Everyone)) or not isinstance(subject, Pronoun):
-        return [(Related("same-as", subject, thing, time, tense), 0.1)]
-    return [(Caused(thing), 0.1), (Related("same-as", subject, thing, time, tense), 0.15)]
+        return [(same, 0.1)]
+    return [(Caused(thing), 0.1), (same, 0.15)]
+
+
+def _kept(clause: Clause, sem: Measure, subject: Thing) -> Thing | None:
+    """Find to whom it is told that the distance is a safe one: "a safe distance from him"."""
+    safe = {"safe", "safety"} & {*words_of(clause.objects[0][1]).split()}
+    if sem.of.attribute not in ("gap", "distance") or not safe:
+        return None
+    named = [as_thing(c.sem) for c in clause.complements if c.key in ("from", "into")]
+    return sem.of.to or next(iter(named), None) or subject
 
 
 def _described(clause: Clause, sem: Described, subject: Thing, time: Time) -> list[Found]:
     """Compose "it is a truck", "it was the bus that stopped us"."""
     tense = tense_of(clause)
+    shown = float(sem.number or 0)
+    if shown in LIMITS and not sem.definite and isinstance(subject, Pronoun):
+        limit = Measured("limit", time=clause.time)  # "isn't this a seventy?"
+        return [(Compares(limit, "same", Quantity(round(shown / 3.6, 6), "m/s")), 0.0)]
     sort = not sem.definite and sem.kind != "vehicle" and sem.bearing is None
     if sort and isinstance(subject, (Pronoun, Described)):
         return [(Has("kind", sem.kind, subject, time, tense), 0.0)]
+    if sem == Described(bearing=sem.bearing, of=sem.of) and isinstance(subject, Described):
+        relation: Any = relation_of(sem.bearing or "near")  # "the red one is the one ahead"
+        return [(Related(relation, subject, sem.of or Ego(), time, tense), 0.0)]
     same: Proposition = Related("same-as", subject, sem, time, tense)
-    if isinstance(subject, Pronoun) and subject.form in ("it", "that", "this"):
+    alike = "same" in words_of(clause.objects[0][1]).split()
+    if isinstance(subject, Pronoun) and subject.form in ("it", "that", "this") and not alike:
         return [(Caused(sem), 0.0), (same, 0.1)]
     return [(same, 0.0)]
 
@@ -160,7 +193,9 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
         thing = as_thing(sem.owner) or as_thing(sem.of) or subject
         return Is("at-fault", thing, event, time=time, tense=tense_of(clause))
-    if sem.key in ("problem",):
+    if sem.key == "problem" and isinstance(subject, Described | Vehicle):
+        return Is("dangerous", subject, time=time, tense=tense_of(clause))
+    if sem.key == "problem":
         return Is("wrong", subject, time=time, tense=tense_of(clause))
     if sem.key in ("option", "plan") and sem.negative:
         return Not(Is("possible", subject, time=time, tense=tense_of(clause)))
@@ -180,6 +215,8 @@ def against(clause: Clause, thing: Thing, phrase: Complement) -> Proposition:
     attribute: Any = "speed" if measure.of.attribute == "limit" else measure.of.attribute
     below = any(word in ("under", "below", "within") for word in words_of(phrase.node).split())
     left = Measured(attribute, thing, time=clause.time, tense=tense_of(clause))
+    if phrase.key in ("at", "into"):  # "back up to the limit"
+        return Compares(left, "at-least", measure.of)
     return Compares(left, "less" if below else "more", measure.of)
 
 
@@ -189,18 +226,37 @@ def arrived(clause: Clause) -> Proposition:
     return Happens(Event("arrive", Ego(), time=clause.time, tense=tense))
 
 
+UNITS = {"m/s": "speed", "m": "distance", "s": "time", "%": "probability"}  # what they measure
+
+
 def _numbered(clause: Clause, sem: Quantity) -> Proposition:
     subject = clause.subject
     measured = subject.of if isinstance(subject, Measure) else None
     if measured is None:
-        attribute = {"m/s": "speed", "m": "distance", "s": "time", "%": "probability"}.get(
-            sem.unit, "count"
-        )
+        attribute = UNITS.get(sem.unit, "count")
         if attribute == "count" and isinstance(subject, Pronoun) and sem.value in LIMITS:
             limit = Measured("limit", time=clause.time)  # "isn't it thirty here?"
             return Compares(limit, "same", Quantity(round(sem.value / 3.6, 6), "m/s"))
-        measured = Measured(cast(Any, attribute), as_thing(subject) or Ego(), time=clause.time)
+        measured = _measured(attribute, as_thing(subject) or Ego(), clause, clause.time)
     return Compares(measured, "same", sem)
+
+
+def beyond(clause: Clause, thing: Thing, sem: Quantity, words: str) -> Proposition:
+    """Read "over 50", "under ten metres": a bare number is a speed."""
+    attribute = UNITS.get(sem.unit, "speed")
+    if sem.unit == "count":
+        sem = Quantity(round(sem.value / 3.6, 6), "m/s")
+    below = words.split()[0] in ("under", "below", "within")
+    measured = with_fields(_measured(attribute, thing, clause, clause.time), tense=tense_of(clause))
+    return Compares(cast(Measured, measured), "less" if below else "more", sem)
+
+
+def _measured(attribute: str, thing: Thing, clause: Clause, time: Time) -> Measured:
+    """Say what is measured: "it is 20 metres to the bus" is our distance to it."""
+    to = next((as_thing(c.sem) for c in clause.complements if c.key in ("into", "from")), None)
+    if attribute != "distance" or to is None:
+        return Measured(cast(Any, attribute), thing, time=time)
+    return Measured("distance", Ego() if isinstance(thing, Pronoun) else thing, to, time=time)
 
 
 def tense_of(clause: Clause) -> Any:

@@ -17,11 +17,14 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Unknown,
+    Unsaid,
 )
+from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.adoption import adopt, as_of, compared, with_fields
 from xavi_dialogue.nlu.compose.candidates import Candidate, Special
 from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.events import event_of, when
+from xavi_dialogue.nlu.compose.positions import by_event
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.senses import Match, match, senses
 from xavi_dialogue.nlu.compose.specials import proposition_of
@@ -63,6 +66,8 @@ class Propositions:
             found = self._verbal(clause)
         if clause.verb is not None and clause.verb.form == "base" and clause.aux_last() == "be":
             found = [replace(one, cost=one.cost + ODD_FORM) for one in found]
+        elif clause.verb is not None and clause.verb.words == ("up", "to") and clause.aux == []:
+            found = [replace(one, cost=one.cost + NO_PREDICATE) for one in found]
         found.sort(key=lambda candidate: candidate.cost)
         best = found[0].cost if found else 0.0
         kept = [c for c in found if c.cost <= best + SPREAD][:4]
@@ -78,6 +83,9 @@ class Propositions:
         """Read "it is not true that he turned": what is said to be so, or not."""
         key = clause.adjectives[0][0] if clause.adjectives else ""
         bare = clause.verb is None and wanted_pronoun(clause.subject)
+        if "where" in clause.focus and clause.verb is None and clause.that is not None:
+            content = self.plain(clause.that)
+            return Not(content) if content is not None and clause.negated else content
         if not bare or key not in ("right", "wrong") or clause.that is None:
             return None
         content = self.plain(clause.that)
@@ -115,7 +123,7 @@ class Propositions:
         else:
             event = event_of(clause, one)
             event = self._chain(clause, event)
-            value = compared(clause, event) or Happens(event)
+            value = compared(clause, event) or by_event(clause, event) or Happens(event)
             if "semi-allowed" in clause.aux:
                 value = Is("allowed", event=event, time=event.time, tense=event.tense)
             if clause.negated:
@@ -199,6 +207,9 @@ class Propositions:
                    if j == "or" or not isinstance(value, Happens)]  # fmt: skip
         if not chained:
             return value
+        for _, other in chained:
+            if isinstance(other.time, Unsaid):
+                other.time = clause.time
         others = [p for _, c in chained if (p := self.plain(c)) is not None]
         if not others:
             return value
@@ -213,6 +224,9 @@ class Propositions:
                 return event
             case Not(content=Happens(event=event)):
                 return event
+            case Is(state="fast" | "slow" as pace, thing=thing) if thing is not None:
+                manner: Manner = "fast" if pace == "fast" else "slowly"
+                return Event("go", thing, manner=(manner,), time=found.time, tense=found.tense)
             case Related(relation="can-see", thing=thing, to=to):
                 return Event("see", thing, to, tense=found.tense)
             case None:

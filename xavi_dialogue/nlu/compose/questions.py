@@ -26,10 +26,10 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.asking import Asking
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.comparing import BY
 from xavi_dialogue.nlu.compose.effects import Effects
 from xavi_dialogue.nlu.compose.nominal import event_in, propose
 from xavi_dialogue.nlu.compose.peaks import peak_of
-from xavi_dialogue.nlu.compose.polar import BY
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -50,6 +50,10 @@ _YIELDS = frozenset({"give-way", "let-go", "wait"})
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
 EMPHATIC = 0.6  # cost of "who did stop"
 WEAK = 1.0  # cost of a clause of which nothing is said
+
+
+#: What tells nobody apart: "a man", "somebody".
+_SORTS = (Described(definite=False), Described(kind="pedestrian", definite=False))
 
 
 class Questions(Effects):
@@ -174,6 +178,8 @@ class Questions(Effects):
         if clause.subject is None and wh.kind in ("which", "count"):
             clause.subject = wh.sem if is_thing(wh.sem) or wh.kind == "count" else None
         options = _alternatives(clause) if wh.kind in ("who", "what", "which") else None
+        if options is not None and all(option in _SORTS for option in options):
+            options = None  # "a man or a lady?"
         if wh.kind == "grade" and wh.key == "likely":
             content = self._believed(clause)
             if content is not None:
@@ -192,7 +198,8 @@ class Questions(Effects):
                 by = BY.get(clause.comparisons[0][0], "best")
                 if by == "time" and all(is_thing(option) for option in options):
                     by = "speed"
-            return [(Compare(options, cast(Any, by)), 0.1)]
+            things = by == "best" and all(is_thing(option) for option in options)
+            return [(Compare(options, cast(Any, by)), 0.1 + WEAK * things)]
         candidates = self.propositions.readings(clause)
         pairs: list[tuple[Any, float]] = [(c.value, c.cost) for c in candidates] or [(None, 0.0)]
         found: list[tuple[Question, float]] = []
@@ -260,6 +267,10 @@ class Questions(Effects):
             going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
             return Which(Wanted(), Happens(going))
         found = self.propositions.readings(clause)
+        said = fact(found[0].value) if found and clause.verb is not None else None
+        others = all(is_thing(one) and not isinstance(one, Ego) for one in options)
+        if others and said is not None and not clause.comparisons:
+            return Which(Wanted(), said, options)
         match fact(found[0].value) if found else None:
             case Related(relation="has-priority-over" | "must-yield-to") as related:
                 return Which(Wanted(), with_fields(related, to=other))
@@ -307,7 +318,18 @@ def _alternatives(clause: Clause) -> tuple[Any, ...] | None:
         if isinstance(sem, Group) and sem.join == "or":
             del clause.objects[index]
             return tuple(_option(member) for member in sem.members)
+    for index, (join, other) in enumerate(clause.chained):
+        if join == "or" and clause.objects and _is_option(other):
+            del clause.chained[index]
+            first, _ = clause.objects.pop()
+            return _option(first), _option(other.objects[0][0])
     return None
+
+
+def _is_option(other: Clause) -> bool:
+    """Say whether nothing stands behind "or" but a thing."""
+    more = (other.complements, other.adjectives, other.bearings, other.manner, other.particles)
+    return len(other.objects) == 1 and is_thing(other.objects[0][0]) and not any(more)
 
 
 def _whose_turn(sem: Sem | None) -> Question | None:

@@ -96,7 +96,7 @@ THINGS = (
     Ego, Vehicle, Vehicles, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
     Exit, Lane, Road, Feature, Passenger, Record, Unknown,
 )  # fmt: skip
-_NUMBERS = 100  # numbers of vehicles are below
+_NUMBERS = 20  # numbers of vehicles are below
 _OPEN = frozenset({"it", "that", "this", "they"})
 
 
@@ -118,7 +118,7 @@ def types(sem: Sem) -> str:
         case Pronoun(form=form):
             return "vantjlfrpxd" if form in _OPEN else "v"
         case Feature(kind=kind):
-            return "fd" if kind in ("way", "light") else "f"
+            return "fd" if kind in ("way", "light") else "fp" if kind == "queue" else "f"
         case Event(action=action):
             return "tb" if action == "brake" else "t"
         case Group(members=members):

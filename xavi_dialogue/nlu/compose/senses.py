@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from functools import cache
 
-from xavi_dialogue.domain.terms import Pronoun, Wanted
+from xavi_dialogue.domain.terms import Ego, Pronoun, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.flags import flag
 from xavi_dialogue.nlu.compose.sem import Sem, is_thing, types
@@ -16,6 +16,11 @@ LEFT_OTHER = 0.35  # of another phrase without a role
 MISSING = 2.0  # of a role that must be filled
 ALMOST = 0.5  # of a thing of another type that might do
 LEFT_PARTICLE = 0.25
+OURS = 0.08  # of "in front" for "in front of us"
+_OWNERS: dict[str, Sem] = {
+    "my": Ego(), "our": Ego(), "your": Ego(), "his": Pronoun("he"), "her": Pronoun("he"),
+    "its": Pronoun("it"), "their": Pronoun("they"),
+}  # fmt: skip
 _FLAGS = frozenset(
     {
         "inf",
@@ -42,7 +47,7 @@ _FLAGS = frozenset(
 class Role:
     """One thing that stands with a verb: its kind, the types it takes, whether it may miss."""
 
-    kind: str  # "o", "o2", "s", a preposition, "+up", "side", or a flag such as "inf"
+    kind: str  # "o", "o2", "s", "one", a preposition, "+up", "side", or a flag such as "inf"
     types: str = "*"
     optional: bool = False
 
@@ -158,11 +163,15 @@ def _fill(
 ) -> float | None:  # fmt: skip
     if role.kind in ("o", "o2"):
         return _fill_object(role, found, clause, objects)
+    if role.kind == "one":
+        words = clause.verb.words if clause.verb is not None else ()
+        found.object = next((_OWNERS[word] for word in words if word in _OWNERS), None)
+        return 0.0
     if role.kind == "s":
         if clause.subject is None:
             return None
         cost = fits(clause.subject, role.types)
-        vague = isinstance(clause.subject, Pronoun)
+        vague = isinstance(clause.subject, Pronoun | Wanted)
         return cost if cost is None or not vague else cost + VAGUE
     if role.kind.startswith("+"):
         return _fill_particle(role.kind[1:], found, clause, particles, phrases, objects)
@@ -230,7 +239,8 @@ def _fill_particle(
             return 0.02
     if word in ("first", "there", "still", "put", "going", "moving", "faster", "waiting"):
         return 0.0 if _worded(word, clause) else None
-    if word in ("back",) and "back" in [b for b, _ in clause.bearings]:
+    if word in ("back", "ahead", "around") and word in [bearing for bearing, _ in clause.bearings]:
+        found.phrases[f"bearing-{word}"] = Ego()
         return 0.0
     return None
 
@@ -271,4 +281,15 @@ def _fill_phrase(
         ) or found.object is None:
             found.object = sem
         return cost
-    return None
+    return _fill_bearing(role, found, clause)
+
+
+def _fill_bearing(role: Role, found: Match, clause: Clause) -> float | None:
+    """Take a bearing that is seen from us for a phrase: "pull in front", "go round us"."""
+    bearing = role.kind.removeprefix("bearing-")
+    if bearing == role.kind or bearing not in [key for key, _ in clause.bearings]:
+        return None
+    found.phrases[role.kind] = Ego()
+    if not isinstance(clause.subject, Ego) and found.object is None:
+        found.object = Ego()
+    return OURS

@@ -9,16 +9,13 @@ from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
-    Exists,
     Feature,
     Happens,
     Has,
     Is,
-    Junction,
     Lane,
     Measured,
     Next,
-    Nobody,
     Not,
     Passenger,
     Pronoun,
@@ -30,25 +27,34 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
     Vehicle,
-    Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
-from xavi_dialogue.nlu.compose.predicates import against, arrived, lights, nominal, tense_of
+from xavi_dialogue.nlu.compose.existence import existing
+from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, passed
+from xavi_dialogue.nlu.compose.predicates import (
+    UNITS,
+    against,
+    arrived,
+    beyond,
+    lights,
+    nominal,
+    tense_of,
+)
 from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import (
     Measure,
-    Noun,
     as_thing,
     is_thing,
 )
 from xavi_dialogue.nlu.compose.things import relation_of
 from xavi_dialogue.nlu.compose.tree import words_of
+from xavi_dialogue.nlu.compose.trends import nearness
 
 _NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
             "occupied": "free", "unsure": "sure", "absent": "present", "early": "late"}  # fmt: skip
-_STATES = frozenset(
+STATES = frozenset(
     [
         "safe",
         "dangerous",
@@ -95,12 +101,21 @@ _COMPARED: dict[str, tuple[str, str]] = {
     "safe": ("value", "more"), "better": ("value", "more"), "likely": ("probability", "more"),
 }  # fmt: skip
 _TURNS = frozenset({"turn", "exit-left", "exit-right"})
+#: What is said of a deed by how it was done.
+_MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly"}
+BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" is a question
+_SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
 LOOSE = 0.25  # cost of a particle beside "be"
 Found = tuple[Proposition, float]
 
 
 def state_of(clause: Clause) -> list[Found]:
     """Compose a clause without a verb; several readings at their costs."""
+    placed = clause.bearings[0][0] if clause.bearings else None
+    said = clause.comparisons or clause.adjectives
+    spoken = clause.subject
+    if isinstance(spoken, Described) and spoken.bearing is None and said and placed in _SIDES:
+        clause.subject = with_fields(spoken, bearing=placed)  # "is that car behind as fast?"
     extra = ungoverned(clause) - 0.12
     return [(Not(p) if clause.negated else p, cost + extra) for p, cost in _found(clause)]
 
@@ -115,12 +130,17 @@ def ungoverned(clause: Clause) -> float:
 
 def _found(clause: Clause) -> list[Found]:
     if clause.there:
-        return _exists(clause)
+        return existing(clause)
     subject = clause.subject
     for key, degree in clause.adjectives:
-        if key in _STATES or key in _NEGATED:
-            return [(_is(clause, key, degree == "too"), 0.0)]
-    if clause.comparisons and clause.comparisons[0][1] != "as":
+        if key in _MANNERS and isinstance(subject, Event):
+            hard = (*subject.manner, _MANNERS[key])
+            deed = with_fields(subject, manner=hard, time=clause.time, tense=tense_of(clause))
+            return [(Happens(deed), 0.0)]  # "was that braking hard?"
+        if key in STATES or key in _NEGATED:
+            beside = any(isinstance(sem, Pronoun) for sem, _ in clause.objects)
+            return [(_is(clause, key, degree == "too"), BESIDE * beside)]
+    if clause.comparisons and (clause.comparisons[0][1] != "as" or clause.than is not None):
         compared = _compares(clause)
         if compared is not None:
             return [(compared, 0.0)]
@@ -155,9 +175,14 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     thing = as_thing(clause.subject) if event is None else None
     if isinstance(clause.subject, Measure):
         thing = clause.subject.of.thing
+        if state == "big" and clause.subject.of.attribute in ("gap", "distance"):
+            return roomy(clause, clause.time)  # "was the gap big enough"
     spoken = isinstance(thing, Pronoun) and thing.form in ("that", "this", "it")
     if isinstance(thing, Pronoun) and (inner is not None or (spoken and state == "allowed")):
         thing = None
+    bend = any(c.key == "for" and isinstance(c.sem, Feature) for c in clause.complements)
+    if state in ("fast", "slow") and isinstance(thing, Pronoun) and bend:
+        thing = Ego()  # "was it not too fast for this curve?"
     if state in ("close", "far") and isinstance(thing, Pronoun):
         thing = _near_what(clause, thing)
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
@@ -185,83 +210,37 @@ def _near_what(clause: Clause, thing: Thing) -> Thing:
 
 def _compares(clause: Clause) -> Proposition | None:
     key, words = clause.comparisons[0]
+    sem = clause.subject
+    if key in _COMPARED and isinstance(sem, Measure) and isinstance(clause.than, Quantity):
+        of = cast(Measured, with_fields(sem.of, time=clause.time, tense=tense_of(clause)))
+        return Compares(of, cast(Any, _COMPARED[key][1]), clause.than)  # "is the gap under 10 m"
     if key not in _COMPARED or not is_thing(clause.subject):
         return None
     attribute, direction = _COMPARED[key]
+    if attribute == "value" and isinstance(clause.than, Quantity):
+        attribute = UNITS.get(clause.than.unit, attribute)
     left = Measured(cast(Any, attribute), cast(Thing, clause.subject), time=clause.time,
                     tense=tense_of(clause))  # fmt: skip
     right: Any = None
+    like = next((as_thing(c.sem) for c in clause.complements if c.key == "like"), None)
+    if clause.than is None and like is not None:  # "he is faster like us"
+        right = Measured(cast(Any, attribute), like, time=clause.time, tense=tense_of(clause))
     if not isinstance(clause.than_time, Unsaid):
         return compared_times(clause, attribute, direction, left.thing)
     if isinstance(clause.than, Quantity):
         right = clause.than
+        left = nearness(clause, left)
     elif clause.than is not None and not isinstance(clause.than, Clause):
         thing = as_thing(clause.than)
         if isinstance(clause.than, Measure):
             right = clause.than.of
         elif thing is not None:
             right = Measured(cast(Any, attribute), thing, time=clause.time, tense=tense_of(clause))
-    if words.startswith(("less", "worse")):
+    if words == "as":
+        direction = "same"
+    if words.startswith(("less ", "worse")):
         direction = {"more": "less", "less": "more"}[direction]
     return Compares(left, cast(Any, direction), right)
-
-
-def _exists(clause: Clause) -> list[Found]:
-    if not clause.objects:
-        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.6)]
-    sem = clause.objects[0][0]
-    thing = as_thing(sem)
-    if isinstance(sem, Event) and sem.action in _TURNS:
-        turn = Exists(Junction(), clause.time, tense_of(clause))
-        return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
-    if isinstance(sem, Noun):
-        thing = Unknown(sem.word)
-        if sem.key == "problem":
-            state: Proposition = Is(
-                "wrong", Pronoun("that"), time=clause.time, tense=tense_of(clause)
-            )
-            return [(Not(state) if sem.negative else state, 0.1)]
-    if thing is None:
-        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
-    if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
-        return [(roomy(clause, clause.time), 0.0)]
-    if isinstance(thing, Feature) and thing.kind == "space":
-        return [(roomy(clause, clause.time), 0.0)]
-    thing = _where(thing, clause)
-    if isinstance(thing, Nobody):
-        described = thing.described or Described(definite=False)
-        return [
-            (
-                Not(Exists(_where(described, clause), clause.time, tense_of(clause))),
-                0.0,
-            )
-        ]
-    there: Proposition = Exists(thing, clause.time, tense_of(clause))
-    denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
-    return [(Not(there) if denied else there, 0.0)]
-
-
-def _where(thing: Thing, clause: Clause) -> Thing:
-    """Add to a description where it is said to be."""
-    if not isinstance(thing, (Described, Nobody)):
-        return thing
-    described = thing.described or Described(definite=False) if isinstance(thing, Nobody) else thing
-    bearing: Any = next((b for b, _ in clause.bearings if b not in ("there", "here")), None)
-    of: Thing | None = None
-    for phrase in clause.complements:
-        if phrase.key.startswith("bearing-") and bearing is None:
-            bearing = phrase.key.removeprefix("bearing-")
-            of = as_thing(phrase.sem)
-        elif phrase.key in ("in", "on", "at") and described.such is None:
-            place = as_thing(phrase.sem)
-            if place is not None:
-                described = with_fields(described, such=Related("on", Wanted(), place))
-    if bearing is None or described.bearing is not None:
-        return Nobody(described) if isinstance(thing, Nobody) else described
-    fields: dict[str, Any] = {k: getattr(described, k) for k in described.__struct_fields__}
-    fields.update(bearing=bearing, of=None if isinstance(of, (Ego, Passenger)) else of)
-    described = Described(**fields)
-    return Nobody(described) if isinstance(thing, Nobody) else described
 
 
 def _placed(clause: Clause) -> list[Found]:
@@ -278,14 +257,19 @@ def _placed(clause: Clause) -> list[Found]:
             return [
                 (Related(relation, thing, to or as_thing(clause.gap) or Ego(), time, tense), 0.0)
             ]
+        if phrase.key == "over" and (gone := passed(thing, to, phrase, clause)) is not None:
+            return [(gone, 0.0)]
         if phrase.key in ("in", "on") and to == Feature("way"):
             return [(Related("in-the-way-of", thing, Ego(), time, tense), 0.0)]
-        if isinstance(phrase.sem, Measure) and phrase.key in ("over", "in"):
+        if isinstance(phrase.sem, Quantity) and phrase.key == "over":
+            return [(beyond(clause, thing, phrase.sem, words_of(phrase.node)), 0.0)]
+        paced = isinstance(phrase.sem, Measure) and phrase.sem.of.attribute in ("limit", "speed")
+        if paced and phrase.key in ("over", "in", "at", "into"):
             return [(against(clause, thing, phrase), 0.0)]
         if to is None:
             continue
         if phrase.key == "from":
-            return [(Related("from", thing, to, time, tense), 0.1)]
+            return [(by_origin(thing, to, clause), 0.1)]
         if phrase.key in ("in", "on", "at", "into"):
             if isinstance(to, Unknown) and phrase.key != "on":
                 return [(Related("on", thing, to, time, tense), 0.5)]
@@ -295,9 +279,9 @@ def _placed(clause: Clause) -> list[Found]:
             return [(Related("with", thing, to, time, tense), 0.1)]
     if clause.origin is not None:
         return [(Has("origin", clause.origin, thing, time, tense), 0.0)]
-    passed = {leaf.key for leaf in clause.particles} & {"through", "past", "over"}
-    if passed and not clause.bearings:
-        return [(Is("over", thing, time=time, tense=tense), 0.0)]
+    moved = by_particle(clause)
+    if moved is not None:
+        return [(moved, -LOOSE)]
     for bearing, part in clause.bearings:
         if bearing == "beside" and words_of(part).startswith("close"):
             return [(Is("close", thing, None, "too" in clause.focus, time, tense), 0.0)]

@@ -4,10 +4,12 @@ from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
     Act,
+    Ask,
     AskHelp,
     Beyond,
     Elliptic,
     Feel,
+    HowSure,
     Quizzing,
     Repair,
     Social,
@@ -68,6 +70,8 @@ def talk_act(leaf: Leaf) -> Act | None:
             return Social("agree")
         case "NO":
             return Social("disagree")
+        case "HEDGE" if leaf.key == "likely":
+            return Ask(HowSure())
     return None
 
 

@@ -33,10 +33,13 @@ from xavi_dialogue.nlu.compose.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.nominal import asked_each, asked_of, counted, propose
+from xavi_dialogue.nlu.compose.others import is_person
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh
 
-_SHOWING = frozenset({"give", "show", "describe", "report", "provide", "present"})
+_SHOWING = frozenset(
+    {"give", "show", "describe", "report", "provide", "present", "walk me through"}
+)
 
 
 class Telling:
@@ -98,7 +101,7 @@ class Telling:
         if sem is None or isinstance(sem, (Passenger, Pronoun)):
             return (Repair("longer" if value.name == "tell" else "repeat"),)
         if isinstance(sem, Event):
-            if clause.verb is not None and clause.verb.key in _SHOWING:
+            if clause.verb is not None and clause.verb.key in _SHOWING and sem.action != "do":
                 return (Ask(Summarise(sem, clause.time)),)
             return (Ask(Why(timed(Happens(sem), clause.time))),)
         if isinstance(sem, (Moment, Unknown)):
@@ -177,8 +180,9 @@ def listed(event: Event, time: Time) -> Listing:
 
 def _description(sem: Sem | None, clause: Clause) -> Question:
     thing = as_thing(sem)
-    if isinstance(thing, Described):
-        return Identify(thing)
+    if isinstance(thing, Described | Vehicle) or is_person(thing):
+        return Identify(cast(Thing, thing))
     if isinstance(sem, Event):
         return Summarise(sem, clause.time)
-    return Summarise(None, clause.time)
+    measured = asked_of(sem, clause.time) if isinstance(sem, Measure) else None
+    return measured or Summarise(None, clause.time)

@@ -19,7 +19,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.heads import Traits, described, noun, rank_of
+from xavi_dialogue.nlu.compose.heads import noun, rank_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Moment,
@@ -29,6 +29,7 @@ from xavi_dialogue.nlu.compose.sem import (
     Specified,
     as_thing,
 )
+from xavi_dialogue.nlu.compose.traits import Traits, described
 from xavi_dialogue.nlu.compose.tree import (
     is_negated,
     leaf_of,
@@ -148,6 +149,9 @@ class Nouns:
         traits.kind = kind.key if kind else None
         if leaf.key == "everything":
             return Noun("ride", word="everything")
+        if leaf.key == "everybody" and {"bearing", "doing", "such"} & traits.fields.keys():
+            traits.determiner = "def"  # "the others behind him"
+            return described(traits.kind or "vehicle", traits, plural=True)
         if leaf.key == "everybody":
             return Everyone(cast(Any, traits.kind or "vehicle"))
         traits.determiner = "indef"
@@ -158,7 +162,8 @@ class Nouns:
 
     def _quantity(self, core: Node) -> Sem:
         unit = leaf_of(core, "UNIT") or leaf_of(core, "TUNIT")
-        number = number_of(cast(Node, node_of(core, "num", "bare_number")))
+        said = node_of(core, "num", "bare_number")
+        number = 1.0 if said is None else number_of(said)  # "a kilometre"
         if unit is None:
             return Quantity(number)
         name, scale = _SCALES[unit.key]
@@ -206,6 +211,8 @@ class Nouns:
                 traits.fields.setdefault("bearing", key)
             case "KIND":
                 traits.kind = key
+            case "EVN":
+                traits.deed = key
             case "FROM":
                 traits.fields["origin"] = key
             case "ADJ":

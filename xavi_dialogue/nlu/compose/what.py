@@ -8,6 +8,7 @@ from xavi_dialogue.domain.meaning import (
     Fault,
     HowAvoid,
     HowKnow,
+    HowMuch,
     Identify,
     Listing,
     Question,
@@ -33,7 +34,9 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Quantity,
     Related,
+    Relative,
     That,
     Thing,
     Unsaid,
@@ -49,6 +52,8 @@ from xavi_dialogue.nlu.compose.others import (
     expected_of,
     is_idle,
     is_vehicle,
+    nearest,
+    placed,
     shown,
     with_whom,
 )
@@ -81,13 +86,16 @@ class What:
             value = fact(value)
         if value is None or _empty(clause) or _named(clause):
             return self._what_is(wh, clause)
-        return self._what_holds(wh, clause, value)
+        return _cost_asked(value) or self._what_holds(wh, clause, value)
 
     def _what_is(self, wh: Wh, clause: Clause) -> Question:
         subject = clause.subject
-        open_ = (isinstance(subject, Wanted) or subject is None) and not clause.objects
+        open_ = isinstance(subject, Wanted) or subject is None
+        open_ = open_ and not any(not isinstance(sem, Quantity) for sem, _ in clause.objects)
         if open_ and isinstance(clause.time, (WholeRide, Back)) and not clause.complements:
             return Doing(None, clause.time, "past")
+        if open_ and clause.side == "left" and clause.verb is None:
+            return HowMuch(Measured("distance-to-go"))  # "what's left?"
         if _next_named(clause):
             return Doing(Ego(), Next(), "future")
         if isinstance(subject, Wanted) or subject is None:
@@ -106,6 +114,10 @@ class What:
                 return self._doing(wh, clause, value)
             case "happen" | "happen-wrong":
                 return self._happened(clause, value)
+            case "load":
+                return measured("load", clause, subject)
+            case "driver" if isinstance(clause.subject, Wanted):
+                return measured("occupant", clause, as_thing(value.object))
             case "make-do" | "cause":
                 effect = fact(value)
                 inner = effect.effect if isinstance(effect, Caused) else None
@@ -169,7 +181,9 @@ class What:
                 event=Event(action="change-plan", actor=Wanted(), modal="would" | "could")
             ):
                 return WhatWouldChange()
-            case Happens(event=Event(action="change-plan", actor=Wanted()) as event):
+            case Happens(event=Event(action="change-plan", actor=Wanted()) as event) if (
+                wh.kind == "what"
+            ):
                 return Why(Happens(with_fields(event, actor=Ego())))
             case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
                 return Doing(to, clause.time, "present")  # "what is up with that van"
@@ -179,6 +193,10 @@ class What:
                 return HowAvoid()
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
+            case Happens(event=Event(action="come", actor=Wanted(), object=None, time=Relative())):
+                return Doing(Ego(), clause.time, "future")  # "what comes after this turn?"
+            case Related(thing=Wanted(), to=Ego()) if clause.focus & {"closest", "nearest"}:
+                return Identify(nearest(value, wanted))
             case Happens(event=Event(action="go" | "continue", actor=Wanted(), object=None)):
                 if "on" in {leaf.key for leaf in clause.particles} | {*clause.focus}:
                     return Doing(None, clause.time, cast(Any, clause.tense))
@@ -188,8 +206,10 @@ class What:
                 return Why(effect or That())
             case Exists():
                 return Listing("vehicles", time=clause.time)
+            case Related(relation="near", thing=Wanted(), to=Described() as to) if _inside(clause):
+                return measured("load" if wh.kind == "what" else "occupant", clause, to)
             case Related(relation=relation, thing=thing, to=to) if not _open(thing, to):
-                return Identify(_placed(relation, thing, to))
+                return Identify(placed(relation, thing, to))
         if isinstance(value, Happens) and _complete(value.event):
             actor = value.event.actor
             if isinstance(actor, Described) and actor.doing is None:
@@ -208,6 +228,11 @@ class What:
                 return Listing("options", time=clause.time) if ours else HowAvoid()
             return Doing(value.event.actor, clause.time, cast(Any, clause.tense))
         return Which(wanted, value)
+
+
+def _inside(clause: Clause) -> bool:
+    """Say whether it is asked who or what is in a vehicle: "what is in that lorry?"."""
+    return any(phrase.key == "in" for phrase in clause.complements)
 
 
 def _next_named(clause: Clause) -> bool:
@@ -261,6 +286,16 @@ def _of_reasons(clause: Clause, value: Special) -> Question | None:
     return None
 
 
+def _cost_asked(value: Proposition) -> Question | None:
+    """Read "what did that save us" as the question how much time it saved."""
+    match value:
+        case Compares(left=Measured(attribute="delay") as left, right=None) if not _open(
+            left.thing
+        ):
+            return HowMuch(left)
+    return None
+
+
 def _wanted(wh: Wh) -> Thing:
     if isinstance(wh.sem, Described):
         return wh.sem
@@ -298,20 +333,6 @@ def _named(clause: Clause) -> bool:
 
 def _open(*things: Thing) -> bool:
     return any(isinstance(thing, Wanted) for thing in things)
-
-
-def _placed(relation: str, thing: Thing, to: Thing) -> Thing:
-    """Add to a description where the thing is."""
-    bearings: dict[str, Any] = {
-        "ahead-of": "ahead", "behind": "behind", "left-of": "left", "right-of": "right",
-        "beside": "beside", "oncoming-to": "oncoming", "near": "around",
-    }  # fmt: skip
-    of = None if isinstance(to, (Ego, Passenger)) else to
-    if isinstance(thing, Pronoun) and thing.form in ("that", "this"):
-        thing = Described()
-    if isinstance(thing, Described) and thing.bearing is None and relation in bearings:
-        return cast(Thing, with_fields(thing, bearing=bearings[relation], of=of))
-    return thing
 
 
 def _empty(clause: Clause) -> bool:

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Exit,
+    Feature,
     Happens,
     Junction,
     Lane,
@@ -37,6 +38,7 @@ from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.lasting import meanwhile, measured
 from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.others import nearest
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.wh import (
     Wh,
@@ -72,6 +74,8 @@ class WhichOne:
                 return HowMuch(with_fields(of, time=Back("during"), tense="past"), sem.extreme)
             case Measure():
                 return self._attribute(sem, clause, value, actor)
+            case Noun(key="prediction") if any(key == "wrong" for key, _ in clause.adjectives):
+                return Listing("wrong-predictions", time=clause.time)
             case Noun():
                 return self._abstract(sem, clause, value)
             case Exit():
@@ -98,6 +102,10 @@ class WhichOne:
 
     def _which_one(self, wh: Wh, clause: Clause, value: Any) -> Question:
         thing = as_thing(wh.sem) or Wanted()
+        if thing == Feature("line") and not isinstance(clause.subject, Ego | Lane):
+            named = [as_thing(sem) for sem, _ in clause.objects]
+            whose = named[0] if named and actor_is_open(clause) else as_thing(clause.subject)
+            return measured("writing", clause, whose)  # "which line is it?"
         taken = clause.verb is not None and clause.verb.key == "take"
         if taken and isinstance(clause.subject, Ego) and thing in _BARE:
             return way_at(Ego(), time_of(clause, value), clause.tense)
@@ -110,6 +118,9 @@ class WhichOne:
         if value is None:
             return Which(thing)
         of = fact(value)
+        near = clause.focus & {"closest", "nearest"} and isinstance(of, Related) and of.to == Ego()
+        if near and isinstance(thing, Described) and isinstance(of, Related):
+            return Identify(nearest(of, thing))
         if isinstance(of, Caused) and isinstance(of.cause, Wanted):
             return WhatWouldChange(of.effect, most=True)
         if isinstance(of, Related) and of.relation == "same-as":
@@ -148,6 +159,11 @@ class WhichOne:
             return self._way(clause, value, as_thing(clause.subject))
         found = asked_of(sem, clause.time, clause.tense)
         return found or Which(Wanted(), fact(value) if value is not None else None)
+
+
+def actor_is_open(clause: Clause) -> bool:
+    """Say whether the subject is what is asked for."""
+    return clause.subject is None or isinstance(clause.subject, Wanted)
 
 
 _BARE = (Wanted(), Described(), Described(definite=False))

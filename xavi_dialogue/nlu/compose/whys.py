@@ -26,6 +26,8 @@ def pace_asked(composer: Any, clause: Clause) -> list[tuple[tuple[Act, ...], flo
     if clause.verb is not None or clause.bare is not None or clause.gerund is not None:
         return None
     sem = clause.objects[0][0] if len(clause.objects) == 1 else None
+    if isinstance(sem, Measure) and sem.of.attribute in ("delay", "waiting-time"):
+        return [((Ask(Why(Compares(Measured("delay"), "more"))),), COST)]
     limited = bool(clause.focus & {"only", "just", "merely"})
     bare = isinstance(sem, Quantity) and sem.unit == "count"
     number = isinstance(sem, Quantity) and bare and (limited or _is_speed(sem.value))

@@ -11,7 +11,7 @@ from typing import Any
 from xavi_dialogue.nlu.grammar.inflect import past_forms, plural, verb_forms
 from xavi_dialogue.nlu.text.lattice import Edge, Lattice
 from xavi_dialogue.nlu.text.spelling import Vocabulary
-from xavi_dialogue.nlu.text.tables import load, phrases
+from xavi_dialogue.nlu.text.tables import english, load, phrases
 
 _NUMBER = re.compile(r"[0-9]+(?:[.,:][0-9]+)?")
 NOUNS = frozenset({"KIND", "PLACEN", "MEAS", "EVN", "ABS", "UNIT", "TUNIT", "RIDE", "TIMES"})
@@ -23,6 +23,8 @@ AUXILIARY = 0.03  # what "want to" is cheaper by than the verb and its infinitiv
 FILLER = 0.35  # cost of a function word that is read past
 AUXILIARIES = {"do": 0.1, "have": 0.2}  # cost as verbs in their own right
 ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
+MEASURED = 0.2  # cost of a bare verb that is the name of a measure too: "speed"
+OWNERS = ("my", "our", "your", "his", "her", "its", "their", "the")
 PHRASE = 0.02  # what a phrase is cheaper by for each word after its first
 
 
@@ -95,6 +97,8 @@ def lexicon() -> Lexicon:
     for verb in plain["verbs"].split():
         for _, form in past_forms(verb, plain["irregular"].get(verb)):
             words.setdefault(form, 1)
+    for word in english():
+        words.setdefault(word, 2)
     text = load("nlu_text.toml")
     for word in text["numbers"]:
         words.setdefault(word, 0)
@@ -117,8 +121,8 @@ def _add_class(trie: Trie, category: str, key: str, listed: str, nouns: set[str]
 def _add_verbs(trie: Trie) -> None:
     table: dict[str, Any] = load("nlu_verbs.toml")
     for lemma in table["senses"]:
-        spelt = [lemma.split(), *(list(p) for p in phrases(table["variants"].get(lemma, "")))]
-        for words in spelt:
+        listed = [tuple(lemma.split()), *phrases(table["variants"].get(lemma, ""))]
+        for words in [owned for spelt in listed for owned in _owned(spelt)]:
             forms = table["forms"]
             irregular = forms.get(" ".join(words)) or forms.get(words[0])
             for form, word in verb_forms(words[0], irregular):
@@ -128,17 +132,25 @@ def _add_verbs(trie: Trie) -> None:
                     if word in ("left", "saw", "thought", "found", "past") and form != "base"
                     else cost
                 )
-                if form in ("part", "base") and not words[1:] and _is_adjective(trie, word):
-                    cost += ADJECTIVAL
+                if form in ("part", "base") and not words[1:]:
+                    cost += ADJECTIVAL * _is_a(trie, word, ("ADJ", "FEELADJ"))
+                if form == "base" and not words[1:]:
+                    cost += MEASURED * _is_a(trie, word, ("MEAS",))
                 category = "GOING" if word == "going" else VERB_CLASSES[form]  # "going to"
                 trie.add((word, *words[1:]), Entry(category, lemma, form, cost))
 
 
-def _is_adjective(trie: Trie, word: str) -> bool:
+def _owned(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """Put each owner in place of "one's"; a phrase without it is left as it is."""
+    if "one's" not in words:
+        return [words]
+    at = words.index("one's")
+    return [(*words[:at], owner, *words[at + 1 :]) for owner in OWNERS]
+
+
+def _is_a(trie: Trie, word: str, categories: tuple[str, ...]) -> bool:
     known = trie.following.get(word)
-    return known is not None and any(
-        entry.category in ("ADJ", "FEELADJ") for entry in known.entries
-    )
+    return known is not None and any(entry.category in categories for entry in known.entries)
 
 
 def _words_of(trie: Trie) -> set[str]:

@@ -154,6 +154,9 @@ class Grounder(Protocol):
     context: Context
     notes: Notes
 
+    def beside(self, discourse: Discourse) -> "Grounder":
+        """Give a grounder with another discourse that notes what it finds in the same place."""
+
     def thing(self, thing: Thing, window: Window, fits: Fits | None = None) -> Thing:
         """Ground a thing as it was in a window of the ride."""
 

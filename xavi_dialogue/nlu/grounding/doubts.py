@@ -1,7 +1,7 @@
 """Doubts: what words without a sense do to the acts of a reading.
 
-Decided by what such a word could have been: where the verb, the thing asked for or a main noun
-should stand, nothing is left to answer; an adverb, adjective or aside leaves a doubt.
+Decided by what such a word could have been: an adverb, an adjective before a noun or the noun of a
+place leaves a doubt; with any other word, nothing is left to answer.
 """
 
 from collections.abc import Sequence
@@ -92,7 +92,7 @@ def _is_main(shares: Sequence[TokenShare], index: int) -> bool:
     subject = last in _SUBJECTS or (bool(before) and _is(shares[index - 1], NOUNS))
     if last in _AUXILIARIES or (subject and any(b in _AUXILIARIES for b in before)):
         return not any(_is(s, PREDICATES) for s in behind)
-    return not any(_is(s, PREDICATES) for s in (*shares[:index], *behind))
+    return not (behind and _is(behind[0], NOUNS))
 
 
 def _is(share: TokenShare, sorts: tuple[str, ...]) -> bool:

@@ -23,7 +23,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
-from xavi_dialogue.nlu.grounding.rewriting import substitute
+from xavi_dialogue.nlu.grounding.rewriting import first, substitute
 from xavi_dialogue.nlu.grounding.salience import after
 from xavi_dialogue.nlu.grounding.world import World
 
@@ -144,7 +144,8 @@ def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
     if acts and isinstance(refusal, NotUnderstood):
         refusal = replace(refusal, rest=True)
     if asked is None:
-        return Grounding(acts=acts, reading=best.reading, refusal=refusal)
+        named = _named(best) if isinstance(refusal, NotUnderstood) else None
+        return Grounding(acts=acts, reading=best.reading, refusal=refusal, named=named)
     found, pending = asked
     if found.which.between == "meanings":
         acts = tuple(a for a in acts if a.act not in found.offers)
@@ -157,6 +158,12 @@ def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
         offered_things=found.things,
         pending=pending,
     )
+
+
+def _named(best: Trial) -> Vehicle | None:
+    """Give who was named, so that the next turn may speak of him as "he"."""
+    lost = (part.act.act for part in best.parts if isinstance(part.failure, NotUnderstood))
+    return next((v for act in lost if (v := first(act, Vehicle)) is not None), None)
 
 
 def _rest(best: Trial) -> Failure | None:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.terms import Event, Proposition, Tense, Thing, Time
 from xavi_dialogue.nlu.grounding.acts import events, propositions, windows
 from xavi_dialogue.nlu.grounding.context import Context, Fits, Mode, Notes, Window
@@ -14,6 +15,10 @@ class TermGrounder:
 
     context: Context
     notes: Notes = field(default_factory=Notes)
+
+    def beside(self, discourse: Discourse) -> "TermGrounder":
+        """Give a grounder with another discourse that notes what it finds in the same place."""
+        return TermGrounder(self.context.within(discourse), self.notes)
 
     def thing(self, thing: Thing, window: Window, fits: Fits | None = None) -> Thing:
         """Ground a thing as it was in a window of the ride."""

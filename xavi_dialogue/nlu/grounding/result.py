@@ -6,7 +6,7 @@ from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood, WhichOne
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Act, Reading
-from xavi_dialogue.domain.terms import Thing
+from xavi_dialogue.domain.terms import Thing, Vehicle
 
 Failure: TypeAlias = NotUnderstood | NoSuchVehicle
 
@@ -27,3 +27,4 @@ class Grounding(Value, frozen=True):
     offers: tuple[Act, ...] = ()  # grounded: one for each choice that `clarify` names
     offered_things: tuple[Thing, ...] = ()  # likewise, where it names vehicles
     pending: Act | None = None  # the act that is to be completed, as it was read
+    named: Vehicle | None = None  # who was named in an act that was not understood

@@ -84,8 +84,7 @@ def after(discourse: Discourse, done: GroundedAct) -> Discourse:
     """Give the discourse within a turn after one of its acts, for the acts that follow it."""
     top = max((m.salience for m in discourse.mentions), default=0.0)
     new = (
-        replace(m, salience=top + m.salience + FRESH)
-        for m in mentions_of(done.act, discourse.turn)
+        replace(m, salience=top + m.salience + FRESH) for m in mentions_of(done.act, discourse.turn)
     )
     found = replace(discourse, mentions=renewed(discourse.mentions, new))
     if done.span is not None and not done.span.ahead and done.span.end - done.span.begin < 60.0:

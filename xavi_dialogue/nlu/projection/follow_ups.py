@@ -40,8 +40,9 @@ from xavi_dialogue.nlu.projection.fields import (
     QueryFields,
     QueryType,
 )
+from xavi_dialogue.nlu.projection.polar import declined
 from xavi_dialogue.nlu.projection.propositions import subject, tense
-from xavi_dialogue.nlu.projection.questions import declined, question_fields
+from xavi_dialogue.nlu.projection.questions import question_fields
 from xavi_dialogue.nlu.projection.terms import (
     actions_of,
     actor_of,

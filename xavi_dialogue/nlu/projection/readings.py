@@ -10,7 +10,7 @@ from xavi_dialogue.nlu.grounding.ground import DEAF, READINGS
 from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.fields import QueryFields
 from xavi_dialogue.nlu.projection.follow_ups import AMBIGUOUS, project
-from xavi_dialogue.nlu.projection.questions import declined
+from xavi_dialogue.nlu.projection.polar import declined
 
 _PLACES = frozenset(("here", "there"))
 
@@ -28,13 +28,12 @@ def project_readings(
     best, acts = min(tried, key=lambda one: one[0].cost + DEAF * (len(one[0].acts) - len(one[1])))
     if acts:
         return project(acts, previous)
-    foreign = best.acts or any(_is_senseless(word) for word in best.unknown)
+    known = lexicon().vocabulary.words
+    ranks = [known.get(word.lower()) for word in best.unknown if not word.isdigit()]
+    if not best.acts and all(rank is None for rank in ranks):  # no word of any vocabulary
+        return AMBIGUOUS
+    foreign = best.acts or any(rank != 0 for rank in ranks)
     return declined("off-topic") if foreign else AMBIGUOUS
-
-
-def _is_senseless(word: str) -> bool:
-    """Tell whether a word has no sense here, whether it is an English word or none."""
-    return lexicon().vocabulary.words.get(word.lower()) != 0 and not word.isdigit()
 
 
 def _understood(reading: Reading) -> tuple[Act, ...]:

@@ -35,6 +35,7 @@ _ENDINGS = ("s", "es", "ed", "d", "ing", "er", "ers", "est", "ly", "able", "ible
             "ful", "less", "ish", "y", "ity", "ion", "ation")  # fmt: skip
 
 _EXITS = frozenset({"out", "exit", "off", "ramp"})
+TYPED_NUMBER = 0.05  # cost of "#2" as the number alone: "car #2"
 _DRAWN = re.compile(r"([a-z])\1\1+")
 
 Alternative = tuple[tuple[str, ...], float]
@@ -101,6 +102,8 @@ def alternatives(
     if _NUMBER.fullmatch(token) or _CLOCK.fullmatch(token):
         plain: list[Alternative] = [((token,), 0.0)]
         return tuple(plain + _sounding(token))
+    if token.startswith("#"):
+        return ((("number", token[1:]), 0.0), ((token[1:],), TYPED_NUMBER))
     known = vocabulary.words
     if "_" in token:
         return (((_named(token, vocabulary),), 0.0),)

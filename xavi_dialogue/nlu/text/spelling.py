@@ -20,7 +20,10 @@ _LONG = 4
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """Every word there is, with a rank: 0 means something here, 1 is English and no more."""
+    """Every word there is, with a rank.
+
+    0 means something here, 1 is English and no more, 2 is too rare to have been misspelt.
+    """
 
     words: dict[str, int]
     by_length: dict[int, tuple[str, ...]] = field(default_factory=dict)
@@ -32,7 +35,7 @@ class Vocabulary:
         lengths: dict[int, list[str]] = {}
         skeletons: dict[str, list[str]] = {}
         for word in sorted(words):
-            if not (word.isascii() and word.isalpha() and len(word) > 1):
+            if words[word] > 1 or not (word.isascii() and word.isalpha() and len(word) > 1):
                 continue
             for length in range(len(word) - 2, len(word) + 3):
                 lengths.setdefault(length, []).append(word)

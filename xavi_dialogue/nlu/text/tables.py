@@ -12,6 +12,14 @@ def load(name: str) -> dict[str, Any]:
     return tomllib.loads(resources.files("grammars").joinpath(name).read_text(encoding="utf-8"))
 
 
+@cache
+def english() -> tuple[str, ...]:
+    """Read the list of English words."""
+    text = resources.files("grammars").joinpath("english.txt").read_text(encoding="utf-8")
+    lines = (line for line in text.splitlines() if not line.startswith("#"))
+    return tuple(word for line in lines for word in line.split())
+
+
 def phrases(listed: str) -> list[tuple[str, ...]]:
     """Split "a b, c" into phrases, each a tuple of words."""
     return [tuple(phrase.split()) for phrase in listed.split(",") if phrase.strip()]

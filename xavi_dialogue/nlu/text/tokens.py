@@ -11,11 +11,12 @@ MAX_INPUT = 4096  # [characters] of a longer input only the end is looked at
 _ESCAPES = re.compile(r"\x1b(?:\[[0-9;:?<=>]*[a-zA-Z@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)?|.)")
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "ʼ": "'", "“": " ", "”": " "})
 _PIECES = re.compile(
-    r"(?<!\d)\d{1,3}:\d{2}(?!\d)|[^\W\d_]+(?:_[^\W_]+)+|\d{1,3}'s(?![^\W_])"
+    r"#\d{1,3}(?!\d)|(?<!\d)\d{1,3}:\d{2}(?!\d)|[^\W\d_]+(?:_[^\W_]+)+|\d{1,3}'s(?![^\W_])"
     r"|\d+(?:st|nd|rd|th)(?![^\W_])|4ever|2day|(?:no|any|some|every)1(?!\d)|[glmwr]{1,2}8[a-z]{0,4}"
-    r"|\d+(?:[.,]\d+)?|[a-z]\d[a-z]?(?![a-z\d])|[^\W\d_]+(?:['-][^\W\d_]+)*'?"
+    r"|\d+(?:[.,]\d+)?|[a-uw-z]\d[a-z]?(?![a-z\d])|[^\W\d_]+(?:['-][^\W\d_]+)*'?"
     r"|%|\.{2,}|[.,;:!?–—()]|-"
 )
+_MODALS = frozenset(("would", "could", "should", "might", "must"))
 _STOPS = frozenset(".!?;")
 _MARKS = frozenset(".,;:!?–—()-")
 
@@ -45,6 +46,21 @@ def clean(text: str) -> str:
     return " ".join("".join(kept).lower().split())
 
 
+def _heard_as_of(tokens: list[Token]) -> list[Token]:
+    """Write "have" where "of" was heard: "would of"; it is superfluous in "hadn't of"."""
+    found: list[Token] = []
+    for index, token in enumerate(tokens):
+        before = tokens[index - 1].text.replace("'", "") if index else ""
+        after = tokens[index + 1].text if index + 1 < len(tokens) else "course"
+        if token.text != "of" or token.mark or after == "course":
+            found.append(token)
+        elif before.removesuffix("nt") in _MODALS:
+            found.append(Token("have"))
+        elif before not in ("had", "hadnt"):
+            found.append(token)
+    return found
+
+
 def tokenise(text: str) -> Typed:
     """Cut a text into tokens; of one that is too long the end is read."""
     cleaned = clean(text)
@@ -61,6 +77,7 @@ def tokenise(text: str) -> Typed:
         else:
             tokens.append(Token(piece.rstrip("'") or piece, mark if tokens else ""))
             mark = ""
+    tokens = _heard_as_of(tokens)
     if len(tokens) > MAX_TOKENS:
         tokens, shortened = tokens[-MAX_TOKENS:], True
     return Typed(tuple(tokens), mark, shortened)

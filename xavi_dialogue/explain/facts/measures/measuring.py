@@ -92,6 +92,10 @@ LACKING: Mapping[Attribute, Gap] = {
     "money": "not-recorded",
     "law": "not-recorded",
     "world": "not-sensed",
+    "load": "not-sensed",
+    "occupant": "not-sensed",
+    "writing": "not-sensed",
+    "parts": "not-sensed",
 }
 
 

@@ -6,9 +6,18 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, Repair, Request
-from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Unsaid
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Exists,
+    Nobody,
+    Proposition,
+    Thing,
+    Unsaid,
+)
 from xavi_dialogue.nlu.grounding.acts.questions import question
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
+from xavi_dialogue.nlu.grounding.completion.binding import bound
 from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
 from xavi_dialogue.nlu.grounding.completion.supposing import subordinate
 from xavi_dialogue.nlu.grounding.context import Grounder
@@ -36,15 +45,27 @@ def completed(spoken: Act, g: Grounder) -> Act | None:
 def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
     match spoken:
-        case Ask(question=asked):
-            return Ask(question(subordinate(asked, g), g))
-        case Claim(that=that):
-            return replace(spoken, that=g.proposition(that, "asked"))
+        case Ask():
+            return Ask(question(subordinate(bound(spoken, g).question, g), g))
+        case Claim():
+            return replace(spoken, that=_claimed(bound(spoken, g).that, g))
         case Request(event=event, negated=negated):
             return Request(_requested(event, g), negated)
         case Feel(about=about):
             return replace(spoken, about=_about(about, g))
     return spoken
+
+
+def _claimed(that: Proposition, g: Grounder) -> Proposition:
+    """Ground a claim; who is said to be there is taken for whom the noun phrase fits."""
+    found = g.proposition(that, "asked")
+    match that, found:
+        case Exists(thing=Described(doing=doing, such=such) as thing), Exists(thing=Nobody()) if (
+            doing is not None or such is not None
+        ):
+            bare = replace(that, thing=replace(thing, doing=None, such=None))
+            return g.proposition(bare, "asked")
+    return found
 
 
 def _requested(event: Event, g: Grounder) -> Event:

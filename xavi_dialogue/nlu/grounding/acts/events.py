@@ -23,9 +23,11 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.kin import like
+from xavi_dialogue.nlu.grounding.things.pronouns import apart
 
 UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
@@ -50,10 +52,11 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     spoken = replace(spoken, actor=actor)
     target = spoken.object
     if target is not None:
-        target = _somebody(target, g, window, real, _undergoing(spoken, g, window))
+        other = apart(target, actor, g)
+        target = _somebody(target, other, window, real, _undergoing(spoken, g, window))
     elif spoken.action == "leave":
         target = _left(actor, g, window)
-    found = replace(spoken, object=target, where=_where(spoken, g, window))
+    found = specified(replace(spoken, object=target, where=_where(spoken, g, window)), window, g)
     if spoken.then is not None:
         found = replace(found, then=event(spoken.then, "supposed", g, window))
     if not real:
@@ -77,7 +80,8 @@ def completed(spoken: Event, g: Grounder) -> Event:
     if known is None:
         return spoken
     g.notes.leaned = True
-    time = known.time if isinstance(spoken.time, Unsaid) else spoken.time
+    over = known.tense == "future" and spoken.tense in ("past", "perfect") and spoken.modal is None
+    time = known.time if isinstance(spoken.time, Unsaid) and not over else spoken.time
     return replace(
         known, actor=actor, time=time, tense=spoken.tense, modal=spoken.modal,
         manner=spoken.manner or known.manner,
@@ -126,17 +130,20 @@ def _acting(spoken: Event, g: Grounder, window: Window) -> Fits:
         target = Ego()
     elif isinstance(target, Described | Pronoun):
         target = None
-    return _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target))
+    exact = spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
+    return _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
 
 
 def _undergoing(spoken: Event, g: Grounder, window: Window) -> Fits:
     return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)))
 
 
-def _fitting(g: Grounder, window: Window, filled: Callable[[int], Event]) -> Fits:
+def _fitting(
+    g: Grounder, window: Window, filled: Callable[[int], Event], exact: bool = False
+) -> Fits:
     def fits(vehicle: int) -> Episode | None:
         found = g.context.holds(filled(vehicle), *_searched(g, window))
-        if not found:
+        if not found and not exact:
             found = like(g.context, filled(vehicle), *_searched(g, window))
             found = tuple(e for e in found if Vehicle(vehicle) in (e.actor, e.object))
         return found[-1] if found else None
@@ -156,6 +163,9 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     held = g.context.holds(found, *window.search)
     if mode == "denied":
         return _denied(found, g, window)
+    present = mode == "asked" and found.tense == "present" and _is_present(window)
+    if held and present and found.action in _PACES and not window.said:  # "are we speeding up?"
+        held = tuple(e for e in held if e.end is None or e.end >= g.context.now - 0.5)
     if held:
         return _at(found, _pick(held, window, g), g, window, inner)
     granted = mode == "presupposed"
@@ -178,6 +188,9 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         return replace(found, time=window.term)
     g.notes.cost += NEARLY
     return _at(found, _pick(near, window, g), g, window, inner)
+
+
+_PACES: Final = frozenset(("speed-up", "slow-down", "brake"))
 
 
 def _is_present(window: Window) -> bool:

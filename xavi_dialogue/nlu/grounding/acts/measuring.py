@@ -11,7 +11,6 @@ from xavi_dialogue.domain.terms import (
     At,
     Back,
     Between,
-    Described,
     Ego,
     Event,
     Measured,
@@ -24,7 +23,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.rewriting import first, substitute
+from xavi_dialogue.nlu.grounding.rewriting import first
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
 #: What has a value at each moment.
@@ -70,22 +69,10 @@ def measured(
 
 
 def _corefer(spoken: Measured, g: Grounder) -> Measured:
-    """Let "it" in "how fast was the bus when it passed us" be the bus, and the other way round."""
-    if _is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g):
+    """Let "how fast is it going?" be of us, where we are spoken of."""
+    unsaid = spoken.thing == Pronoun("one") and not _speaks_of_others(g)
+    if unsaid or (_is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g)):
         return replace(spoken, thing=Ego())
-    time = spoken.time
-    anchor = time.anchor if isinstance(time, Relative) else None
-    if not isinstance(anchor, Event):
-        return spoken
-    for name in ("thing", "to"):
-        thing: Thing | None = getattr(spoken, name)
-        if _is_vague(thing) and isinstance(anchor.actor, Described | Vehicle):
-            return replace(spoken, **{name: anchor.actor})
-        inner = first(anchor, Pronoun)
-        if isinstance(thing, Described | Vehicle) and inner is not None and _is_vague(inner):
-            known = g.thing(thing, g.window(Unsaid(), "past"))
-            changed: Event = substitute(anchor, inner, known)
-            return replace(spoken, **{name: known, "time": replace(time, anchor=changed)})
     return spoken
 
 
@@ -99,6 +86,12 @@ def _to_whom(spoken: Measured, g: Grounder) -> Measured:
         return spoken
     g.notes.leaned = True
     return replace(spoken, to=Vehicle(near[0]))
+
+
+def _speaks_of_others(g: Grounder) -> bool:
+    """Tell whether another vehicle was what the question before was about."""
+    asked = g.context.discourse.question
+    return first(asked, Vehicle) is not None and not isinstance(getattr(asked, "of", None), Event)
 
 
 def _speaks_of_us(g: Grounder) -> bool:

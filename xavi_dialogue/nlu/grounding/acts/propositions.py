@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Pronoun,
     Proposition,
+    Quantity,
     Related,
     Road,
     Tense,
@@ -34,7 +35,9 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unsaid,
     Vehicle,
+    WholeRide,
 )
+from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.measuring import measured
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.windows import is_stale
@@ -49,6 +52,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.rewriting import first
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
+from xavi_dialogue.nlu.grounding.things.pronouns import apart
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
 UNHEARD_OF: Final = 0.4  # cost of taking for granted what no record tells
@@ -69,7 +73,7 @@ def proposition(
         case Happens(event=Event(actor=Nobody(described=None))):
             return g.proposition(of_nobody(spoken), mode, outer)
         case Happens(event=event):
-            return Happens(g.event(event, mode, outer))
+            return in_order(Happens(g.event(event, mode, outer)), mode)
         case Not(content=content):
             inner: Mode = "denied" if mode == "presupposed" else mode
             return Not(g.proposition(content, inner, outer))
@@ -90,9 +94,11 @@ def proposition(
                 return g.proposition(limited, mode, outer)
             return _is(something_wrong(spoken, g) or spoken, g, mode, outer)
         case Related():
+            spoken = come_along(spoken)
             window = timed(spoken.time, spoken.tense, g, outer)
             thing = g.thing(spoken.thing, window)
-            to = g.thing(_place(spoken, g), window)
+            place = _place(spoken, g)
+            to = apart(place, thing, g).thing(place, window)
             return replace(spoken, thing=thing, to=to, time=window.term)
         case Has():
             window = timed(spoken.time, spoken.tense, g, outer)
@@ -129,10 +135,14 @@ def timed(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window
 
 
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
-    left = measured(spoken.left, g, timed, outer)
     right = spoken.right
+    of = spoken.left
+    near = isinstance(right, Quantity) and of.attribute in _APART and outer is None
+    if near and isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
+        of = replace(of, time=WholeRide())  # "did he come within 5 metres?"
+    left = measured(of, g, timed, outer)
     if isinstance(right, Measured):
-        right = measured(right, g, timed, outer)
+        right = measured(right, apart(right.thing, left.thing, g), timed, outer)
     return replace(spoken, left=left, right=right)
 
 
@@ -202,6 +212,7 @@ def _caused(spoken: Caused, g: Grounder, outer: Window | None) -> Caused:
     return replace(spoken, cause=suspect(cause, event, g, window), effect=effect)
 
 
+_APART: Final = frozenset(("distance", "gap", "headway", "time-to-collision"))
 _PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
 )  # fmt: skip

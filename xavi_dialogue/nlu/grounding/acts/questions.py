@@ -46,6 +46,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.measuring import measured
+from xavi_dialogue.nlu.grounding.acts.others import asked_who
 from xavi_dialogue.nlu.grounding.acts.propositions import inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
 from xavi_dialogue.nlu.grounding.completion.discussion import (
@@ -58,6 +59,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.rewriting import first
+
+UNASKED: Final = 0.2  # cost of taking somebody for the cause where no cause was spoken of
 
 
 def question(spoken: Question, g: Grounder) -> Question:
@@ -72,6 +75,8 @@ def _why(spoken: Why, g: Grounder) -> Why:
     instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
     event = first(of, Event)
     blamed = spoken.suspect
+    if blamed is not None and isinstance(spoken.of, That) and asked_who(g.context):
+        g.notes.cost += UNASKED
     if blamed is not None:
         blamed = suspect(blamed, event, g, _during(event, g))
     return replace(spoken, of=of, instead=instead, suspect=blamed)
@@ -114,7 +119,9 @@ def _which(spoken: Which, g: Grounder) -> Which:
     event = first(such, Event)
     if isinstance(thing, Described) and such is not None:
         thing = replace(thing, plural=True)
-    return replace(spoken, thing=g.thing(thing, _during(event, g)), such=such)
+    during = _during(event, g)
+    among = tuple(g.thing(one, during) for one in spoken.among)
+    return replace(spoken, thing=g.thing(thing, during), such=such, among=among)
 
 
 def _identify(spoken: Identify, g: Grounder) -> Identify:

@@ -16,10 +16,12 @@ from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
     HowMuch,
+    Identify,
     Question,
     When,
     Whether,
     Whither,
+    Why,
 )
 from xavi_dialogue.domain.terms import (
     Back,
@@ -28,10 +30,10 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
-    Feature,
     Happens,
     Is,
     Measured,
+    Next,
     Nobody,
     Not,
     Pronoun,
@@ -44,19 +46,24 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
+from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.windows import notable
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
     discussed,
+    event_of,
     hindrance,
     last_deed,
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
+from xavi_dialogue.nlu.grounding.rewriting import parts
 
 _LASTING: Final = frozenset(("duration", "waiting-time", "delay"))
 _VAGUE: Final = ("it", "that", "this")
+FRESH: Final = 4.0  # [s] since when what was begun strikes those who sit in the car
+_SUDDEN: Final = frozenset(("brake", "slow-down", "stop", "change-left", "change-right"))
 _HALTING: Final = frozenset(("stop", "stand", "wait", "give-way"))
 _SUCH: Final = Described(plural=True, definite=False)  # "how many are there"
 _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=False))
@@ -64,17 +71,24 @@ _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=Fa
 
 def recast(spoken: Question, g: Grounder) -> Question:
     """Put the question that is meant in the place of one that its words leave open."""
+    meant = of_others(spoken, g) or _lasted(spoken, g)
+    if meant is not None:
+        return meant
     match spoken:
-        case HowMuch(of=Measured(attribute=attribute, thing=thing, event=None) as of) if (
-            attribute in _LASTING and is_vague(thing)
+        case Why(of=That(), suspect=None) if (deed := _fresh(g.context)) is not None:
+            return Why(Happens(deed))
+        case Whether(that=Is(state="necessary", thing=thing, event=None) as of) if (
+            is_vague(thing) and (deed := _fresh(g.context)) is not None
         ):
-            return _lasting(spoken, of, g)
-        case HowLong(of=Event(action="do" | "happen", actor=actor) as event) if is_vague(actor):
-            of = Measured("duration", actor, time=event.time, tense=event.tense)
-            return _lasting(HowMuch(of), of, g)
+            return replace(spoken, that=replace(of, thing=None, event=deed))
         case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
             found = notable(g.context)
             return spoken if found is None else replace(spoken, time=Between(*found))
+        case Doing(actor=Ego(), tense="future", time=Back(relation="after")):
+            return replace(spoken, time=Next())  # "after this, what will you do?"
+        case Identify(thing=Pronoun(form="it")) if (known := _own_measure(g.context)) is not None:
+            g.notes.leaned = True
+            return known
         case Doing(actor=Ego(), tense="past", time=Rank(rank=-1)):
             deed = last_deed(g.context)
             return spoken if deed is None else replace(spoken, time=deed.time)
@@ -92,8 +106,6 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return apart
         case Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False):
             return Whither()
-        case Whether(that=Happens(event=Event(action="go", object=Feature(kind="way")))):
-            return Whither()
         case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
             return Whither()
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
@@ -108,13 +120,38 @@ def recast(spoken: Question, g: Grounder) -> Question:
             that=Is(state="right", thing=Pronoun(), event=Event(actor=Ego()) as event)
         ) if event.action in _TURNS:
             return Whether(Happens(replace(event, tense="present")))
-        case Whether(that=Happens(event=Event(action="arrive", actor=Ego(), manner=manner))) if (
-            {"early", "late"} & {*manner}
-        ):
+        case Whether(that=Happens(event=Event(action="arrive", actor=Ego(), manner=manner))) if {
+            "early",
+            "late",
+        } & {*manner}:
             return Whether(Is("late", Ego(), tense="future"))
         case Compare(options=options):
             return replace(spoken, options=tuple(_option(one, g) for one in options))
     return spoken
+
+
+def _lasted(spoken: Question, g: Grounder) -> Question | None:
+    """Read how long or how far, where it is left open what lasts; None: something else."""
+    match spoken:
+        case HowMuch(of=Measured(attribute=attribute, thing=thing, event=None) as of) if (
+            attribute in _LASTING and is_vague(thing)
+        ):
+            return _lasting(spoken, of, g)
+        case HowLong(of=That()):
+            return _so_long(spoken, g)
+        case HowMuch(of=Measured(attribute="distance", thing=Pronoun(form="it"), to=None)) if (
+            _about_arriving(g.context)
+        ):
+            g.notes.leaned = True
+            return HowMuch(Measured("distance-to-go"))
+        case HowLong(of=Event(action="do" | "happen", actor=actor) as event) if is_vague(actor):
+            of = Measured("duration", actor, time=event.time, tense=event.tense)
+            return _lasting(HowMuch(of), of, g)
+        case HowLong(of=Event(action="block", actor=actor, object=Ego()) as event) if (
+            is_vague(actor) and event.tense != "present"
+        ):
+            return _lasting(spoken, Measured("delay", actor, tense=event.tense), g)
+    return None
 
 
 _ARRIVING: Final = ("leave", "arrive", "exit-left", "exit-right", "turn")
@@ -132,6 +169,16 @@ def _by_side(relation: str, spoken: Question, g: Grounder) -> Question:
             action: Any = _SIDES[relation]
             return Whether(Happens(Event(action, tense="present")))
     return spoken
+
+
+def _fresh(context: Context) -> Event | None:
+    """Give what we just began to do, where nobody has spoken since then."""
+    since = context.now - FRESH
+    if context.discourse.asked_at is not None:
+        since = max(since, context.discourse.asked_at)
+    begun = [e for e in context.deeds(Ego(), since, context.now)
+             if e.begin > since and e.action in _SUDDEN]  # fmt: skip
+    return event_of(begun[-1], context.now) if begun else None
 
 
 def _about_lanes(context: Context) -> bool:
@@ -156,17 +203,49 @@ def is_vague(thing: Thing | None) -> bool:
     return isinstance(thing, Pronoun) and thing.form in _VAGUE
 
 
-def _lasting(spoken: HowMuch, of: Measured, g: Grounder) -> Question:
+def _lasting(spoken: Question, of: Measured, g: Grounder) -> Question:
     g.notes.leaned = True
     if of.attribute != "delay" and of.tense in ("present", "future"):
         if halting(g.context):
             return When(Happens(Event("go", tense="future")))
         return HowMuch(Measured("time-to-go"))
-    denied = isinstance(proposition_of(g.context.discourse.question), Not)
-    known = (hindrance(g.context) if denied else None) or discussed(g.context)
+    asked = proposition_of(g.context.discourse.question)
+    denied = isinstance(asked, Not) and Ego() in {e.actor for e in parts(asked, Event)}
+    ours = Ego() if of.attribute == "delay" else None
+    denied = denied or isinstance(spoken, HowLong)  # "how long did that hold us up?"
+    known = (hindrance(g.context) if denied else None) or discussed(g.context, ours)
     if known is None:
         return spoken
-    return replace(spoken, of=replace(of, thing=known.actor, event=known))
+    return HowMuch(replace(of, thing=known.actor, event=known))
+
+
+def _own_measure(context: Context) -> HowMuch | None:
+    """Give what "and what is it now?" asks after a measure of ours."""
+    match context.discourse.question:
+        case HowMuch(of=Measured(thing=Ego(), to=None, event=None) as of, extreme=None):
+            return HowMuch(replace(of, time=Unsaid(), tense="present"))
+    return None
+
+
+def _so_long(spoken: HowLong, g: Grounder) -> Question:
+    """Take "how long for?" for how long it is so that was asked about or told."""
+    known = proposition_of(g.context.discourse.question) or asserted(g.context)
+    if known is None:
+        return HowMuch(Measured("time-to-go"))
+    g.notes.leaned = True
+    return replace(spoken, of=affirmed(known))
+
+
+def _about_arriving(context: Context) -> bool:
+    """Tell whether it was asked just now whether or when we arrive."""
+    match context.discourse.question:
+        case HowMuch(of=Measured(attribute="time-to-go" | "distance-to-go" | "arrival-time")):
+            return True
+        case Whether(that=Happens(event=Event(action="arrive"))):
+            return True
+        case When(of=Happens(event=Event(action="arrive"))):
+            return True
+    return False
 
 
 def halting(context: Context) -> bool:

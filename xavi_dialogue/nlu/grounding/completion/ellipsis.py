@@ -149,6 +149,10 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if question is None:
         return _frameless(spoken, g)
     new: Question = question
+    if spoken.event is not None:
+        spoken = replace(spoken, event=_lane_or_turn(spoken.event, g))
+        if first(question, Event) is None and spoken.thing is None:
+            return _frameless(spoken, g)
     if spoken.thing is None and spoken.event is None:
         moved = at_another_time(spoken.time, question)
         if moved is not None:
@@ -170,6 +174,11 @@ def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
     Where it cannot be asked of that thing, it is asked what that is doing.
     """
     event = main_event(question)
+    whom = isinstance(question, Which) and event is not None and isinstance(event.object, Wanted)
+    if isinstance(thing, Ego) and whom and event is not None:
+        return Whether(Happens(replace(event, object=thing)))  # "for us?"
+    if isinstance(question, Listing | Which) and getattr(thing, "extreme", None) is not None:
+        return Identify(thing)  # "and the closest one?"
     judged = isinstance(question, Whether) and event is not None and event.modal in _JUDGING
     if (judged or isinstance(question, _OF_RIDE)) and isinstance(thing, _USERS):
         return Doing(thing)
@@ -227,12 +236,26 @@ def _frameless(spoken: Elliptic, g: Grounder) -> Act | None:
     """Read a fragment that follows on nothing: what is it, or what does it do."""
     g.notes.cost += FRAMELESS
     if spoken.event is not None:
-        return Ask(Whether(Happens(spoken.event)))
+        return Ask(Whether(Happens(_lane_or_turn(spoken.event, g))))
     if spoken.thing is None:
         return None
     if isinstance(spoken.thing, Described | Pronoun | Vehicle):
         return Ask(Identify(spoken.thing))
     return Ask(Where(spoken.thing))
+
+
+_CHANGES: Final = {"exit-left": "change-left", "exit-right": "change-right"}
+LATELY: Final = 4.0  # [s] for which a lane change is what "left again?" is of
+
+
+def _lane_or_turn(event: Event, g: Grounder) -> Event:
+    """Take "left again?" for the lane change where we are changing lanes."""
+    change = _CHANGES.get(event.action)
+    if change is None or not isinstance(event.actor, Ego):
+        return event
+    since = max(g.context.begin, g.context.now - LATELY)
+    done = any(e.action == change for e in g.context.deeds(Ego(), since, g.context.now))
+    return replace(event, action=change, tense="present") if done else event
 
 
 #: What is done for, to or because of somebody: "for whom?".

@@ -62,8 +62,8 @@ def _onward(time: Time, question: Question) -> Question | None:
             rank = of.to.rank if isinstance(of.to, Junction) and of.to.rank else 1
             place = Junction(rank=rank + 1)
             return replace(question, of=Measured("turn", to=place, time=Next(), tense="future"))
-        case Whither() | Whether(
-            that=Happens(event=Event(actor=Ego(), tense="present" | "future"))
+        case (
+            Whither() | Whether(that=Happens(event=Event(actor=Ego(), tense="present" | "future")))
         ):
             return HowMuch(Measured("turn", to=Junction(rank=2), time=Next(), tense="future"))
         case Doing(tense="past") | Summarise() | Listing() | When() | Peak() | Changed():

@@ -26,6 +26,7 @@ MISFIT: Final = 0.35  # cost of not having done what the sentence says
 RECENT: Final = 10.0  # [s] for which somebody who is gone is still spoken of
 MISSING: Final = 0.8  # cost of a reading that speaks of somebody who is not there
 MISDESCRIBED: Final = 0.4  # cost of a reading that describes somebody wrongly
+DOUBTED: Final = 0.2  # cost of a description of which the clause fits nobody
 BLANK: Final = 0.4  # cost of a description that says nothing: rather a word of it was missed
 STAGES: Final = (0.0, 0.05, 0.1, 0.2)
 KNOWN: Final = 3  # vehicles offered where none fits
@@ -122,7 +123,23 @@ def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) 
         return _resolved(search, good)
     if not thing.definite:
         return Nobody(described=thing)
-    return _near_miss(search, found)
+    return _by_noun(search) or _near_miss(search, found)
+
+
+def _by_noun(search: Search) -> Vehicle | None:
+    """Take the one vehicle in view that a noun phrase fits, whatever its clause says of it."""
+    thing = search.described
+    clause = thing.doing is not None or thing.such is not None
+    if not clause or thing.plural or (thing.colour is None and thing.kind in _ANY):
+        return None
+    plain = Search(replace(thing, doing=None, such=None), search.grounder, search.moment,
+                   None, None, search.reference)  # fmt: skip
+    seen = search.grounder.context.in_view(search.grounder.context.now)
+    fits = [m for v in seen if (m := plain.match(v, 0.0)) is not None and m.cost < GOOD]
+    if len(fits) != 1:
+        return None
+    search.grounder.notes.cost += DOUBTED
+    return Vehicle(fits[0].vehicle)
 
 
 def _candidates(search: Search) -> list[Match]:

@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.terms import Everyone, Pronoun, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
@@ -38,6 +40,25 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         return thing
     g.notes.cost += FROM_SCENE
     return Vehicle(found)
+
+
+def apart(thing: Thing, taken: Thing, g: Grounder) -> Grounder:
+    """Give the grounder of a pronoun beside somebody else: who is named there is not meant."""
+    number = taken.number if isinstance(taken, Vehicle) else None
+    if not isinstance(thing, Pronoun) or number is None:
+        return g
+    discourse = g.context.discourse
+    others = tuple(m for m in discourse.mentions if number not in _numbers(m.thing))
+    return g.beside(replace(discourse, mentions=others)) if others else g
+
+
+def _numbers(thing: Thing) -> tuple[int, ...]:
+    match thing:
+        case Vehicle(number=number):
+            return (number,)
+        case Vehicles(numbers=numbers):
+            return numbers
+    return ()
 
 
 def _spoken(g: Grounder) -> tuple[int, ...]:

@@ -1,0 +1,77 @@
+"""Nearing: whether we reach somebody in front, and whether somebody comes closer or passes us."""
+
+from typing import Final
+
+from xavi_dialogue.domain.facts import Fact, Look, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Now, Unsaid, Vehicle
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.findings import Finding, known
+from xavi_dialogue.explain.answers.naming import is_us, look_of
+
+BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
+ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
+SINCE: Final = 1.0  # [s] over which it is told whether somebody comes closer
+CLOSER: Final = 0.2  # [m] by which he is closer then
+
+
+def nears(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether we are going to reach somebody in front: by how fast we both are now."""
+    look = look_of(asked, event.object, asked.now) if event.object is not None else None
+    if event.action not in ("approach", "pass") or look is None or not look.in_view:
+        return None
+    if look.oncoming or look.ahead <= 0.0:
+        return None
+    speeds, ours = _speeds(asked, look)
+    return None if ours is None else Finding(ours > look.speed, speeds)
+
+
+def passes(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether somebody in another lane is about to pass us: by how fast we both are.
+
+    None where it drives in our lane, or another way.
+    """
+    look = look_of(asked, event.actor, asked.now)
+    if event.action not in ("pass", "overtake") or look is None or not look.in_view:
+        return None
+    if abs(look.left) < BESIDE or look.bearing.partition("-")[0] not in ALONG:
+        return None
+    if event.object is not None and not is_us(event.object):
+        return None
+    if look.ahead > look.length:
+        return Finding(False, (look,))  # it is in front of us already
+    shown = asked.world.episodes(event.actor, "signal", asked.now - SINCE)
+    if any(e.side == ("right" if look.left > 0.0 else "left") for e in shown):
+        return None  # it is about to move behind us
+    speeds, ours = _speeds(asked, look)
+    return None if ours is None else Finding(look.speed > ours, speeds)
+
+
+def closes(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether somebody comes closer to us just now: by how far away it is and was."""
+    timely = event.tense == "present" and isinstance(event.time, Unsaid | Now)
+    look = look_of(asked, event.actor, asked.now)
+    if event.action != "approach" or not timely or look is None or not look.in_view:
+        return None
+    if asked.past is not None or (event.object is not None and not is_us(event.object)):
+        return None
+    before = asked.world.look(look.vehicle, asked.now - SINCE)
+    if before is None or not before.in_view:
+        return None
+    return Finding(before.distance - look.distance > CLOSER, (look,))
+
+
+def stays(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
+    """Tell whether somebody who stands stays there until we are past: he does who lets us go."""
+    if event.action not in ("stand", "stop", "wait") or not going:
+        return None
+    at = asked.now - SINCE
+    yields = asked.world.episodes(actor=event.actor, actions=("give-way", "wait"), begin=at)
+    ours = tuple(e for e in yields if isinstance(e.object, Ego) and e.end is None)
+    return Finding(True, ours[-1:]) if ours else None
+
+
+def _speeds(asked: Asked, look: Look) -> tuple[tuple[Measure, ...], float | None]:
+    """Give our speed and that of another vehicle, and ours alone [m/s]."""
+    both = (asked.world.measure("speed", who, asked.now) for who in (Ego(), Vehicle(look.vehicle)))
+    found = known(*both)
+    return found, next((m.value for m in found if isinstance(m.thing, Ego)), None)

@@ -1,0 +1,121 @@
+"""Adjuncts: times, conditions, reasons and contrasts that stand beside a clause."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import Unsaid
+from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
+from xavi_dialogue.nlu.compose.sem import Notes, SideOf
+from xavi_dialogue.nlu.compose.things import Nouns
+from xavi_dialogue.nlu.compose.times import relative, time_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
+from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+CLAUSES = ("finite", "finite_short", "finite_topic", "inverted", "inverted_short", "vp",
+           "copular", "state", "gerund", "bare", "infinitive")  # fmt: skip
+NOUNS = ("np", "group", "accusative", "accusative_group")
+
+
+SECOND = 0.4  # cost of another time in the same clause
+
+
+class Adjuncts:
+    """Reads what stands beside a clause."""
+
+    notes: Notes
+    propositions: Any
+    nouns: Nouns
+    slots: Slots
+
+    def clause(self, node: Node, outer: Clause | None = None) -> Clause:
+        """Read a clause inside."""
+        raise NotImplementedError
+
+    def _time(self, node: Node, clause: Clause) -> None:
+        if isinstance(clause.time, Unsaid):
+            clause.time = time_of(node)
+        elif node.name == "time_adverb":
+            self.notes.inner[id(node)] = SECOND
+        leaf = leaf_of(node, "P")
+        asking = leaf is not None and leaf.key in ("for", "about")
+        asking = asking or words_of(node).startswith("about a ")
+        if node.name == "time_ago" and asking:  # "what for, a second ago"
+            clause.complements.append(Complement("for", None, node))
+
+    _on_time_adverb = _on_time_clock = _on_time_amount = _on_time_ago = _time
+    _on_time_span = _on_time_rank = _on_time_between = _on_time_since = _time
+    _on_time_decision = _on_time_decisions = _on_time_bare = _time
+
+    def _on_lead_time(self, node: Node, clause: Clause) -> None:
+        for part in node.parts:
+            if isinstance(part, Node):
+                self._time(part, clause)
+
+    def _on_lead_clause(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[0])
+        if inner.name == "hads":
+            clause.condition = self.clause(inner)
+        else:
+            self.slots.fill(node.parts, clause)
+
+    def _on_hads_clause(self, node: Node, clause: Clause) -> None:
+        clause.condition = self.clause(cast(Node, node.parts[0]))
+
+    def _on_when(self, node: Node, clause: Clause) -> None:
+        if len(node.parts) == 1:
+            node = cast(Node, node.parts[0])
+        leaf = cast(Leaf, node.parts[0])
+        inner = cast(Node, node.parts[1])
+        if inner.name in CLAUSES:
+            event = self.propositions.as_event(self.clause(inner, clause))
+        else:
+            event = self.nouns.read(inner)
+        anchor = self.propositions.anchor(event)
+        if anchor is not None and isinstance(clause.time, Unsaid):
+            clause.time = relative(leaf.key, anchor)
+
+    def _on_when_np(self, node: Node, clause: Clause) -> None:
+        self._on_when(node, clause)
+
+    def _on_if_clause(self, node: Node, clause: Clause) -> None:
+        clause.condition = self.condition(cast(Node, node.parts[1]), clause)
+
+    def condition(self, inner: Node, outer: Clause | None) -> Clause:
+        """Read what is supposed: a clause, or a thing that might be there."""
+        if inner.name == "np_not":
+            sem = self.nouns.read(cast(Node, inner.parts[-1]))
+            negated = leaf_of(inner, "NOT") is not None
+            return Clause(there=True, objects=[(sem, inner)], negated=negated)
+        clause = self.clause(inner)
+        if clause.subject is None and not clause.there and outer is not None:
+            clause.subject = outer.subject
+        return clause
+
+    def _on_because(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[-1])
+        if inner.name in CLAUSES:
+            clause.because = self.clause(inner, clause)
+        else:
+            clause.because = self.nouns.read(inner)
+
+    def _on_without(self, node: Node, clause: Clause) -> None:
+        inner = cast(Node, node.parts[-1])
+        if inner.name == "gerund":
+            return  # "without looking": how it was done
+        if inner.name in CLAUSES:
+            clause.condition = self.clause(inner, clause)
+            clause.condition.negated = True
+        else:
+            clause.without = self.nouns.read(inner)
+
+    def _on_contrast(self, node: Node, clause: Clause) -> None:
+        inner = node.parts[-1]
+        if isinstance(inner, Leaf):
+            clause.contrast = inner.key
+        elif inner.name in CLAUSES:
+            clause.contrast = self.clause(inner, clause)
+        elif inner.name in NOUNS:
+            sem = self.nouns.read(inner)
+            clause.contrast = sem.side if isinstance(sem, SideOf) else sem
+        else:
+            clause.contrast = self.slots.fill((inner,), Clause(subject=clause.subject))

@@ -1,0 +1,187 @@
+"""Bare questions: question words with little behind them: "why not?", "how fast?"."""
+
+from typing import Any
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Doing,
+    Elliptic,
+    HowLong,
+    HowMuch,
+    Repair,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Back,
+    Ego,
+    Event,
+    Happens,
+    Measured,
+    Next,
+    Not,
+    Pronoun,
+    Proposition,
+    That,
+    Thing,
+    Unsaid,
+)
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.suppositions import Suppositions
+from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.wh import Wh, is_that
+from xavi_dialogue.nlu.compose.whys import pace_asked, sided
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+
+Found = list[tuple[tuple[Act, ...], float]]
+_FORMS = {"why": "why", "which": "which", "when": "when", "where": "where", "how": "how",
+          "what": "same", "who": "which"}  # fmt: skip
+_BARE = 0.3
+_ONWARD = frozenset({"now", "next", "then", "after-that"})
+
+
+class BareQuestions(Suppositions):
+    """Reads question words with little behind them."""
+
+    def bare_question(self, unit: Node) -> Found:
+        """Read "why not?", "how fast?", "which one?", "why not the first one?"."""
+        wh_node, parts = self.composer.split(unit)
+        wh = self.composer.questions.wh_of(wh_node)
+        clause = self.phrases.slots.fill(tuple(parts))
+        if wh.kind == "why":
+            return self._bare_why(clause, parts)
+        if wh.kind in ("grade", "count", "evidence"):
+            return self._bare_grade(wh, clause)
+        thing, event = self._contents(clause)
+        if wh.kind == "which":
+            return self._bare_which(wh, clause, thing)
+        if wh.besides or clause.else_:
+            return [((Elliptic(besides=True),), 0.0)]
+        if wh.kind == "what":
+            if _onward(unit, clause) and thing is None and event is None:
+                return [((_next(unit),), 0.0)]
+            if clause.verb is None and thing is None and isinstance(clause.time, Unsaid):
+                return [((Repair("repeat"),), 0.1)]
+            if not isinstance(clause.time, Unsaid) and thing is None and event is None:
+                tense: Any = (
+                    "future" if type(clause.time).__name__ in ("Next", "Within", "Back") else "past"
+                )
+                return [((Ask(Doing(Ego(), clause.time, tense)),), _BARE)]
+        if wh.key == "whither" and thing is None and event is None:
+            return [((Ask(Whither()),), 0.0)]
+        form: Any = _FORMS.get(wh.kind, "same")
+        if thing is not None and event is None and wh.kind in ("what", "who", "where"):
+            found = self.composer.questions.of(wh, clause)
+            return [((Ask(q),), cost + _BARE) for q, cost in found]
+        if event is not None:
+            found = self.composer.questions.of(wh, clause)
+            return [((Ask(q),), cost + _BARE) for q, cost in found]
+        return [((Elliptic(thing, event, clause.time, clause.negated, form),), 0.0)]
+
+    def _bare_why(self, clause: Clause, parts: list[Part]) -> Found:
+        pace = pace_asked(self.composer, clause)
+        if pace is not None:
+            return pace
+        thing, event = self._contents(clause)
+        negated = clause.negated or (event is not None and _denied(parts))
+        if (
+            thing is None
+            and event is None
+            and isinstance(clause.time, Unsaid)
+            and clause.side is None
+        ):
+            if isinstance(clause.contrast, Clause):
+                inner = self.composer.propositions.plain(clause.contrast)
+                return [((Ask(Why(Not(inner or That()))),), 0.0)]
+            if {leaf.key for leaf in clause.particles} & {"back", "over", "out", "in"}:
+                going: Proposition = Happens(Event("go", tense="present"))
+                return [((Ask(Why(Not(going) if negated else going)),), 0.05)]
+            other = as_thing(clause.contrast) if not isinstance(clause.contrast, str) else None
+            side = clause.contrast if isinstance(clause.contrast, str) else None
+            event = sided(side) if side in ("left", "right", "straight") else None
+            form: Any = "why-not" if negated else "why"
+            if isinstance(clause.contrast, Event):
+                return [((Ask(Why(Not(Happens(clause.contrast)))),), 0.0)]
+            return [((Elliptic(other, event, negated=negated, form=form),), 0.0)]
+        if event is None and clause.side is not None and not clause.skipped:
+            event = sided(clause.side)
+        if event is not None:
+            happens: Proposition = Happens(event)
+            return [((Ask(self.composer.questions.framed(
+                Why(Not(happens) if negated else happens), clause, None)),), 0.05)]  # fmt: skip
+        form = "why-not" if negated else "why"
+        return [((Elliptic(thing, None, clause.time, negated, form),), 0.05)]
+
+    def _bare_grade(self, wh: Wh, clause: Clause) -> Found:
+        if clause.subject is None:
+            things = [as_thing(sem) for sem, _ in clause.objects]
+            clause.subject = things[0] if things and things[0] is not None else None
+            clause.objects = clause.objects[1:] if clause.subject is not None else clause.objects
+        if clause.bare is not None or clause.gerund is not None:
+            clause = clause.bare or clause.gerund or clause
+        if wh.key == "long" and _empty(clause):
+            return [((Ask(HowLong(That())),), 0.05)]
+        onward = {"further", "farther"} & {*wh.words}
+        if wh.key in ("far", "close") and _empty(clause) and not onward:
+            return [((Ask(HowMuch(Measured("distance", Pronoun("it")))),), 0.05)]
+        if wh.key == "fast" and _empty(clause):
+            return [((Ask(HowMuch(Measured("speed", Pronoun("one")))),), 0.05)]
+        found = self.composer.questions.of(wh, clause)
+        return [((Ask(q),), cost + 0.1) for q, cost in found]
+
+    def _bare_which(self, wh: Wh, clause: Clause, thing: Thing | None) -> Found:
+        sem = wh.sem
+        if wh.words[-1:] in (("way",), ("direction",)) and thing is None:
+            return [((Ask(self.composer.questions.asking.which(wh, clause, None)),), 0.0)]
+        if isinstance(sem, Measure) and thing is not None and clause.subject is None:
+            clause.subject = thing  # "the first one, which colour?"
+        if isinstance(sem, (Measure, Noun, Moment)) or (thing is not None and sem is not None):
+            found = self.composer.questions.of(wh, clause)
+            return [((Ask(q),), cost + 0.1) for q, cost in found]
+        return [((Elliptic(as_thing(sem) or thing, form="which", besides=wh.besides),), 0.0)]
+
+    def _contents(self, clause: Clause) -> tuple[Thing | None, Event | None]:
+        """Find the thing or the event that a fragment names."""
+        if clause.verb is not None or clause.gerund is not None or clause.bare is not None:
+            inner = clause if clause.verb is not None else clause.gerund or clause.bare
+            if inner is not None:
+                if inner.subject is None or is_that(inner.subject):
+                    inner.subject = Ego()  # "all this weaving"
+                found = self.composer.propositions.as_event(inner)
+                if isinstance(found, Event):
+                    return None, found
+        sem: Sem | None = clause.objects[0][0] if clause.objects else None
+        if sem is None and clause.complements:
+            sem = clause.complements[0].sem
+        if isinstance(sem, Event):
+            return None, sem
+        return as_thing(sem), None
+
+
+def _onward(unit: Node, clause: Clause) -> bool:
+    """Say whether it is asked what comes: "what now?", "what next?", "and then what?"."""
+    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    return clause.verb is None and bool(words & _ONWARD) and "how" not in words
+
+
+def _next(unit: Node) -> Act:
+    """Ask what comes next, or after what was spoken of."""
+    words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
+    if "then" in words or "after" in words:
+        return Elliptic(time=Back("after"))
+    return Ask(Doing(Ego(), Next(), "future"))
+
+
+def _denied(parts: list[Part]) -> bool:
+    """Say whether an event is denied by its article: "why no left turn"."""
+    leaves = [leaf for part in parts for leaf in leaves_of(part)]
+    return any(leaf.category in ("DET", "NO") and leaf.key == "no" for leaf in leaves)
+
+
+def _empty(clause: Clause) -> bool:
+    """Say whether nothing stands behind a question word but a preposition: "how long for?"."""
+    said = clause.subject or clause.objects or clause.bearings or clause.side or clause.verb
+    stranded = all(phrase.sem is None for phrase in clause.complements)
+    return not said and stranded and isinstance(clause.time, Unsaid)

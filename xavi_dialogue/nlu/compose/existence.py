@@ -1,0 +1,94 @@
+"""Existence: "there is nobody behind us", "is anyone in that car": what is there, and where."""
+
+from typing import Any
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Has,
+    Is,
+    Junction,
+    Nobody,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    Thing,
+    Unknown,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.predicates import tense_of
+from xavi_dialogue.nlu.compose.rooms import roomy
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.tree import words_of
+
+_TURNS = frozenset({"turn", "exit-left", "exit-right"})
+Found = tuple[Proposition, float]
+
+
+def existing(clause: Clause) -> list[Found]:
+    """Compose "there is a car behind us", "is there room"."""
+    if not clause.objects:
+        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.6)]
+    sem = clause.objects[0][0]
+    thing = as_thing(sem)
+    if isinstance(sem, Event) and sem.action in _TURNS:
+        turn = Exists(Junction(), clause.time, tense_of(clause))
+        return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
+    if isinstance(sem, Noun):
+        thing = Unknown(sem.word)
+        if sem.key == "problem":
+            state: Proposition = Is(
+                "wrong", Pronoun("that"), time=clause.time, tense=tense_of(clause)
+            )
+            return [(Not(state) if sem.negative else state, 0.1)]
+    if thing is None:
+        return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
+    if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
+        return [(roomy(clause, clause.time), 0.0)]
+    if isinstance(thing, Feature) and thing.kind == "space":
+        return [(roomy(clause, clause.time), 0.0)]
+    inside = next((as_thing(c.sem) for c in clause.complements if c.key == "in"), None)
+    if isinstance(inside, Described) and isinstance(thing, Described | Nobody):
+        return [(Has("occupant", "", inside, clause.time, tense_of(clause)), 0.0)]
+    thing = _where(thing, clause)
+    if isinstance(thing, Nobody):
+        described = thing.described or Described(definite=False)
+        return [
+            (
+                Not(Exists(_where(described, clause), clause.time, tense_of(clause))),
+                0.0,
+            )
+        ]
+    there: Proposition = Exists(thing, clause.time, tense_of(clause))
+    denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
+    return [(Not(there) if denied else there, 0.0)]
+
+
+def _where(thing: Thing, clause: Clause) -> Thing:
+    """Add to a description where it is said to be."""
+    if not isinstance(thing, (Described, Nobody)):
+        return thing
+    described = thing.described or Described(definite=False) if isinstance(thing, Nobody) else thing
+    bearing: Any = next((b for b, _ in clause.bearings if b not in ("there", "here")), None)
+    of: Thing | None = None
+    for phrase in clause.complements:
+        if phrase.key.startswith("bearing-") and bearing is None:
+            bearing = phrase.key.removeprefix("bearing-")
+            of = as_thing(phrase.sem)
+        elif phrase.key in ("in", "on", "at") and described.such is None:
+            place = as_thing(phrase.sem)
+            if place is not None:
+                described = with_fields(described, such=Related("on", Wanted(), place))
+    if bearing is None or described.bearing is not None:
+        return Nobody(described) if isinstance(thing, Nobody) else described
+    fields: dict[str, Any] = {k: getattr(described, k) for k in described.__struct_fields__}
+    fields.update(bearing=bearing, of=None if isinstance(of, (Ego, Passenger)) else of)
+    described = Described(**fields)
+    return Nobody(described) if isinstance(thing, Nobody) else described

@@ -1,0 +1,67 @@
+"""Positions: "are we out yet", "is he through", "is it out of our way": a state told by a move."""
+
+from typing import Any
+
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Is,
+    Not,
+    Pronoun,
+    Proposition,
+    Related,
+    Thing,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.sem import as_thing
+from xavi_dialogue.nlu.compose.tree import words_of
+
+#: What somebody has done who is so: "out" has come out.
+_MOVED: dict[str, ActionName] = {"out": "pull-out", "off": "leave", "in": "enter"}
+_OVER = frozenset(("through", "past", "over"))
+
+
+def by_particle(clause: Clause) -> Proposition | None:
+    """Read who is out, in, through or past as having moved so; None where nothing tells."""
+    thing: Thing = as_thing(clause.subject) or Pronoun("it")
+    tense: Any = clause.tense
+    words = {leaf.key for leaf in clause.particles}
+    if not words or any(bearing != "behind" for bearing, _ in clause.bearings):
+        return None
+    if words & _OVER:
+        return Is("over", thing, time=clause.time, tense=tense)
+    action = next((_MOVED[word] for word in _MOVED if word in words), None)
+    if action is None:
+        return None
+    moved: Any = "perfect" if tense == "present" else tense
+    return Happens(Event(action, thing, time=clause.time, tense=moved))
+
+
+def passed(thing: Thing, place: Thing | None, phrase: Complement, clause: Clause) -> Happens | None:
+    """Read "are we past it", "he is through the junction" as having passed it."""
+    if place is None or words_of(phrase.node).split()[0] not in ("past", "beyond", "through"):
+        return None
+    tense: Any = "perfect" if clause.tense == "present" else clause.tense
+    return Happens(Event("pass", thing, place, time=clause.time, tense=tense))
+
+
+def by_event(clause: Clause, event: Event) -> Proposition | None:
+    """Read "has something got in the way", "did he come too" as states that moves lead to."""
+    where = event.where
+    if where is not None and where.relation == "on" and where.to == Feature("way"):
+        now: Any = "present" if event.tense == "perfect" else event.tense
+        return Related("in-the-way-of", event.actor, Ego(), event.time, now)
+    if event.action == "come" and "too" in clause.focus and not isinstance(event.actor, Ego):
+        return Related("with", event.actor, Ego(), event.time, event.tense)
+    return None
+
+
+def by_origin(thing: Thing, place: Thing, clause: Clause) -> Proposition:
+    """Read "out of the way" as not being in it; "from the left road" as coming from there."""
+    tense: Any = clause.tense
+    if place == Feature("way"):
+        return Not(Related("in-the-way-of", thing, Ego(), clause.time, tense), lexical=True)
+    return Related("from", thing, place, clause.time, tense)

@@ -1,0 +1,58 @@
+"""Traits: what stands before and behind the head of a noun phrase, and whom it describes."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import Described, Event, Proposition, Wanted
+from xavi_dialogue.nlu.compose.sem import Sem
+from xavi_dialogue.nlu.grammar.chart import Node
+
+
+class Traits:
+    """What stands before and behind the head of a noun phrase."""
+
+    def __init__(self) -> None:
+        self.fields: dict[str, Any] = {}
+        self.determiner = ""
+        self.owner: Sem | None = None
+        self.side: str | None = None
+        self.ordinal: int | None = None
+        self.following = False  # "next"
+        self.extreme: str | None = None
+        self.adjectives: list[str] = []
+        self.unknown: list[str] = []
+        self.kind: str | None = None
+        self.of: Sem | None = None
+        self.about: list[tuple[str, Sem]] = []
+        self.event: Event | None = None
+        self.deed: str | None = None  # "standstill duration"
+        self.other = False
+        self.gerund: Node | None = None
+        self.clause: Proposition | None = None
+
+
+def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
+    """Describe a road user by what is said of it."""
+    fields = {k: v for k, v in traits.fields.items() if k in Described.__struct_fields__}
+    if traits.side and "bearing" not in fields:
+        fields["bearing"] = traits.side
+    if traits.ordinal is not None:
+        fields["rank"] = traits.ordinal
+    if traits.extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+        fields["extreme"] = traits.extreme
+    elif traits.extreme == "smallest":
+        fields["size"] = "small"
+    for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
+        if key in traits.adjectives:
+            fields.setdefault(*value)
+    standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
+    for adjective in traits.adjectives:
+        if adjective in standing:
+            fields.setdefault("doing", Event(cast(Any, standing[adjective]), Wanted()))
+    indefinite = traits.determiner in ("indef", "many", "no", "") and not fields.get("rank")
+    fields["definite"] = not indefinite or (traits.determiner == "" and not plural)
+    if traits.determiner == "indef" and traits.other:
+        fields["definite"] = False
+    return Described(
+        kind=cast(Any, kind), plural=plural or traits.fields.get("number", 1) > 1,
+        other=traits.other, **fields,
+    )  # fmt: skip

@@ -1,0 +1,173 @@
+"""Generic verbs: "go in", "come out", "go first", by the place at which they are said.
+
+Verbs such as go, come and get say little by themselves. Where the road settles what is meant, the
+action that a person would name takes their place: who goes in at a roundabout enters it, who comes
+out of it leaves it, and who goes out on a road of several lanes moves to the lane further left.
+"""
+
+from typing import Final, Literal, TypeAlias
+
+from msgspec.structs import replace
+
+from planner.road import RoadFacts
+from sim.scene import EGO
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Everyone,
+    Feature,
+    Happens,
+    Is,
+    Junction,
+    Not,
+    Now,
+    Proposition,
+    Related,
+    Thing,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+
+Site: TypeAlias = Literal["ring", "before-ring", "junction", "lanes", "road"]
+
+RING_NEAR: Final = 80.0  # [m] from which on a roundabout in front is where "in" leads to
+JUNCTION_NEAR: Final = 40.0  # [m] likewise of a junction
+LEFT_LATELY: Final = 6.0  # [s] for which who has left a roundabout may have come out of it
+GAVE: Final = 6.0  # [s] since when who let somebody go first comes after him
+_MOTION: Final = frozenset(("go", "come", "move", "head"))
+_RING: Final = Junction("roundabout")
+
+
+def specified(event: Event, window: Window, g: Grounder) -> Event:
+    """Put the action that is meant in the place of a generic one; grounded, but for its time."""
+    if event.object is not None and not isinstance(event.object, Ego | Vehicle):
+        return event
+    moment = min(window.end, g.context.now)
+    if event.action == "enter" and event.object is None:
+        return _inwards(event, moment, g)
+    if event.action == "pull-out" and event.side is None:
+        return _outwards(event, moment, g)
+    if event.action == "let-go" and event.modal is None:
+        return _let_go(event, moment, g)
+    return event
+
+
+def _inwards(event: Event, moment: float, g: Grounder) -> Event:
+    """Read "go in": into the roundabout, or onto the lane in front of us."""
+    site = _site(moment, g)
+    if site in ("ring", "before-ring"):
+        return replace(event, object=_RING)
+    if site != "lanes":
+        return event
+    if isinstance(event.actor, Ego):
+        return replace(event, action="change-right")
+    return replace(event, action="cut-in", object=Ego())
+
+
+def _outwards(event: Event, moment: float, g: Grounder) -> Event:
+    """Read "come out": off the roundabout, or to the lane further left."""
+    number = _number(event.actor)
+    lately = (moment, max(moment - LEFT_LATELY, g.context.begin))
+    ring = number is not None and any(_on_ring(_road(t, g), number) for t in lately)
+    if ring and event.object is None:
+        return replace(event, action="leave", object=_RING)
+    if not isinstance(event.actor, Ego):
+        return event
+    before = event.object
+    if _site(moment, g) != "lanes":
+        coming = before is None and event.tense in ("present", "future")
+        return replace(event, action="leave") if coming else event
+    where = event.where if before is None else Related("ahead-of", event.actor, before)
+    return replace(event, action="change-left", object=None, where=where)
+
+
+def _let_go(event: Event, moment: float, g: Grounder) -> Event:
+    """Read "are we going after him" as having let him go first, where that is just over."""
+    if event.tense != "present" or not isinstance(event.object, Ego | Vehicle):
+        return event
+    gave = g.context.holds(replace(event, action="give-way"), moment - GAVE, moment)
+    over = bool(gave) and all(e.end is not None and e.end < moment for e in gave)
+    return replace(event, tense="perfect") if over else event
+
+
+def come_along(spoken: Related) -> Related:
+    """Read "did he come with us" as whether he is with us now."""
+    if spoken.relation != "with" or not isinstance(spoken.time, Unsaid):
+        return spoken
+    now = spoken.tense == "present"
+    return replace(spoken, time=Now(), tense="present" if now else "perfect")
+
+
+def in_order(spoken: Happens, mode: Mode) -> Proposition:
+    """Read "go first" as who goes first of two: by right of way, or as it came about.
+
+    Anything else is returned as it is.
+    """
+    event = spoken.event
+    if event.action == "cross" and event.object == Feature("way"):
+        return Happens(replace(event, object=Ego()))
+    if event.action == "leave" and event.object == Feature("way"):
+        there = Related("in-the-way-of", event.actor, Ego(), event.time, event.tense)
+        return Not(there, lexical=True)  # "did he get out of the way"
+    if mode == "asked" and event.action in _MOTION and event.where is not None:
+        return _beside(event, event.where) or spoken
+    orders = event.action in ("go", "enter", "cross") and "first" in event.manner
+    if mode != "asked" or not orders:
+        return spoken
+    if event.modal in ("could", "would", "want", "might"):
+        return spoken
+    if event.object is not None and not isinstance(event.object, Ego | Vehicle):
+        return spoken
+    named = isinstance(event.actor, Vehicle) or isinstance(event.object, Vehicle)
+    if not isinstance(event.actor, Ego | Vehicle):
+        return spoken
+    if event.tense in ("past", "perfect") and event.modal is None:
+        gave = Event("give-way", event.actor, time=event.time, tense=event.tense)
+        return spoken if named else Not(Happens(gave), lexical=True)
+    ours = isinstance(event.actor, Vehicle)
+    to: Thing = Ego() if ours else event.object if named and event.object else Everyone()
+    return Related("has-priority-over", event.actor, to, event.time, "present")
+
+
+def _beside(event: Event, where: Related) -> Proposition | None:
+    """Read "went close to him" as being close, and "went the other way" as not with us."""
+    other = event.actor if isinstance(where.to, Ego) else where.to
+    if where.relation == "oncoming-to" and event.tense != "present" and other != Ego():
+        along = Related("with", other, Ego(), Now())
+        return Not(along, lexical=True)
+    ours = isinstance(event.actor, Ego) and event.tense != "present"
+    if where.relation == "beside" and ours and other != Ego():
+        return Is("close", other, time=event.time, tense=event.tense)
+    return None
+
+
+def _site(moment: float, g: Grounder) -> Site:
+    road = _road(moment, g)
+    mine = None if road is None else road.places.get(EGO)
+    if road is None or mine is None:
+        return "road"
+    if mine.roundabout:
+        return "ring"
+    step = road.route[0] if road.route else None
+    if step is not None and step.kind == "roundabout" and step.distance <= RING_NEAR:
+        return "before-ring"
+    if mine.in_junction or (step is not None and step.distance <= JUNCTION_NEAR):
+        return "junction"
+    return "lanes" if mine.lanes > 1 else "road"
+
+
+def _on_ring(road: RoadFacts | None, number: int) -> bool:
+    place = None if road is None else road.places.get(number)
+    return place is not None and place.roundabout
+
+
+def _road(moment: float, g: Grounder) -> RoadFacts | None:
+    return None if moment < g.context.begin else g.context.world.road(moment)
+
+
+def _number(thing: Thing) -> int | None:
+    if isinstance(thing, Ego):
+        return EGO
+    return thing.number if isinstance(thing, Vehicle) else None
+
