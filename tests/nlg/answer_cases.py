@@ -121,7 +121,7 @@ CASES: tuple[Answer, ...] = (
     Counted(Everyone(), 9),
     Counted(Everyone(), 0, such=REAR),
     Counted(Everyone(), 0, until=10.0, such=REAR),
-    Counted(Everyone(), 1, (LORRY,), such=REAR),
+    Counted(Everyone(), 1, (OTHER_BLUE,), such=REAR),
     Counted(Everyone(), 9, such=REAR),
     Counted(Everyone(), 9, until=10.0, such=REAR),
     Happenings("list", RIDE),

@@ -255,6 +255,7 @@ INSIGHTS: tuple[Answer, ...] = (
     Grounds(2, ("exit-right",), True, ()),
     Grounds(2, ("exit-right",), False, ((7.0, 0.4),)),
     Grounds(2, ("exit-right",), False, ((7.0, 0.01),)),
+    Grounds(2, ("slow-down",), False, ((7.0, 0.01),)),
     Certainty("plan", 0.97, 0.91, 32, 32, 19.5, Evidence(), ALONE),
     Certainty("plan", 0.3, 0.2, 9, 32, 19.5, Evidence(), ALONE),
     Certainty("choice", 0.81, 0.65, 26, 32, 10.0, Evidence(), LATER),

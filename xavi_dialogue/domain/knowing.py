@@ -13,7 +13,7 @@ class Grounds(Value, frozen=True):
     """How we came to believe something of another vehicle: how the belief grew, and why."""
 
     vehicle: int
-    actions: tuple[MacroAction, ...]  # what is believed of it
+    actions: tuple[ActionName, ...]  # what is believed of it
     seen: bool  # it has been seen to do so
     history: tuple[tuple[float, float], ...]  # time [s] and probability, oldest first
     since: float | None = None  # [s] from when on it was more probable than not

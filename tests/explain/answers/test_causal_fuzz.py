@@ -1,6 +1,7 @@
-"""Whatever is asked of the causal explainers, there is a result, and the same one every time."""
+"""Whatever is asked of the causal explainers has a result that can be said, the same each time."""
 
 import random
+from itertools import product
 from typing import get_args
 
 import msgspec
@@ -38,6 +39,8 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, State
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.say import say
 
 ACTIONS = get_args(ActionName)
 STATES = get_args(State)
@@ -110,3 +113,14 @@ def test_every_question_has_a_result(name: str) -> None:
         found = told(ride, asked, now, span)
         assert isinstance(found, RESULTS), asked
         assert msgspec.json.encode(found)
+        if not isinstance(found, NeedRollout):
+            assert say(found, SpeechContext(now=now, looks={})).text, asked
+
+
+@pytest.mark.parametrize("name", RIDES)
+def test_how_we_know_that_a_vehicle_does_something_can_be_said(name: str) -> None:
+    ride = recorded(name) if "-" in name else story(name)
+    moments = (ride.traces[0].sim_time, ride.traces[-1].sim_time)
+    for action, now in product(ACTIONS, moments):
+        asked = HowKnow(Happens(Event(action, Vehicle(1), tense="future")))
+        assert say(told(ride, asked, now), SpeechContext(now=now, looks={})).text, action

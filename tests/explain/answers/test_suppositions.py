@@ -12,6 +12,7 @@ from xavi_dialogue.domain.answers import (
     Grounds,
     Method,
     MotionReason,
+    NotRecorded,
     Options,
     Pivot,
     SupposedOfOther,
@@ -110,6 +111,28 @@ def test_how_we_know_is_how_the_belief_grew() -> None:
     assert isinstance(found, Grounds)
     assert found.vehicle == 1
     assert found.history
+
+
+def test_a_change_of_speed_that_no_prediction_holds_is_told_by_its_name() -> None:
+    ride = recorded("motorway-0")
+    slows = HowKnow(Happens(Event("slow-down", actor=Vehicle(1), tense="future")))
+    found = told(ride, slows, ride.traces[0].sim_time)
+    assert isinstance(found, Grounds)
+    assert found.actions == ("slow-down",)
+    assert found.history[-1][1] == 0.0
+
+
+def test_what_no_prediction_can_hold_is_no_belief() -> None:
+    ride = story("braking")
+    found = told(ride, HowKnow(Happens(Event("honk", actor=Vehicle(1), tense="future"))), 10.0)
+    assert isinstance(found, NotRecorded)
+
+
+def test_how_we_know_what_it_will_do_is_of_what_is_most_probable() -> None:
+    ride = story("braking")
+    found = told(ride, HowKnow(Happens(Event("do", actor=Vehicle(1), tense="future"))), 10.0)
+    assert isinstance(found, Grounds)
+    assert found.actions == told(ride, HowKnow(Exists(Vehicle(1))), 10.0).actions
 
 
 def test_how_we_decide_tells_the_options_and_the_samples() -> None:

@@ -104,9 +104,10 @@ def _verbs() -> Mapping[str, tuple[str, ...]]:
     """Return the forms of all verbs that have a sense."""
     table = load("nlu_verbs.toml")
     found: dict[str, list[str]] = {}
+    forms = table["forms"]
     for lemma in table["senses"]:
         verb, _, rest = lemma.partition(" ")
-        for form, word in verb_forms(verb, table["forms"].get(lemma)):
+        for form, word in verb_forms(verb, forms.get(lemma, forms.get(verb))):
             found.setdefault(form, []).append(f"{word} {rest}".strip())
     return {form: tuple(words) for form, words in found.items()}
 

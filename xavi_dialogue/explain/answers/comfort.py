@@ -2,10 +2,10 @@
 
 from xavi_dialogue.domain.answers import Comfort, NotRecorded
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.terms import Ego, Event, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.moments import Window, window
+from xavi_dialogue.explain.answers.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.occasions import overlaps, taken_place
 
 HARD = 4.0  # [m/s2] of braking that passengers call hard
@@ -45,8 +45,13 @@ def stretch(asked: Asked, episode: Episode) -> Window:
 
 
 def asked_stretch(asked: Asked, event: Event | None) -> Window:
-    """Give the stretch that a question about comfort is about."""
-    return window(asked) if event is None else window(asked, event.time, event.tense)
+    """Give the stretch that a question about comfort is about: the ride, if it says nothing."""
+    if event is not None:
+        return window(asked, event.time, event.tense)
+    about = window(asked)
+    if about.instant and not was_said(asked, Unsaid()):
+        return Window(asked.world.begin, asked.now)
+    return about
 
 
 def _braking(asked: Asked, at: float) -> Episode | None:

@@ -16,13 +16,16 @@ from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.actions import HALTS, STRAIGHT, is_macro, means
 from xavi_dialogue.explain.causes.conduct import likeliest, matching
-from xavi_dialogue.explain.history.motion import Motion, foresees
+from xavi_dialogue.explain.history.motion import Motion, foresees, steps
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, prediction
 from xavi_dialogue.explain.history.thresholds import CHANGED
 
 EVEN = 0.5  # probability from which something is more probable than not
 CERTAIN = 1e-3  # of probability, within which odds are not told apart
 LEAST_FIT = 1e-3  # relative likelihood below which a path does not fit at all
+#: What predicted ways tell though the planner does not choose it.
+DRIVEN = frozenset[ActionName](("slow-down", "speed-up"))
+ANYTHING = frozenset[ActionName](("do", "happen"))  # what leaves open what is done
 
 
 def grounds(ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: float) -> Grounds:
@@ -31,15 +34,17 @@ def grounds(ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: flo
     Where it did so, the decisions up to then count; else those up to a moment [s].
 
     Raises:
-        Unanswered: no decision expects anything of the vehicle.
+        Unanswered: no decision expects anything of the vehicle, or none can expect that.
     """
     before = ride.back(moment)
     every = [trace for trace in before.traces if prediction(trace, vehicle) is not None]
     if not every:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=moment))
-    asked: tuple[ActionName, ...] = names or _expected(before, every[-1], vehicle)
+    asked = names if set(names) - ANYTHING else _expected(before, every[-1], vehicle)
     stays = set(asked) <= HALTS and before.motion(vehicle).trend == "standing"
     end = None if stays else _done(before, vehicle, asked)
+    if end is None and not any(means(name) or name in DRIVEN for name in asked):
+        raise Unanswered(NotRecorded("not-recorded", Vehicle(vehicle), about="doing"))
     known = [t for t in every if end is None or t.sim_time <= end + ROUNDING] or every[:1]
     beliefs = [_belief(before, trace, vehicle, asked, stays) for trace in known]
     if beliefs[-1] < EVEN <= max(beliefs):
@@ -110,15 +115,22 @@ def _grounds(
     )
 
 
-def _meant(ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]) -> Actions:
-    """What is believed, as macro actions: of several that a name may mean, the likeliest."""
+def _meant(
+    ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]
+) -> tuple[ActionName, ...]:
+    """What is believed: of several macro actions that a name may mean, the likeliest.
+
+    What is no choice of the planner, such as a change of speed, keeps its name.
+    """
+    if not any(means(name) for name in names[:1]):
+        return names[:1]
     model, known = ride.model(trace), prediction(trace, vehicle)
     ways = matching(model, vehicle, names)
     if known is None or not ways or all(is_macro(name) for name in names[:1]):
         return to_macro(names[:1])
     chances = model.choices(vehicle)
     goal, way = max(ways, key=lambda choice: chances[choice])
-    return known.goals[goal].trajectories[way].actions
+    return steps(known.goals[goal], known.goals[goal].trajectories[way])
 
 
 def to_macro(names: Sequence[ActionName]) -> Actions:

@@ -51,8 +51,7 @@ def _belief(trace: PlanTrace, vehicle: int) -> Belief | None:
                 edges[actions] = (chance, goal.edge)
     ranked = sorted(found.items(), key=lambda item: -item[1])
     expected = tuple(
-        Expectation(actions, min(chance, 1.0), edges[actions][1])
-        for actions, chance in ranked
+        Expectation(actions, min(chance, 1.0), edges[actions][1]) for actions, chance in ranked
     )
     return Belief(vehicle, trace.sim_time, expected)
 

@@ -113,6 +113,9 @@ def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | Non
         return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
     if event is not None:
         return HowLong(event) if event.action != "arrive" else HowMuch(Measured("time-to-go"))
+    whom = reference(clause)
+    if clause.verb is None and isinstance(whom, Described | Vehicle | Pronoun):
+        return measured("headway", clause, actor, to=whom)  # "how many seconds behind it are we"
     return long_lasting(clause, event, value, actor)
 
 

@@ -187,7 +187,7 @@ class Fragments(BareQuestions):
 
 def _unused(clause: Clause) -> float:
     """Say what costs that stands in a fragment beside the thing that it names."""
-    that = 0.5 if clause.that is not None and clause.objects else 0.0
+    that = 0.5 if clause.that is not None else 0.0
     return that + 0.9 * max(0, len(clause.objects) - 1) + 0.4 * len(clause.adjectives)
 
 

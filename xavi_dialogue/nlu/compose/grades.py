@@ -147,6 +147,10 @@ def far_to(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
     """Ask how far it is to something; what is left is to the destination."""
     if clause.side == "left" and not clause.objects:
         return HowMuch(Measured("distance-to-go"))
+    if any(
+        isinstance(p.sem, Measure) and p.sem.of.attribute == "limit" for p in clause.complements
+    ):
+        return measured("excess", clause, actor)  # "how far over the limit are we"
     turn = _next_turn(clause)
     if turn is not None and not remaining(clause, actor):
         return HowMuch(Measured("turn", event=turn))

@@ -11,20 +11,15 @@ from xavi_dialogue.domain.terms import (
     Event,
     Feature,
     Happens,
-    Has,
     Is,
-    Lane,
     Measured,
-    Next,
     Not,
-    Passenger,
     Pronoun,
     Proposition,
     Quantity,
     Related,
     That,
     Thing,
-    Unknown,
     Unsaid,
     Vehicle,
 )
@@ -32,12 +27,9 @@ from xavi_dialogue.nlu.compose.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.existence import existing
-from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, passed
+from xavi_dialogue.nlu.compose.placing import LOOSE, placed
 from xavi_dialogue.nlu.compose.predicates import (
     UNITS,
-    against,
-    arrived,
-    beyond,
     lights,
     nominal,
     tense_of,
@@ -49,7 +41,6 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.things import relation_of
-from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.trends import nearness
 
 _NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
@@ -105,17 +96,16 @@ _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 _MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly"}
 BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" is a question
 _SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
-LOOSE = 0.25  # cost of a particle beside "be"
 Found = tuple[Proposition, float]
 
 
 def state_of(clause: Clause) -> list[Found]:
     """Compose a clause without a verb; several readings at their costs."""
-    placed = clause.bearings[0][0] if clause.bearings else None
+    bearing = clause.bearings[0][0] if clause.bearings else None
     said = clause.comparisons or clause.adjectives
     spoken = clause.subject
-    if isinstance(spoken, Described) and spoken.bearing is None and said and placed in _SIDES:
-        clause.subject = with_fields(spoken, bearing=placed)  # "is that car behind as fast?"
+    if isinstance(spoken, Described) and spoken.bearing is None and said and bearing in _SIDES:
+        clause.subject = with_fields(spoken, bearing=bearing)  # "is that car behind as fast?"
     extra = ungoverned(clause) - 0.12
     return [(Not(p) if clause.negated else p, cost + extra) for p, cost in _found(clause)]
 
@@ -158,7 +148,7 @@ def _found(clause: Clause) -> list[Found]:
     if clause.because is not None and isinstance(subject, Pronoun):
         cause = None if isinstance(clause.because, Clause) else as_thing(clause.because)
         return [(Caused(cause) if cause is not None else That(), 0.0)]
-    return _placed(clause)
+    return placed(clause)
 
 
 def subject_event(clause: Clause) -> Event | None:
@@ -241,65 +231,3 @@ def _compares(clause: Clause) -> Proposition | None:
     if words.startswith(("less ", "worse")):
         direction = {"more": "less", "less": "more"}[direction]
     return Compares(left, cast(Any, direction), right)
-
-
-def _placed(clause: Clause) -> list[Found]:
-    """Compose "it is behind us", "he is in our lane"."""
-    thing = as_thing(clause.subject) or Pronoun("it")
-    time, tense = clause.time, tense_of(clause)
-    for phrase in clause.complements:
-        to = as_thing(phrase.sem)
-        if phrase.key == "bearing-beside" and words_of(phrase.node).startswith("close to"):
-            other = to if isinstance(thing, Ego | Passenger) and to is not None else thing
-            return [(Is("close", other, None, "too" in clause.focus, time, tense), 0.0)]
-        if phrase.key.startswith("bearing-"):
-            relation: Any = relation_of(phrase.key.removeprefix("bearing-"))
-            return [
-                (Related(relation, thing, to or as_thing(clause.gap) or Ego(), time, tense), 0.0)
-            ]
-        if phrase.key == "over" and (gone := passed(thing, to, phrase, clause)) is not None:
-            return [(gone, 0.0)]
-        if phrase.key in ("in", "on") and to == Feature("way"):
-            return [(Related("in-the-way-of", thing, Ego(), time, tense), 0.0)]
-        if isinstance(phrase.sem, Quantity) and phrase.key == "over":
-            return [(beyond(clause, thing, phrase.sem, words_of(phrase.node)), 0.0)]
-        paced = isinstance(phrase.sem, Measure) and phrase.sem.of.attribute in ("limit", "speed")
-        if paced and phrase.key in ("over", "in", "at", "into"):
-            return [(against(clause, thing, phrase), 0.0)]
-        if to is None:
-            continue
-        if phrase.key == "from":
-            return [(by_origin(thing, to, clause), 0.1)]
-        if phrase.key in ("in", "on", "at", "into"):
-            if isinstance(to, Unknown) and phrase.key != "on":
-                return [(Related("on", thing, to, time, tense), 0.5)]
-            relation = "on" if not isinstance(to, Described) else "near"
-            return [(Related(relation, thing, to, time, tense), 0.0)]
-        if phrase.key == "with":
-            return [(Related("with", thing, to, time, tense), 0.1)]
-    if clause.origin is not None:
-        return [(Has("origin", clause.origin, thing, time, tense), 0.0)]
-    moved = by_particle(clause)
-    if moved is not None:
-        return [(moved, -LOOSE)]
-    for bearing, part in clause.bearings:
-        if bearing == "beside" and words_of(part).startswith("close"):
-            return [(Is("close", thing, None, "too" in clause.focus, time, tense), 0.0)]
-        if bearing in ("there", "here"):
-            if isinstance(thing, Ego):
-                return [(arrived(clause), 0.0)]
-            return [(Is("present", thing, time=time, tense=tense), 0.05)]
-        if bearing == "around" and not isinstance(thing, Ego):
-            return [(Is("visible", thing, time=time, tense=tense), 0.0)]
-        return [(Related(cast(Any, relation_of(bearing)), thing, Ego(), time, tense), 0.0)]
-    if isinstance(clause.subject, Lane):
-        return [(Is("free", thing, time=time, tense=tense), 1.0)]
-    gap = as_thing(clause.gap)
-    if gap is not None:
-        return [(Related("same-as", thing, gap, time, tense), 0.4)]
-    if isinstance(time, Next) and isinstance(thing, Ego | Pronoun | Described):
-        going = Event("go", thing, None, None, ("first",), tense=tense, modal="should")
-        return [(Happens(going), 0.1)]
-    if not isinstance(time, Unsaid):
-        return [(Is("present", thing, time=time, tense=tense), 0.5)]
-    return []

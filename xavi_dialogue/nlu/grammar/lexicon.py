@@ -25,6 +25,7 @@ AUXILIARIES = {"do": 0.1, "have": 0.2}  # cost as verbs in their own right
 ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
 MEASURED = 0.2  # cost of a bare verb that is the name of a measure too: "speed"
 OWNERS = ("my", "our", "your", "his", "her", "its", "their", "the")
+HEARD = 0.14  # cost of a number that sounds like another word: "two"
 PHRASE = 0.02  # what a phrase is cheaper by for each word after its first
 
 
@@ -200,7 +201,9 @@ def _single(found: list[dict[str, list[Leaf]]], known: Lexicon, start: int, edge
     is_number = _NUMBER.fullmatch(word) is not None
     if is_number or word in load("nlu_text.toml")["numbers"]:
         name = "CLOCK" if ":" in word else "NUM"
-        _put(found, Leaf(name, word, "", (word,), (edge.token,), start, edge.end, edge.cost))
+        heard = HEARD if word in load("nlu_text.toml")["homophones"] else 0.0
+        _put(found, Leaf(name, word, "", (word,), (edge.token,), start, edge.end,
+                         edge.cost + heard))  # fmt: skip
     if word == "hundred":
         _put(found, Leaf("HUNDRED", word, "", (word,), (edge.token,), start, edge.end, edge.cost))
     has_sense = known.vocabulary.words.get(word) == 0 or is_number

@@ -25,6 +25,7 @@ from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
 from xavi_dialogue.nlu.grounding.rewriting import first, substitute
 from xavi_dialogue.nlu.grounding.salience import after
+from xavi_dialogue.nlu.grounding.soundness import is_sound
 from xavi_dialogue.nlu.grounding.world import World
 
 READINGS: Final = 8  # looked at, at most
@@ -119,7 +120,8 @@ def _part(
     notes = g.notes
     failure: Failure | None = notes.missing[0] if notes.missing else None
     unknown = (*fatal, *notes.unknown)
-    if complete is None or (unknown and not isinstance(spoken, Beyond | Social)):
+    senseless = not isinstance(spoken, Beyond | Social) and (unknown or not is_sound(grounded))
+    if complete is None or senseless:
         failure = NotUnderstood(words=reading.strange, about=doubts.glosses(reading))
         notes.cost += DEAF
     done = GroundedAct(

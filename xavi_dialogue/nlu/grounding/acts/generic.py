@@ -170,4 +170,3 @@ def _number(thing: Thing) -> int | None:
     if isinstance(thing, Ego):
         return EGO
     return thing.number if isinstance(thing, Vehicle) else None
-
