@@ -34,6 +34,7 @@ _ASIDE: Final = frozenset(("politeness", "hedge", "address"))
 PREDICATES: Final = ("event", "action", "verb", "state", "relation", "attribute", "predicate",
                      "v:", "vpast:", "ved:", "ving:", "adj:", "meas:", "evn:", "abs:")  # fmt: skip
 NOUNS: Final = ("thing", "kind", "noun", "vehicle", "place", "numbered:", "ride:")
+_NOMINAL: Final = (*NOUNS, "colour:", "size:")
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,13 +87,13 @@ def _is_main(shares: Sequence[TokenShare], index: int) -> bool:
     if last in _ASKING:
         return not (behind and _is(behind[0], (*PREDICATES, *NOUNS)))
     if last in _DETERMINERS:
-        if behind and _is(behind[0], NOUNS):
+        if behind and _is(behind[0], _NOMINAL):
             return False
         return len(before) < 2 or before[-2] not in _PREPOSITIONS
     subject = last in _SUBJECTS or (bool(before) and _is(shares[index - 1], NOUNS))
     if last in _AUXILIARIES or (subject and any(b in _AUXILIARIES for b in before)):
         return not any(_is(s, PREDICATES) for s in behind)
-    return not (behind and _is(behind[0], NOUNS))
+    return not (behind and _is(behind[0], _NOMINAL))
 
 
 def _is(share: TokenShare, sorts: tuple[str, ...]) -> bool:
