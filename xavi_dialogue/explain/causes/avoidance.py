@@ -21,6 +21,7 @@ from xavi_dialogue.explain.causes.course import HARD, brakes, lines, speed_mark,
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, planned
 
+SLOWING: tuple[ActionName, ...] = ("stop", "slow-down", "give-way")  # what a stop is itself
 BEFORE = 10.0  # [s] before something happens, in which decisions may have avoided it
 LEEWAY = 2.0  # [s] by which it may happen later in a rollout than it did
 SELDOM = 0.25  # probability up to which an option avoids it
@@ -62,7 +63,8 @@ def avoiding(ride: Ride, mishap: ActionName, moment: float) -> Avoidance:
             ways += found
     if not looked:
         raise Unanswered(NotRecorded("gap-in-record", since=moment - BEFORE, until=moment))
-    good = [w for w in ways if w.other <= SELDOM and w.risk - w.other >= LESS and _sound(w)]
+    better = (w for w in ways if w.other <= SELDOM and w.risk - w.other >= LESS)
+    good = [w for w in better if _sound(w) and not (mishap in SLOWING and w.foil[:1] == ("stop",))]
     if good:
         best = max(good, key=lambda w: (w.there.value - w.here.value, w.model.trace.sim_time))
         return _told(ride, mishap, best, looked, len(ways), possible=True)
@@ -147,8 +149,8 @@ def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> fl
 
 
 def _sound(way: _Way) -> bool:
-    """Whether an option is no worse a choice: it is no stop, collides not nor loses the way."""
-    return way.foil[:1] != ("stop",) and all(
+    """Whether an option is no worse a choice: it neither collides nor loses the way."""
+    return all(
         way.there.outcomes[name] <= max(way.here.outcomes[name], 0.05)
         for name in ("collision", "dead")
     )

@@ -21,7 +21,6 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
-HIGH = 0.05  # probability of a collision from which it is told though it did not decide
 CREEPING = 5.0  # [m/s] up to which one creeps
 GAIN = 0.5  # [s] from which something was worth it
 Need = Literal["forced", "needed", "not-strictly", "close", "no-choice", "way"]
@@ -62,10 +61,8 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         told=_names(answer, answer.suspect) or context.detail == "less",
     )
     more = further(contrast, context, past=past)
-    high = max(contrast.collision, contrast.fact_collision) >= HIGH
-    details = (risk,) if risk is not None and high else ()
-    more = more if risk is None or high else (risk, *more)
-    return Plan(core, details, more, (), about_cause(answer))
+    core = core if risk is None else (risk, *core)  # a risk is told, and first
+    return Plan(core, (), more, (), about_cause(answer))
 
 
 def _without_cause(said: Message) -> Message:
