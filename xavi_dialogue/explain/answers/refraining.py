@@ -42,8 +42,8 @@ def refrained(event: Event, scene: Asked) -> Answer:
     behind = isinstance(event.where, Related) and event.where.relation == "behind"
     stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
     since = math.inf if change is None else scene.moment - change.time
-    slowing = event.action in ("slow-down", "brake")
-    fresh = crossed is None and not slowing and (since <= FRESH or event.action == "wait")
+    own = event.action in ("slow-down", "brake", "stop")  # each is compared by itself
+    fresh = crossed is None and not own and (since <= FRESH or event.action == "wait")
     if change is not None and (stays or fresh):
         past = change.ended is not None
         foil = Event("keep-lane", tense="past" if past else event.tense, time=event.time)
