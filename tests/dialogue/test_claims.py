@@ -4,7 +4,7 @@ import pytest
 
 from tests.dialogue.faked import Faked, Talk
 from tests.dialogue.test_conversation import FAST, SPEED, WHY
-from xavi_dialogue.dialogue.mind import AT_MOST, joined
+from xavi_dialogue.dialogue.joining import AT_MOST, joined
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.domain.answers import (
     Comforting,
@@ -35,6 +35,7 @@ UNCAUSED = MotionReason(Episode(Ego(), "slow-down", 4.0, 7.0), ())
 NOBODY = Claim(Not(Exists(Vehicles((1, 2)))))
 FREE = Claim(Is("free", Lane("left")))
 SLOW = Claim(Is("slow", Ego()))
+DISPUTE = Claim(Not(Happens(Event("brake"))), True)
 RIGHT = Claim(Not(Is("right")))
 LEFT = Claim(Happens(Event("leave", Vehicle(1))))
 
@@ -60,11 +61,16 @@ def told(turn: Turn) -> list[str]:
 
 
 @pytest.mark.parametrize("order", [(FREE, FAST), (FAST, FREE)])
-def test_the_question_comes_first_and_what_is_true_is_not_commented(
+def test_the_question_comes_first_and_a_claim_beside_it_is_context(
     order: tuple[Act, ...],
 ) -> None:
     assert told(said({FREE: verdict(FREE, True), FAST: SPEED}, *order)) == ["Measures"]
-    false = said({FREE: verdict(FREE, False), FAST: SPEED}, *order)
+    assert told(said({FREE: verdict(FREE, False), FAST: SPEED}, *order)) == ["Measures"]
+
+
+@pytest.mark.parametrize("order", [(DISPUTE, FAST), (FAST, DISPUTE)])
+def test_a_false_challenge_beside_a_question_is_put_right(order: tuple[Act, ...]) -> None:
+    false = said({DISPUTE: verdict(DISPUTE, False), FAST: SPEED}, *order)
     assert told(false) == ["Measures", "Verdict"]
     assert false.reply.text == "Measures. Verdict."
 
@@ -121,7 +127,7 @@ def test_a_reply_to_several_acts_is_short() -> None:
     other = Utterance("Five. Six. Seven.")
     assert joined((long,)).text == long.text
     both = joined((long, other)).text
-    assert both == "One. Two. Three. Five."
+    assert both == "One. Two. Five."
     assert both.count(".") == AT_MOST
 
 

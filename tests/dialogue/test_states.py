@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sim.scene import Scene
 from tests.dialogue.scripted import scripted_mind
 from tests.fakes import again
 from tests.traces import s1_ride
@@ -23,11 +24,12 @@ from xavi_dialogue.dialogue.events import (
     RolloutsArrived,
     RolloutsFailed,
     RolloutsWanted,
+    SceneSeen,
     TraceRecorded,
     TurnedAway,
 )
-from xavi_dialogue.dialogue.manager import MAX_ROUNDS, advance, fold
-from xavi_dialogue.dialogue.state import Dialogue, Session
+from xavi_dialogue.dialogue.manager import MAX_ROUNDS, MAX_SCENES, advance, fold
+from xavi_dialogue.dialogue.state import Dialogue, Session, up_to
 from xavi_dialogue.dialogue.states import (
     PHASES,
     RIDE_PHASES,
@@ -59,6 +61,7 @@ PLANNED = [
     again(RIDE.traces[0], NeedRollout(trace_id=RIDE.traces[0].trace_id, rollouts=rollouts))
     for rollouts in range(1, MAX_ROUNDS + 1)
 ]
+SCENES = [Scene(time, RIDE.traces[0].scene) for time in (3.9, 4.0, 6.5)]
 TURNS = turns_of("answer", "refuse", "either")
 requests = st.sampled_from(["q1", "q2"])
 sessions = st.sampled_from(["ada", "bob"])
@@ -79,6 +82,7 @@ inputs = st.one_of(
     st.builds(Resumed, sessions, st.sampled_from([(), TURNS, TURNS[:1]])),
     st.builds(TraceRecorded, st.sampled_from(RIDE.traces)),
     st.builds(EventRecorded, st.sampled_from(RIDE.events)),
+    st.builds(SceneSeen, st.sampled_from(SCENES)),
     st.builds(RideEnded, st.just(7.0)),
 )
 
@@ -184,3 +188,16 @@ def test_what_was_offered_about_another_ride_is_void() -> None:
 def test_a_forgotten_conversation_begins_anew() -> None:
     state = fold(MIND, [*map(TraceRecorded, RIDE.traces), Resumed("ada", TURNS), Forgotten("ada")])
     assert state.session("ada") == Session()
+
+
+def test_the_record_holds_what_was_seen_last_up_to_its_moment() -> None:
+    state = fold(MIND, map(SceneSeen, [*SCENES, SCENES[0]]))
+    assert [scene.time for scene in state.scenes] == [4.0, 6.5, 3.9]
+    assert [state.record(at).scene for at in (3.0, 4.2, 7.0)] == [None, SCENES[1], SCENES[2]]
+    assert up_to(state.record(7.0), 5.0).scene is None
+
+
+def test_no_more_than_the_latest_scenes_are_kept() -> None:
+    seen = (Scene(k / 10.0, RIDE.traces[0].scene) for k in range(3 * MAX_SCENES))
+    state = fold(MIND, map(SceneSeen, seen))
+    assert [state.scenes[0].time, len(state.scenes)] == [2 * MAX_SCENES / 10.0, MAX_SCENES]

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.answers import (
     PlanAhead,
     Priority,
     Sociable,
+    Staying,
     Verdict,
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure, OptionValue
@@ -78,6 +79,8 @@ CASES: tuple[Answer, ...] = (
     Verdict(Related("behind", W), False, (BLUE,)),
     Verdict(Related("ahead-of", V), True, (LORRY,)),
     Verdict(Related("can-see", V, E), None, gap="others-thoughts"),
+    Verdict(Is("upset", V), None, gap="others-thoughts"),
+    Verdict(Happens(Event("gesture", V, E)), None, gap="not-sensed"),
     Verdict(Exists(Described("car", bearing="behind", definite=False)), True, (OTHER_BLUE,)),
     Verdict(Exists(Described("car", bearing="behind", definite=False)), False),
     Verdict(Has("indicator", "left", V), False, (Measure("indicator", V, NOW, lights=("right",)),)),
@@ -208,4 +211,8 @@ CASES: tuple[Answer, ...] = (
     Again("repeat", None),
     Lasted(Related("behind", V, E), 3.0, None, NOW),
     Lasted(Related("behind", V, E), 3.0, 8.0, NOW),
+    Staying(V, "change-left", 24.0),
+    Staying(V, off=0.8),
+    Staying(V, left=Measure("time-to-go", E, NOW, 30.0)),
+    Staying(V),
 )

@@ -280,6 +280,8 @@ REFUSALS: tuple[Refusal, ...] = (
     NotUnderstood(),
     NotUnderstood(("blorb",)),
     NotUnderstood(("blorb", "flim")),
+    NotUnderstood(quote="glued to our bumper"),
+    NotUnderstood(quote="glued to our bumper", rest=True),
     WhichOne((CAR, Vehicle(3)), (BLUE, OTHER_BLUE)),
     WhichOne((Happens(Event("stop")), Happens(Event("stop", CAR))), between="meanings"),
     WhichOne(

@@ -128,5 +128,6 @@ QUIZZES = (
     NothingToAsk(asked=True),
     Unfamiliar(("blorb",)),
     Unfamiliar(("blorb", "flim")),
+    Unfamiliar(("for a sec",), known=True),
 )
 CASES = (*CLARIFICATIONS, *QUIZZES)

@@ -1,9 +1,9 @@
 """Answers about our way, moments that stand out and decisions; golden/journey.txt has the texts."""
 
 from tests.nlg.scenery import BLUE, LORRY, NOW
-from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, Summit
+from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, Summit, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
-from xavi_dialogue.domain.journeys import WayStep
+from xavi_dialogue.domain.journeys import Waver, WayStep
 from xavi_dialogue.domain.terms import Ego, Vehicle
 
 E = Ego()
@@ -68,4 +68,6 @@ CASES: tuple[Answer, ...] = (
     Altered(BEFORE, AFTER, (LORRY,), ((OLD, NEW),), (YIELD,)),
     Altered(BEFORE, AFTER, (LORRY,)),
     Altered(BEFORE, BEFORE),
+    Wavered("change-left", (Waver(4.0, 0.2, 1),)),
+    Wavered("change-left", (Waver(4.0, 0.2, 1), Waver(6.0, 0.31)), resumed=True),
 )

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from tests.nlg.answer_cases import EXPECTED, RIDE, UNSURE, E, V
+from tests.nlg.answer_cases import EXPECTED, OPTIONS, RIDE, UNSURE, E, V
 from tests.nlg.causal_cases import (
     ALONE,
     CHANGED,
@@ -46,7 +46,7 @@ from xavi_dialogue.domain.answers import (
     Unslowed,
     Verdict,
 )
-from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.facts import Episode, Expectation, Measure
 from xavi_dialogue.domain.meaning import Feel, Request
 from xavi_dialogue.domain.terms import (
     At,
@@ -165,7 +165,7 @@ CASES: tuple[Answer, ...] = (
     SupposedOfOther(2, None, None, ("stop",), ("stop",), same=True, contrast=HOPELESS),
     SupposedOfOther(2, None, None, ("stop",), ("stop",), same=True, contrast=HOPELESS, past=False),
     SignalReason(1, BLINKED, ("exit-right", "change-right"), 0.3, TURNED_OFF),
-    SignalReason(1, BLINKED, ("exit-right", "change-right"), 0.3),
+    SignalReason(1, BLINKED, ("exit-right", "change-right"), 0.1),
     SignalReason(1, BLINKED, ("exit-right",)),
     SignalReason(1, Episode(V, "signal", 18.0, side="right"), ("exit-right",), 0.8),
     SignalReason(1, Episode(V, "signal", 18.0, side="right"), ("exit-right",), 0.3),
@@ -216,6 +216,7 @@ CASES: tuple[Answer, ...] = (
         time=8.0,
         turning=(4.0, 8.0),
         changed=True,
+        besides=(Expectation(("continue",), 0.2),),
     ),
     Beliefs(
         1, Event("turn", V, side="right"), (UNSURE, EXPECTED), probability=0.78, time=8.0, since=8.0
@@ -238,4 +239,13 @@ CASES: tuple[Answer, ...] = (
     Counted(Everyone("car"), 9, such=STANDERS, until=5.0),
     Verdict(FASTER, False, (Measure("speed", E, NOW, 5.0), Measure("speed", E, 5.0, 10.0))),
     SupposedOfUs(replace(LATER, foil=("continue",)), ahead=MotionCause("leader", 1)),
+    OtherReason(1, Episode(V, "stand", 4.0), causes=(MotionCause("parked"),)),
+    OtherReason(1, Episode(V, "move", 20.0, speed_to=1.7), causes=(MotionCause("starting"),)),
+    OtherReason(1, None, Event("overtake", V), (MotionCause("limit", 0, speed=8.0, value=13.9),)),
+    MotionReason(SLOWED, (LEADER,), suspect=2, suspected="either"),
+    MotionReason(SLOWED, (LEADER,), suspect=3, suspected="neither"),
+    MotionReason(SLOWED, (MotionCause("give-way-line", 2),), halted=9.0),
+    Priority(NOW, "give-way", 1, grounds=True),
+    Priority(NOW, "priority", 1, ring=True),
+    Options(OPTIONS[:1], 2.0, Evidence(), risk=True),
 )

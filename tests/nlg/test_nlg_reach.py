@@ -3,9 +3,10 @@
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import get_args
+from typing import get_args, get_type_hints
 
 import pytest
+from msgspec import Struct, structs
 
 from tests.nlg import (
     answer_cases,
@@ -104,3 +105,28 @@ def test_shorter_is_no_longer_and_longer_is_no_shorter():
         shorter = lead.sub("", say(Again("shorter", case), CONTEXT).text)
         longer = lead.sub("", say(Again("longer", case), CONTEXT).text)
         assert len(shorter) <= usual <= len(longer)
+
+
+def lacking(value):
+    """Yield an answer with one value after the other left out, also within its parts."""
+    hints = get_type_hints(type(value))
+    for name in value.__struct_fields__:
+        inner, hint = getattr(value, name), str(hints[name])
+        if inner is not None and "None" in hint:
+            yield structs.replace(value, **{name: None})
+        if isinstance(inner, tuple) and inner and "..." in hint:
+            yield structs.replace(value, **{name: ()})
+        if isinstance(inner, bool):
+            yield structs.replace(value, **{name: not inner})
+        if isinstance(inner, Struct):
+            yield from (structs.replace(value, **{name: one}) for one in lacking(inner))
+        if isinstance(inner, tuple) and inner and isinstance(inner[0], Struct):
+            rest = inner[1:]
+            yield from (structs.replace(value, **{name: (one, *rest)}) for one in lacking(inner[0]))
+
+
+@pytest.mark.parametrize("detail", DETAILS)
+def test_an_answer_that_lacks_a_value_can_be_said(detail):
+    for case in CASES:
+        for one in lacking(case):
+            assert say(one, replace(CONTEXT, detail=detail)).text

@@ -24,7 +24,7 @@ from xavi_dialogue.domain.answers import Answer, Reason, Refusal
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import Act, Question, Quizzing, Reading
 from xavi_dialogue.explain.history.record import Record
-from xavi_dialogue.nlg.surface.generator import choose
+from xavi_dialogue.nlg.surface.generator import filled
 from xavi_dialogue.nlg.surface.orthography import capitalise
 from xavi_dialogue.nlg.surface.realiser import GRAMMARS
 from xavi_dialogue.nlg.surface.realiser import grammar as passenger_grammar
@@ -213,8 +213,8 @@ class _Mouth:
         """Take note of a call that returns; to be called by the interpreter."""
         if event != "return":
             return
-        if frame.f_code is choose.__code__ and isinstance(value, Alternative):
-            self.chosen.append(value)
+        if frame.f_code is filled.__code__ and value is not None:  # None: a slot had no value
+            self.chosen.append(frame.f_locals["alternative"])
         elif frame.f_code is capitalise.__code__ and isinstance(value, str):
             self.spoken.append((value, tuple(self.chosen)))
             self.chosen.clear()

@@ -1,5 +1,6 @@
 """`xavi serve`: the dialogue service as a process, host of the hub."""
 
+import gc
 import queue
 import sys
 from collections.abc import Callable
@@ -55,6 +56,11 @@ def _told_to_quit(orders: control.Orders) -> bool:
 
 
 def _warm(mind: Mind) -> None:
-    """Have parser and sentences read their grammars, so that the first passenger need not wait."""
+    """Have parser and sentences read their grammars, so that the first passenger need not wait.
+
+    What is loaded then stays, and need not be gone through whenever memory is tidied up.
+    """
     grammar()
     advance(mind, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))
+    gc.collect()
+    gc.freeze()

@@ -4,12 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, TypeAlias, TypeVar
 
+from sim.scene import Scene
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.dialogue.events import (
     EventRecorded,
     Input,
     RecordMissing,
     RideEnded,
+    SceneSeen,
     TraceRecorded,
 )
 from xavi_dialogue.dialogue.state import EPSILON
@@ -139,7 +141,8 @@ class Ledger:
         # Who joins late is sent no more than what is kept for that.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
-        return [*self._gaps(), *traces, *events, *self._end()]
+        seen = SceneSeen(Scene(report.sim_time, report.vehicles))
+        return [*self._gaps(), *traces, *events, seen, *self._end()]
 
     def complete(self, at: float) -> bool:
         """Whether all that was recorded up to a moment [s] has arrived."""

@@ -9,6 +9,7 @@ import msgspec
 from planner.trace import PlanTrace, WhatIf
 from planner.whatif import WhatIfError, replan
 from sim.network import Network
+from sim.scene import Scene
 from xavi_dialogue.app.ride import Moment, clock, halts
 from xavi_dialogue.dialogue.events import (
     Answered,
@@ -20,6 +21,7 @@ from xavi_dialogue.dialogue.events import (
     RolloutsArrived,
     RolloutsFailed,
     RolloutsWanted,
+    SceneSeen,
     TraceRecorded,
 )
 from xavi_dialogue.dialogue.manager import advance
@@ -78,6 +80,7 @@ class Conversation:
             self._tell(TraceRecorded(moment.trace))
         for event in moment.events:
             self._tell(EventRecorded(event))
+        self._tell(SceneSeen(Scene(clock(moment), moment.scene.vehicles)))
         if moment.ending is not None:
             self._tell(RideEnded(clock(moment)))
 

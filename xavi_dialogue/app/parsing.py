@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import msgspec
 
 from xavi_dialogue.domain.meaning import Act, Reading, TokenShare
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.notation import acts_line, reading_line
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.nlu.projection import QueryFields, project_readings

@@ -8,7 +8,9 @@ from msgspec.structs import replace as changed
 from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
 from xavi_dialogue.dialogue.mind import Said, Situation, speak
+from xavi_dialogue.dialogue.objections import foreseen_then
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.soundness import says_something
 from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Part, Turn
 from xavi_dialogue.domain.answers import (
@@ -45,8 +47,10 @@ Results: TypeAlias = tuple[Result, ...]
 #: Social moves that a reply to something else makes superfluous.
 _POLITE = frozenset(
     ("greeting", "farewell", "thanks", "agree", "disagree", "acknowledge", "laugh", "wish",
-     "address", "apology", "praise")
+     "address", "apology", "praise", "caution")
 )  # fmt: skip
+#: Social moves that say less than any other.
+_FAINT = (Social("acknowledge"), Social("agree"), Social("address"))
 _MENDING = frozenset(("meant", "correct", "pick"))
 _REWORDINGS = frozenset(("longer", "shorter", "simpler"))
 
@@ -78,7 +82,9 @@ def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -
             return Lacking(found, done)
         done = (*done, found)
     parts = _parts(understood, done)
-    said = speak(now, told(parts), understood.offer)
+    foreseen = foreseen_then(now, acts, done)
+    beside = () if foreseen is None else (Part(None, foreseen),)
+    said = speak(now, (*told(parts), *beside), understood.offer)
     return replace(said, parts=kept(parts))
 
 
@@ -119,7 +125,7 @@ def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
     asked = any(isinstance(act.act, Ask | Request) for act in acts)
     telling = tuple(
         act for act in acts
-        if not _is_courtesy(act) and not (asked and isinstance(act.act, Repair))
+        if not _is_courtesy(act) and not (asked and _is_outcry(act))
     )  # fmt: skip
     mended = any(isinstance(a.act, Repair) and a.act.kind in _MENDING for a in acts)
     corrected = mended or any(act.leaned for act in acts)
@@ -127,7 +133,8 @@ def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
         telling = tuple(a for a in telling if a.act != Social("disagree")) or telling
     reworded = any(isinstance(a.act, Repair) and a.act.kind in _REWORDINGS for a in telling)
     kept = tuple(act for act in telling if not (reworded and act.act == Repair(kind="repeat")))
-    return kept or acts[:1]
+    hearty = tuple(act for act in acts if act.act not in _FAINT)
+    return kept or hearty[:1] or acts[:1]
 
 
 def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Results | NeedRollout:
@@ -221,18 +228,37 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
         Part(act, result)
         for act, results in zip(understood.acts, done, strict=True)
         for result in results
+        if says_something(result)
     )
+    lost = [
+        act
+        for act, results in zip(understood.acts, done, strict=True)
+        if isinstance(act.act, Ask | Request) and not any(map(says_something, results))
+    ]
     heard = [act for act in understood.acts if isinstance(act.act, Ask | Request)]
     doubtful = [act for act in heard or understood.acts if act.doubts]
-    strange = tuple(dict.fromkeys(word for act in doubtful for word in act.strange))
     answered = any(not isinstance(part.result, NotUnderstood) for part in replied)
-    owned = (Part(None, Unfamiliar(strange)),) if doubtful and answered else ()
+    words = dict.fromkeys(word for act in doubtful for word in act.doubts if answered)
+    strange = tuple(word for word in words if any(word in act.strange for act in doubtful))
+    known = tuple(word for word in words if word not in strange)
+    owned = (Part(None, Unfamiliar(strange)),) if strange else ()
+    lacking = (Part(None, Unfamiliar(known, known=True)),) if known else ()
     before = tuple(Part(None, one) for one in understood.before)
     after = tuple(
         Part(understood.named if isinstance(one, NotUnderstood) else None, one)
         for one in understood.behind
     )
-    return (*owned, *before, *replied, *after)
+    missed = [
+        Part(act, NotUnderstood(quote=understood.quotes.get(act, ""), rest=bool(replied)))
+        for act in lost[:1]
+        if not understood.behind
+    ]
+    return (*owned, *before, *replied, *lacking, *missed, *after)
+
+
+def _is_outcry(act: GroundedAct) -> bool:
+    """Tell whether it is surprise, or abuse, beside a question."""
+    return isinstance(act.act, Repair) or act.act == Social("insult")
 
 
 def _is_courtesy(act: GroundedAct) -> bool:

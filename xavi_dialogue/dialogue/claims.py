@@ -1,7 +1,8 @@
 """Claims: what is said of a claim that stands beside a question, or beside another claim. Pure.
 
 A claim beside a question is the ground on which it is asked. The question is answered; the claim
-is put right only where it is false, where that matters, and where the answer does not do so.
+is put right only where it disputes what we said or did, where it is false, and where that matters
+and the answer does not tell it.
 """
 
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.answers import (
     Acknowledged,
     Answer,
     ChoiceReason,
+    Comforting,
     Declined,
     DidNotHappen,
     GoReason,
@@ -28,10 +30,12 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.meaning import Ask, Claim, Request, Whether
+from xavi_dialogue.domain.meaning import Ask, Claim, Request, Social, Whether
+from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     Believed,
     Compares,
+    Ego,
     Event,
     Exists,
     Happens,
@@ -43,7 +47,6 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
 )
-from xavi_dialogue.nlu.grounding.rewriting import first, parts
 
 Result: TypeAlias = Answer | Refusal
 
@@ -66,6 +69,9 @@ PASSING: Final = frozenset(
     ("go", "come", "move", "do", "head", "leave", "enter", "pull-out", "stand", "follow", "wait",
      "see", "appear", "disappear", "approach", "pass", "happen", "keep-lane", "cross")
 )  # fmt: skip
+#: Feelings that get a word of sympathy beside a question.
+GRAVE: Final = frozenset(("afraid", "nervous", "startled", "sick", "sad"))
+_PERSONAL: Final = frozenset(("how-are-you", "who-are-you", "are-you-human", "feelings"))
 _BARE: Final = frozenset(("right", "wrong"))
 _REAR: Final = ("behind", "behind-left", "behind-right")
 
@@ -79,7 +85,11 @@ def in_order(acts: Sequence[GroundedAct]) -> tuple[GroundedAct, ...]:
 
 def asks(acts: Sequence[GroundedAct]) -> bool:
     """Tell whether there is a question or request among acts."""
-    return any(isinstance(act.act, Ask | Request) for act in acts)
+    return any(
+        isinstance(act.act, Ask | Request)
+        or (isinstance(act.act, Social) and act.act.kind in _PERSONAL)
+        for act in acts
+    )
 
 
 def is_ground(act: GroundedAct, acts: Sequence[GroundedAct]) -> bool:
@@ -111,7 +121,7 @@ def _is_bare(act: GroundedAct) -> bool:
     """Tell whether a claim only says of others that they are so, not so, or known."""
     match act.act:
         case Claim(that=Not(content=content) | content):
-            known = isinstance(content, Believed) and act.leaned
+            known = isinstance(content, Believed) and act.leaned and not act.act.challenge
             return known or (isinstance(content, Is) and content.state in _BARE)
     return False
 
@@ -124,8 +134,23 @@ def told(said: Sequence[Part]) -> tuple[Part, ...]:
     if not asks(acts):
         plain = tuple(part for part in said if not (_is_claim(part) and part.result == NOTED))
         weighty = tuple(part for part in plain if not _is_remark(part))
-        return weighty if any(part.act is not None for part in weighty) else plain
-    return tuple(part for part in said if not _is_claim(part) or _matters(part.result, answers))
+        return _foremost(weighty if any(part.act is not None for part in weighty) else plain)
+    return tuple(
+        part
+        for part in said
+        if not (_is_claim(part) or _is_sympathy(part))
+        or (_disputes_us(part.act) and _matters(part.result, answers))
+        or _is_grave(part)
+    )
+
+
+def _foremost(said: Sequence[Part]) -> tuple[Part, ...]:
+    """Reply to one of several claims: to one that is false, to a challenge, or to the last."""
+    claims = [part for part in said if _is_claim(part)]
+    false = [p for p in claims if isinstance(p.result, Verdict) and p.result.holds is False]
+    disputed = [part for part in claims if _disputes_us(part.act)]
+    chosen = (false or disputed[::-1] or claims[::-1])[:1]
+    return tuple(p for p in said if not _is_claim(p) or any(p is one for one in chosen))
 
 
 def _once(said: Sequence[Part]) -> tuple[Part, ...]:
@@ -154,7 +179,9 @@ def _declined_once(said: Sequence[Part]) -> tuple[Part, ...]:
     """Leave out all but one refusal to drive otherwise, and that where a reason tells as much."""
     told_why = any(isinstance(part.result, REASONS) for part in said)
     declined = [part for part in said if isinstance(part.result, Declined)]
-    dropped = declined[1:]
+    others = any(isinstance(p.act.act, Ask) for p in said if p.act is not None)
+    idle = [part for part in declined if others and part.result.already]  # type: ignore[union-attr]
+    dropped = [*declined[1:], *idle]
     if told_why and declined and declined[0].result.cause is not None:  # type: ignore[union-attr]
         dropped = declined
     return tuple(part for part in said if not any(part is one for one in dropped))
@@ -166,6 +193,23 @@ def kept(said: Sequence[Part]) -> tuple[Part, ...]:
     if not asks(acts):
         return tuple(said)
     return tuple(sorted(said, key=lambda part: not _is_claim(part)))
+
+
+def _is_sympathy(part: Part) -> bool:
+    return isinstance(part.result, Comforting)
+
+
+def _is_grave(part: Part) -> bool:
+    """Tell whether a feeling is one that nobody passes over, whatever else was asked."""
+    return isinstance(part.result, Comforting) and part.result.feel.feeling in GRAVE
+
+
+def _disputes_us(act: GroundedAct | None) -> bool:
+    """Tell whether a claim is a challenge to what we said, did or left undone."""
+    match act:
+        case GroundedAct(act=Claim(that=that, challenge=True)):
+            return first(that, Believed) is not None or first(that, Ego) is not None
+    return False
 
 
 def _is_claim(part: Part) -> bool:

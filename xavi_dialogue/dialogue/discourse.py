@@ -34,7 +34,8 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Discourse, Mention
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Request
+from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Request, Whether
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     At,
     Event,
@@ -46,7 +47,6 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
 )
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
 REMEMBERED = 20  # turns; what was said before them is no longer referred to
@@ -145,10 +145,13 @@ def _named(turn: Turn, number: int) -> Iterator[Mention]:
 def _asserted(turn: Turn) -> Iterator[Proposition]:
     """Yield what either side said to be so, the latest and the most to the point first."""
     for part in reversed(turn.parts):
-        yield from _answered(part)
+        told = tuple(_answered(part))
+        yield from told
         act = None if part.act is None else part.act.act
         if isinstance(act, Claim):
             yield act.that
+        elif isinstance(act, Ask) and isinstance(act.question, Whether) and not told:
+            yield act.question.that
 
 
 def _answered(part: Part) -> Iterator[Proposition]:

@@ -5,6 +5,7 @@ from typing import TypeAlias
 
 from planner.events import Event
 from planner.trace import PlanTrace
+from sim.scene import Scene
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.domain.answers import NeedRollout, Reason
@@ -24,6 +25,13 @@ class EventRecorded:
     """Something happened to the ego."""
 
     event: Event
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSeen:
+    """What is in view at a moment, between decisions too."""
+
+    scene: Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +120,7 @@ class Forgotten:
 Input: TypeAlias = (
     TraceRecorded
     | EventRecorded
+    | SceneSeen
     | RecordMissing
     | RideEnded
     | Asked

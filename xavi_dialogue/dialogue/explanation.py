@@ -37,7 +37,7 @@ from xavi_dialogue.domain.answers import (
     Unfamiliar,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.nlu.grounding.rewriting import parts
+from xavi_dialogue.domain.rewriting import parts
 
 _MACRO: frozenset[str] = frozenset(get_args(Action))
 #: Talk, which explains nothing.

@@ -27,6 +27,7 @@ from xavi_dialogue.dialogue.events import (
     RolloutsArrived,
     RolloutsFailed,
     RolloutsWanted,
+    SceneSeen,
     TraceRecorded,
     TurnedAway,
 )
@@ -51,6 +52,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 MAX_ROUNDS = 5  # of planning again for one question
 MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
 MAX_EVENTS = 2000
+MAX_SCENES = 100  # for questions about a moment that is just over
 MAX_GAPS = 100  # in the record
 MAX_PLANNED = 100  # decisions planned again
 MAX_TURNS = 400  # of a session
@@ -65,7 +67,7 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         IllegalEvent: the input has no place in the present state.
     """
     match event:
-        case TraceRecorded() | EventRecorded() | RecordMissing() | RideEnded():
+        case TraceRecorded() | EventRecorded() | SceneSeen() | RecordMissing() | RideEnded():
             return _record(dialogue, event), ()
         case Asked():
             return _ask(mind, dialogue, event)
@@ -96,7 +98,8 @@ def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) 
 
 
 def _record(
-    dialogue: Dialogue, event: TraceRecorded | EventRecorded | RecordMissing | RideEnded
+    dialogue: Dialogue,
+    event: TraceRecorded | EventRecorded | SceneSeen | RecordMissing | RideEnded,
 ) -> Dialogue:
     move = RideMove.ENDED if isinstance(event, RideEnded) else RideMove.RECORDED
     phase = after(RIDE_PHASES, dialogue.ride, move)
@@ -108,6 +111,9 @@ def _record(
         case EventRecorded(happened):
             events = (*dialogue.events, happened)[-MAX_EVENTS:]
             return replace(dialogue, ride=phase, events=events)
+        case SceneSeen(scene):
+            others = (one for one in dialogue.scenes if one.time != scene.time)
+            return replace(dialogue, ride=phase, scenes=(*others, scene)[-MAX_SCENES:])
         case RecordMissing(since, until):
             return replace(dialogue, gaps=(*dialogue.gaps, (since, until))[-MAX_GAPS:])
         case RideEnded(at):

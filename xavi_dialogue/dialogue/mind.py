@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.explanation import as_json, evidence_of, explanation_of
+from xavi_dialogue.dialogue.joining import joined
 from xavi_dialogue.dialogue.memory import Memory
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.standing import failed, standing_of
@@ -16,9 +17,8 @@ from xavi_dialogue.domain.meaning import Reading
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.nlg.context import Looks, SpeechContext, Utterance
 from xavi_dialogue.nlu.grounding.result import Grounding
+from xavi_dialogue.nlu.grounding.salience import named_time
 from xavi_dialogue.nlu.projection import project
-
-AT_MOST = 4  # sentences of a reply to several acts
 
 Read: TypeAlias = Callable[[str], tuple[Reading, ...]]
 Ground: TypeAlias = Callable[[tuple[Reading, ...], Record, Discourse], Grounding]
@@ -99,12 +99,18 @@ def speak(now: Situation, said: Sequence[Part], offer: Offer | None = None) -> S
     for part in said:
         repeated = part.act is not None and now.memory.answered(part.act, part.result)
         detail = "less" if len(said) > 1 and _is_aside(part.result) else context.detail
-        one = now.mind.say(part.result, replace(context, repeated=repeated, detail=detail))
+        own = replace(context, repeated=repeated, detail=detail, then=_is_named(part.act, now))
+        one = now.mind.say(part.result, own)
         context = replace(context, named=context.named | frozenset(one.mentioned))
         utterances.append(one)
     whole = joined(utterances)
     open_offer = offer if whole.choices else None
     return Said(reply_of(now, said, whole), tuple(said), whole.mentioned, open_offer)
+
+
+def _is_named(act: GroundedAct | None, now: Situation) -> bool:
+    """Tell whether an act names a time that lies behind."""
+    return act is not None and named_time(act, now.record.now) is not None
 
 
 def _is_aside(result: Answer | Refusal) -> bool:
@@ -131,54 +137,6 @@ def reply_of(now: Situation, said: Sequence[Part], whole: Utterance) -> Reply:
         trace_id=None if evidence is None else evidence.traces[0],
         sim_time=now.record.now,
     )
-
-
-def joined(utterances: Sequence[Utterance]) -> Utterance:
-    """Join what is said of several results; a sentence that was said is not said again.
-
-    Several results are told in `AT_MOST` sentences, or in one for each where they are more.
-    """
-    rows: list[tuple[str, ...]] = []
-    known: set[str] = set()
-    for one in utterances:
-        row = tuple(s for s in dict.fromkeys(sentences(one.text)) if s not in known)
-        known.update(row)
-        rows.append(row)
-    told = [said for row in _short(rows, utterances) for said in row]
-    return Utterance(
-        text=" ".join(told),
-        mentioned=tuple(dict.fromkeys(v for one in utterances for v in one.mentioned)),
-        choices=next((one.choices for one in utterances if one.choices), ()),
-        suggestions=tuple(dict.fromkeys(s for one in utterances for s in one.suggestions)),
-    )
-
-
-def _short(
-    rows: Sequence[tuple[str, ...]], utterances: Sequence[Utterance]
-) -> list[tuple[str, ...]]:
-    """Cut the ends off what is said of several results; choices are left whole."""
-    if len(rows) < 2:
-        return list(rows)
-    spare = max(AT_MOST - sum(bool(row) for row in rows), 0)
-    found: list[tuple[str, ...]] = []
-    for row, one in zip(rows, utterances, strict=True):
-        length = len(row) if one.choices else min(len(row), 1 + spare)
-        spare -= max(length - 1, 0)
-        found.append(row[:length])
-    return found
-
-
-def sentences(text: str) -> tuple[str, ...]:
-    """Cut a text behind the marks that end a sentence; a choice in brackets is no sentence."""
-    found: list[str] = []
-    begin = depth = 0
-    for index, mark in enumerate(text):
-        depth += {"(": 1, ")": -1}.get(mark, 0)
-        if mark in ".!?" and depth == 0 and text[index + 1 : index + 2] in (" ", ""):
-            found.append(text[begin : index + 1].strip())
-            begin = index + 1
-    rest = text[begin:].strip()
-    return tuple(one for one in (*found, rest) if one)
 
 
 def turn_away(now: Situation, reason: Reason) -> Said:

@@ -10,8 +10,8 @@ from typing import Literal, TypeAlias, get_args
 from planner.trace import Action
 from xavi_dialogue.dialogue.turn import Judgement, Quiz
 from xavi_dialogue.domain.meaning import Act, Ask, Reading
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Event, Thing, Vehicle
-from xavi_dialogue.nlu.grounding.rewriting import parts
 
 Sign: TypeAlias = Literal[
     "passed", "same", "other", "sooner", "later", "yes", "no", "nobody", "another"

@@ -12,9 +12,9 @@ from xavi_dialogue.dialogue.turn import Part, Quiz
 from xavi_dialogue.domain.answers import Answer, Judged, NeedRollout, NothingToAsk, Posed, Refusal
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Identify, Reading, Repair
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import At, Described, Thing, Vehicle
 from xavi_dialogue.explain.history.record import Record
-from xavi_dialogue.nlu.grounding.rewriting import parts
 
 
 def reply_to(now: Situation, understood: Understood, done: tuple[Results, ...]) -> Said | Lacking:

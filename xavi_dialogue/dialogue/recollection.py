@@ -77,4 +77,5 @@ def _key(record: Record) -> _Key:
     return (
         *(record.now, record.ended, record.refused, record.gaps),
         *(tuple(map(id, part)) for part in (record.traces, record.events, record.extra)),
+        id(record.scene),
     )

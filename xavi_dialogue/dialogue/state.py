@@ -6,6 +6,7 @@ from typing import Literal
 
 from planner.events import Event
 from planner.trace import PlanTrace
+from sim.scene import Scene
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.states import Phase, RidePhase
 from xavi_dialogue.dialogue.turn import Judgement, Offer, Quiz, Turn
@@ -25,6 +26,7 @@ class Understood:
     behind: tuple[Refusal, ...] = ()  # what is declined or asked back after that
     offer: Offer | None = None  # what is offered where it is asked back
     named: GroundedAct | None = None  # who was named in what was not understood
+    quotes: Mapping[GroundedAct, str] = field(default_factory=dict)  # the words of each act
     aim: Literal["answer", "quiz", "again", "verdict"] = "answer"
     quiz: Quiz | None = None  # the question of ours that was answered, or was not ...
     judgement: Judgement | None = None  # ... and how
@@ -60,6 +62,7 @@ class Dialogue:
     ride_id: str | None = None  # id of its first trace: the same ride driven again has the same
     traces: tuple[PlanTrace, ...] = ()
     events: tuple[Event, ...] = ()
+    scenes: tuple[Scene, ...] = ()  # the last few, in the order in which they came
     ended_at: float | None = None  # [s]
     gaps: tuple[tuple[float, float], ...] = ()  # [s] of the record, from when to when
     sessions: Mapping[str, Session] = field(default_factory=dict)
@@ -85,12 +88,15 @@ class Dialogue:
         ended = self.ended_at is not None and at >= self.ended_at - EPSILON
         now = self.ended_at if ended and self.ended_at is not None else at
         gaps = tuple(gap for gap in self.gaps if gap[0] <= now)
-        whole = Record(now, self.traces, self.events, ended, extra, refused, gaps=gaps)
+        seen = (scene for scene in self.scenes if scene.time <= now + EPSILON)
+        scene = max(seen, key=lambda one: one.time, default=None)
+        whole = Record(now, self.traces, self.events, ended, extra, refused, gaps, scene)
         return up_to(whole, now)
 
 
 def up_to(record: Record, time: float) -> Record:
     """Return what was known at an earlier moment [s] of a record."""
+    seen = record.scene is not None and record.scene.time <= time + EPSILON
     return replace(
         record,
         now=time,
@@ -98,4 +104,5 @@ def up_to(record: Record, time: float) -> Record:
         events=tuple(e for e in record.events if e.sim_time <= time + EPSILON),
         gaps=tuple(gap for gap in record.gaps if gap[0] <= time),
         ended=record.ended and time >= record.now - EPSILON,
+        scene=record.scene if seen else None,
     )

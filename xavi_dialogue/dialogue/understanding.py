@@ -79,9 +79,10 @@ def grounded(grounding: Grounding) -> Understood:
     if not acts and not before and not behind:
         unknown = () if grounding.reading is None else grounding.reading.strange
         behind = (NotUnderstood(words=unknown),)
+    quotes = dict(zip(grounding.acts, grounding.quotes, strict=False))
     named = None if grounding.named is None else GroundedAct(Elliptic(grounding.named))
     offer = _offer(grounding, clarify)
-    return Understood(acts=acts, before=before, behind=behind, offer=offer, named=named)
+    return Understood(acts, before, behind, offer, named, quotes)
 
 
 def _offer(grounding: Grounding, clarify: WhichOne | None) -> Offer | None:

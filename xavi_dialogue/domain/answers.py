@@ -34,9 +34,10 @@ from xavi_dialogue.domain.findings import (
     Options,
     PlanAhead,
     Priority,
+    Staying,
     Verdict,
 )
-from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit
+from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit, Wavered
 from xavi_dialogue.domain.knowing import Avoidance, Certainty, Grounds, Method, Pivot
 from xavi_dialogue.domain.meaning import Act, Feel, Question, Request
 from xavi_dialogue.domain.reasons import (
@@ -66,9 +67,9 @@ __all__ = [
     "Measures", "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout",
     "NoSuchVehicle", "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options",
     "OtherReason", "OutcomeEstimate", "OwnSignal", "Pivot", "PlaceReason", "PlanAhead", "Posed",
-    "Priority", "Reaction", "Reason", "Refusal", "SignalReason", "Sociable", "Summit",
+    "Priority", "Reaction", "Reason", "Refusal", "SignalReason", "Sociable", "Staying", "Summit",
     "SupposedOfOther", "SupposedOfUs", "Term", "TooLittle",
-    "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "WhichOne",
+    "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -119,9 +120,10 @@ class Acknowledged(Value, frozen=True):
 
 
 class Unfamiliar(Value, frozen=True):
-    """Owning up to words that were not understood, before the answer to the rest."""
+    """Owning up to words that were not understood, beside the answer to the rest."""
 
-    words: tuple[str, ...] = ()  # as typed, those in no vocabulary
+    words: tuple[str, ...] = ()  # as typed
+    known: bool = False  # they are English, but had no place in what was asked
 
 
 class Posed(Value, frozen=True):
@@ -172,7 +174,7 @@ class NotUnderstood(Value, frozen=True):
     """Nothing, or not enough, was understood."""
 
     words: tuple[str, ...] = ()  # that are in no vocabulary
-    about: tuple[str, ...] = ()  # what was understood, as glosses
+    quote: str = ""  # the passenger's words of which nothing was made, where they are not all
     rest: bool = False  # something else of the text was understood
 
 
@@ -276,6 +278,7 @@ Answer: TypeAlias = (
     | Counted
     | Happenings
     | Lasted
+    | Staying
     | Activity
     | PlanAhead
     | Located
@@ -290,6 +293,7 @@ Answer: TypeAlias = (
     | Summit
     | Decided
     | Altered
+    | Wavered
     | Grounds
     | Certainty
     | Method

@@ -23,6 +23,7 @@ class Discourse(Value, frozen=True):
     question: Question | None = None  # under discussion, grounded
     propositions: tuple[Proposition, ...] = ()  # asserted last by either side, latest first
     episode: tuple[float, float] | None = None  # [s] what "that" was, "then"
+    named: tuple[float, float] | None = None  # [s] past time that was said earlier in the turn
     offered: tuple[Act, ...] = ()  # readings that a clarification offered, grounded
     offered_things: tuple[Thing, ...] = ()  # vehicles that a clarification offered
     pending: Act | None = None  # the act that a clarification was about, to be completed

@@ -8,6 +8,7 @@ from xavi_dialogue.domain.evidence import Contrast, Evidence
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,
+    Expectation,
     Fact,
     Gap,
     Look,
@@ -59,6 +60,7 @@ class Counted(Value, frozen=True):
     since: float | None = None  # [s] over which interval
     until: float | None = None
     such: Thing | None = None  # what was said of them
+    said: bool | None = None  # whether it is the number that was said
 
 
 class Happenings(Value, frozen=True):
@@ -82,6 +84,16 @@ class Lasted(Value, frozen=True):
     end: float | None = None  # [s] None while it goes on
     now: float = 0.0  # [s]
     at_least: bool = False  # it held from when the record begins
+
+
+class Staying(Value, frozen=True):
+    """How long our car means to stay behind another vehicle."""
+
+    behind: Thing
+    until: MacroAction | None = None  # what the car does then; None: nothing that it plans
+    at: float | None = None  # [s] when it begins that
+    off: float | None = None  # chance that the other one turns off
+    left: Measure | None = None  # how long the ride takes still, or how long the car stands
 
 
 class Activity(Value, frozen=True):
@@ -138,6 +150,7 @@ class Beliefs(Value, frozen=True):
     came: Episode | None = None  # what it did in fact
     since: float | None = None  # [s] from when on it was held to be more likely than not
     changed: bool = False  # it is asked how it moved
+    besides: tuple[Expectation, ...] = ()  # what else was likely at that time
 
 
 class Options(Value, frozen=True):
@@ -147,6 +160,9 @@ class Options(Value, frozen=True):
     decided: float  # [s]
     evidence: Evidence
     besides: bool = False  # only what else
+    risk: bool = False  # only with whom the first one would have collided
+    hits: int = 0  # drives imagined of it that ended in a collision
+    drives: int = 0  # of so many
 
 
 class Compared(Value, frozen=True):
@@ -178,6 +194,8 @@ class Priority(Value, frozen=True):
     others: tuple[int, ...] = ()  # of whom the same is true
     holds: bool | None = None  # the reply to the yes or no question, or claim, that it answers
     claim: bool = False  # it answers a claim
+    ring: bool = False  # at a roundabout, asked of nobody in particular
+    grounds: bool = False  # asked how we know it
 
 
 class Comfort(Value, frozen=True):
@@ -199,3 +217,4 @@ class Closeness(Value, frozen=True):
     asked: Literal["safe", "dangerous", "close", "hit", "room"] = "safe"
     time: float = 0.0
     past: bool = True
+    overall: bool = True  # it was never closer so far

@@ -57,3 +57,19 @@ class Altered(Value, frozen=True):
     appeared: tuple[Look, ...] = ()
     beliefs: tuple[tuple[Belief, Belief], ...] = ()  # that moved, the most first
     did: tuple[Episode, ...] = ()  # what happened between them
+
+
+class Waver(Value, frozen=True):
+    """A decision at which a plan was given up for its risk."""
+
+    time: float  # [s]
+    risk: float  # of a collision
+    vehicle: int | None = None  # with whom
+
+
+class Wavered(Value, frozen=True):
+    """Why a plan was given up and taken up again and again."""
+
+    plan: MacroAction  # that was given up
+    turns: tuple[Waver, ...]
+    resumed: bool = False  # it was taken up again in the end

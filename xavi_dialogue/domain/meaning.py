@@ -25,6 +25,7 @@ class Why(Value, frozen=True):
     of: Proposition
     instead: Proposition | None = None  # the contrast: "instead of", "rather than", "and not"
     suspect: Thing | None = None  # "is it the truck?", "because of him?"
+    rival: Thing | None = None  # "... or because of the bus?"
 
 
 class WhatIf(Value, frozen=True):
@@ -275,8 +276,8 @@ class Social(Value, frozen=True):
 
     kind: Literal[
         "greeting", "farewell", "thanks", "apology", "praise", "insult", "joke", "how-are-you",
-        "who-are-you", "are-you-human", "agree", "disagree", "acknowledge", "laugh", "wish",
-        "address",
+        "who-are-you", "are-you-human", "feelings", "agree", "disagree", "acknowledge", "laugh",
+        "wish", "address", "caution",
     ]  # fmt: skip
 
 

@@ -9,6 +9,9 @@ from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
 
+#: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither.
+Suspected: TypeAlias = Literal["main", "part", "none", "either", "neither"]
+
 
 class ChoiceReason(Value, frozen=True):
     """Why the ego chose an action, or not another."""
@@ -17,7 +20,7 @@ class ChoiceReason(Value, frozen=True):
     deed: Episode | None  # what was done; None where it is only planned
     contrast: Contrast
     suspect: int | None = None  # a vehicle that the question takes for the cause ...
-    suspected: Literal["main", "part", "none"] | None = None  # ... and whether it is
+    suspected: Suspected | None = None  # ... and whether it is
     past: bool = True
     ahead: "MotionCause | None" = None  # who stood or crept in the lane that we left
 
@@ -41,6 +44,7 @@ class MotionCause(Value, frozen=True):
         "plan",  # the plan calls for it, no reason beyond
         "starting",  # we have only just set off
         "picking-up",  # we speed up again, and are not there yet
+        "parked",  # it has stood there since it was first seen
         "given-up",  # a stop was decided, and given up again
         "light",
     ]
@@ -61,20 +65,22 @@ class MotionReason(Value, frozen=True):
     premise: bool = True  # False: the question called it otherwise ("stop" for slowing down)
     asked: ActionName | None = None  # what the question called it
     suspect: int | None = None
-    suspected: Literal["main", "part", "none"] | None = None
+    suspected: Suspected | None = None
     evidence: Evidence = Evidence()
     manner: Manner | None = None  # how it drove, where that is asked about: slowly, fast, close
     limit: float | None = None  # [m/s] that was in force
     form: Literal["why", "necessary", "did"] = "why"  # "did": it was asked why we did not
     cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
     past: bool = False  # it was asked about as past, though it may go on
+    halted: float | None = None  # [s] when, while slowing down already, it was decided to stop
 
 
 class Bystander(Value, frozen=True):
     """Somebody whose way crosses ours at the moment when we go: who goes first, what it does."""
 
     vehicle: int
-    first: Literal["ego", "vehicle", "depends", "none"]  # "none": our ways do not cross
+    #: "none": our ways do not cross; "ahead": it drives in front of us
+    first: Literal["ego", "vehicle", "depends", "none", "ahead"]
     trend: Literal["slowing", "steady", "speeding-up", "standing"] | None = None
     distance: float | None = None  # [m] from us
     gone: bool = False  # we have let it go first
@@ -120,6 +126,7 @@ class OtherReason(Value, frozen=True):
     causes: tuple[MotionCause, ...] = ()
     goal: Belief | None = None  # where it was thought to be going
     evidence: Evidence = Evidence()
+    ours: bool | None = None  # the reply where it is asked whether we are the cause
 
 
 class SignalReason(Value, frozen=True):

@@ -30,7 +30,7 @@ class AtDecision(Value, frozen=True):
     """The time of a decision by its number in the record: "at decision 4"."""
 
     number: int
-    last: int | None = None  # "between decisions 4 and 6"
+    last: int | None = None  # "between decisions 4 and 6"; beyond the latest: up to now
 
 
 class Within(Value, frozen=True):
@@ -43,7 +43,7 @@ class Between(Value, frozen=True):
     """An interval of the ride."""
 
     begin: float  # [s]
-    end: float  # [s]
+    end: float  # [s] beyond now: up to now
 
 
 class Back(Value, frozen=True):

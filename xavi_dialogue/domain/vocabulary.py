@@ -22,6 +22,7 @@ ActionName: TypeAlias = Literal[
     "change-lane",  # side open
     "turn",  # side open
     "u-turn",
+    "circle",  # go round a roundabout once more
     "fly",
     "go",  # move on, proceed, set off, pull away
     "move",  # be in motion, drive, as against standing
@@ -58,6 +59,7 @@ ActionName: TypeAlias = Literal[
     # What the car has no way of doing; told so when it is asked for.
     "honk",
     "flash",
+    "gesture",  # wave, nod, smile, shout
     "reverse",
     "park",
     "pull-over",
@@ -144,6 +146,7 @@ State: TypeAlias = Literal[
     "visible", "hidden", "stationary", "moving", "fast", "slow", "close", "far", "sure", "over",
     "late", "wrong", "right", "present", "lost", "stuck", "at-fault", "first", "last", "dirty",
     "big", "roomy", "normal", "worth-it", "better", "faulty", "awake", "autonomous", "busy",
+    "upset",  # how a driver feels: angry, glad, afraid
 ]  # fmt: skip
 
 #: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be told.
@@ -170,5 +173,17 @@ FeelingKind: TypeAlias = Literal[
 
 MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)
 BEYOND: frozenset[ActionName] = frozenset(
-    ("honk", "flash", "reverse", "park", "pull-over", "drop-off", "call", "open", "u-turn", "fly")
+    (
+        "honk",
+        "flash",
+        "reverse",
+        "park",
+        "pull-over",
+        "drop-off",
+        "call",
+        "open",
+        "u-turn",
+        "fly",
+        "gesture",
+    )
 )

@@ -23,6 +23,7 @@ class SpeechContext:
     looks: Looks = field(default_factory=dict)
     named: frozenset[int] = frozenset()  # vehicles that this conversation has named already
     detail: Detail = "usual"
+    then: bool = False  # the time asked about was named, and lies behind
     turn: int = 0  # number of the turn: wording may vary with it
     repeated: bool = False  # the very same was answered to the very same question before
     told: Told = frozenset()  # causes that this conversation has been told of

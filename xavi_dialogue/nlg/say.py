@@ -4,9 +4,11 @@ Stages: content planning (a planner for each type of answer), expansion of the g
 tokens, morphology, orthography. Wording varies with what is said and with the context, never by
 chance.
 
-Errors: GrammarError, WordingError: a file of the grammars is at fault; no answer raises them.
+Errors: GrammarError, WordingError: a file of the grammars is at fault; no answer raises them,
+whatever values it lacks.
 """
 
+from contextlib import suppress
 from dataclasses import replace
 
 from xavi_dialogue.domain import answers
@@ -17,6 +19,7 @@ from xavi_dialogue.nlg.content.tables import FACTS
 from xavi_dialogue.nlg.context import Detail, SpeechContext, Utterance
 from xavi_dialogue.nlg.paper import mentioned as mentioned_in
 from xavi_dialogue.nlg.paper import paper_text
+from xavi_dialogue.nlg.surface.generator import ExpansionError
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.orthography import capitalise
 from xavi_dialogue.nlg.surface.realiser import realised
@@ -60,9 +63,16 @@ def say(answer: Answer | Refusal, context: SpeechContext) -> Utterance:
 
 
 def _told(said: list[Message], context: SpeechContext) -> tuple[str, tuple[int, ...]]:
-    """Return the sentences of messages, and the vehicles that they name."""
+    """Return the sentences of messages, and the vehicles that they name.
+
+    A message that lacks a value that its rule needs is left out.
+    """
     speaker = Speaker(context)
-    text = " ".join(realised(m, context, speaker) for m in said)
+    found: list[str] = []
+    for one in said:
+        with suppress(ExpansionError):
+            found.append(realised(one, context, speaker))
+    text = " ".join(found) or realised(message("NO_WORDS"), context, speaker)
     return text, tuple(speaker.mentioned)
 
 

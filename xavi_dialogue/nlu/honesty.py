@@ -9,6 +9,7 @@ took for wrong, and none of the others. Cost alone does not tell most wrong read
 """
 
 from xavi_dialogue.domain.meaning import Act, Claim, Elliptic, Feel
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Unknown
 from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -35,12 +36,7 @@ def _typed(act: Act) -> Act | None:
 
 def is_well_typed(value: object) -> bool:
     """Say whether nothing in a term lacks a sense."""
-    if isinstance(value, Unknown):
-        return False
-    if isinstance(value, tuple):
-        return all(map(is_well_typed, value))
-    names = getattr(value, "__struct_fields__", ())
-    return all(is_well_typed(getattr(value, name)) for name in names)
+    return first(value, Unknown) is None
 
 
 def is_dear(unit: Node, extra: float) -> bool:

@@ -21,13 +21,18 @@ from functools import lru_cache
 from itertools import islice, product
 
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
+from xavi_dialogue.nlu.alternatives import chosen_between
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
 from xavi_dialogue.nlu.compose.tree import leaves_of
-from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
+from xavi_dialogue.nlu.elsewhere import echoes, elsewhere
+from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
+from xavi_dialogue.nlu.meanwhile import at_same_time
+from xavi_dialogue.nlu.outcomes import struck_by
 from xavi_dialogue.nlu.plausible import oddity
+from xavi_dialogue.nlu.screen import on_screen
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
 from xavi_dialogue.nlu.sentences import (
     MAX_READINGS,
@@ -47,7 +52,7 @@ MAX_STEPS = 6_500  # of a sentence
 MOST_STEPS = 9_000  # of a text
 SPARED = 600  # steps that are left for each sentence to come
 CACHED = 512
-LONGEST_TAG = 3  # [tokens]
+LONGEST_TAG = 5  # [tokens]
 LONG = 18  # [tokens] from which on a text may be a story with a question at its end
 REACH = 24  # [tokens] how long that question may be
 TRIES = 4
@@ -56,6 +61,7 @@ DEAR = 1.5  # cost of an act from which on a long text does not count as underst
 DROPPED = 1.2  # cost of a clause behind "and" of which nothing was made
 FOREIGN = 0.5  # cost of taking a text for another language
 LOOSE = 1.5  # cost of a topic that no clause takes up
+PASSED = 0.25  # cost of words that are passed over
 STORY = 1.0  # cost of a story before the question
 _OPENERS = frozenset(
     ["so", "but", "why", "what", "how", "can", "could", "would", "tell", "explain", "when"]
@@ -99,7 +105,9 @@ def _read(text: str) -> tuple[Reading, ...]:
     ends: list[str] = []
     for index, sentence in enumerate(parts):
         budget.reserve = max(SPARED * (len(parts) - 1 - index), budget.steps - MAX_STEPS)
-        if before is not None and before.end != "?" and _is_tag(sentence):
+        if before is not None and (
+            (before.end != "?" and _is_tag(sentence)) or echoes(before, sentence)
+        ):
             before = appended(before, sentence)
             rows[-1] = _sentence(before, budget)
         else:
@@ -117,13 +125,17 @@ def _is_tag(typed: Typed) -> bool:
     known = lexicon()
     lattice = build(typed, known.vocabulary, known.nouns)
     found = leaves(lattice)
-    if len(typed.tokens) == 1:
-        return "TAGWORD" in found[0] and typed.end == "?"
+    whole = [leaf for leaf in found[0].get("TAGWORD", ()) if leaf.end == lattice.size]
+    if whole or len(typed.tokens) == 1:
+        return bool(whole) and typed.end == "?"
     return lattice.size in Chart(grammar(), found, Budget(LONGEST_TAG * 100)).read("tag", 0)
 
 
 def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     """Give the readings of one sentence, likeliest first; at least one."""
+    other = elsewhere(typed) or struck_by(typed) or on_screen(typed)
+    if other is not None:
+        return (other,)
     known = lexicon()
     lattice = build(typed, known.vocabulary, known.nouns)
     readings = _understood(lattice, budget)
@@ -138,12 +150,16 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     """Read a lattice: first strictly, then words are read past and rarer units are tried."""
     found = leaves(lattice)
     readings: list[Reading] = []
+    nodes: Nodes = {}
+    composed: dict[int, Composed] = {}
     try:
-        strict = Chart(grammar(), without_skips(found), budget)
-        readings = _readings(segment(strict, lattice, found, CLAUSES), lattice, budget)
+        strict = Chart(grammar(), without_skips(found), budget, nodes)
+        paths = segment(strict, lattice, found, CLAUSES)
+        readings = _readings(paths, lattice, composed, budget)
         if not readings or not _plain(readings[0]):
-            loose = Chart(grammar(), found, budget)
-            others = _readings(segment(loose, lattice, found, CLAUSES + RARE), lattice, budget)
+            loose = Chart(grammar(), found, budget, nodes)
+            paths = segment(loose, lattice, found, CLAUSES + RARE)
+            others = _readings(paths, lattice, composed, budget)
             readings = unlike([*readings, *others])
     except ChartLimitError:
         pass
@@ -195,8 +211,9 @@ def _plain(reading: Reading) -> bool:
     return bool(count) and not reading.unknown and reading.cost <= limit
 
 
-def _readings(paths: list[Path], lattice: Lattice, budget: Budget) -> list[Reading]:
-    composed: dict[int, Composed] = {}
+def _readings(
+    paths: list[Path], lattice: Lattice, composed: dict[int, Composed], budget: Budget
+) -> list[Reading]:
     found: list[_Draft] = []
     best = float("inf")
     for path in paths:
@@ -249,14 +266,15 @@ def _along(
     for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        for row, _ in combination:
-            owners.append(len(acts) if row else None)
-            acts.extend(row)
+        for row in at_same_time(path.units, chosen_between(path.units, combination)):
+            owners.append(len(acts) - (row is None) if row or row is None else None)
+            acts.extend(row or ())
         named = sum(unit.name == "topic" for unit in path.units)
         loose = named - len(acts) if named else 0
         acts, owners = fold(acts, owners)
         loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
         cost = path.cost + sum(extra for _, extra in combination) + LOOSE * loose
+        cost += PASSED * bool(unknown)
         found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(unknown)))
     return found
 

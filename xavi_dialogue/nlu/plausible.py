@@ -14,8 +14,12 @@ from xavi_dialogue.domain.meaning import (
     Identify,
     Request,
     Summarise,
+    WhatIf,
+    Whether,
     Which,
+    Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
@@ -31,11 +35,14 @@ from xavi_dialogue.domain.terms import (
     Junction,
     Lane,
     Measured,
+    Nobody,
+    Not,
     Passenger,
     Pronoun,
     Quantity,
     Record,
     Related,
+    Relative,
     Road,
     Unknown,
     Unsaid,
@@ -44,6 +51,7 @@ from xavi_dialogue.domain.terms import (
 )
 
 PLAIN = 0.0
+SLIGHT = 0.15
 DOUBTFUL = 0.4
 ODD = 0.8
 _PLACES = (Junction, Exit, Lane, Road, Feature, Destination, Record)
@@ -64,21 +72,42 @@ def oddity(act: Act) -> float:
 def _top(act: Act) -> float:
     """Judge what stands on its own."""
     match act:
+        case Elliptic(time=Relative(anchor=Event(tense="future"))):
+            return SLIGHT  # "when we will arrive?" asks when
         case Claim(that=Caused(cause=cause, effect=None)) if isinstance(cause, (*_PLACES, Ego)):
             return ODD
-        case Claim(that=Caused(cause=Described(definite=False), effect=None)):
+        case Claim(
+            that=Caused(
+                cause=Described(definite=False) | Pronoun(form="it" | "that" | "this"), effect=None
+            )
+        ):
             return ODD
+        case Ask(
+            question=Why(of=Exists(thing=Feature()) | Caused(cause=Nobody()))
+            | Why(of=Is(thing=Nobody()))
+        ):
+            return ODD  # "why are we braking, there is room" rather tells that
         case Ask(question=Identify(thing=Pronoun(form="he" | "she"))):
             return DOUBTFUL  # "what is he up to now" rather asks what he does
         case Ask(
             question=Which(such=Happens(event=Event(action, actor, Wanted(), modal=None)))
         ) if action in _ALONE and not isinstance(actor, Wanted):
             return DOUBTFUL
-        case Ask(question=Summarise(about=Ego())):
-            return DOUBTFUL
-        case Request(event=Event(action="do", object=None)):
+        case Ask(question=HowMany(of=Ego() | Passenger())):
             return ODD
-        case Elliptic(thing=Ego() | Passenger(), event=None, time=Unsaid(), form="same"):
+        case Ask(question=Which(thing=Wanted(), such=such, among=())) if (
+            such is not None and first(such, Wanted) is None
+        ):
+            return ODD  # of nobody who is asked for
+        case Ask(question=Summarise(about=Ego()) | Identify(thing=Ego())):
+            return DOUBTFUL
+        case Ask(question=Whether(that=Related(thing=Nobody()) | Is(thing=Nobody()), tag=False)):
+            return SLIGHT  # "there is nobody in front" rather tells that
+        case Claim(that=Not(content=Happens(event=Event("do", Passenger(), None)))):
+            return ODD  # "I do not", of which nothing is told
+        case Request(event=Event(action="do", object=None) | Event(actor=Described())):
+            return ODD
+        case Elliptic(thing=Ego() | Passenger(), event=None, time=Unsaid(), form="same" | "why"):
             return DOUBTFUL
     return PLAIN
 
@@ -104,10 +133,20 @@ def _own(value: Any) -> float:
         case Compares(left=Measured(attribute=attribute), comparator="same", right=right):
             named = attribute in _OF_LIGHTS or not isinstance(right, Quantity)
             return DOUBTFUL if named else PLAIN
-        case Measured(thing=Unknown()):
+        case Measured(thing=Unknown()) | Described(of=Unknown()):
             return DOUBTFUL
+        case Described(such=Caused(cause=Wanted())):
+            return ODD  # "a blue car what was the point of that"
+        case Described(
+            such=Not(content=Happens(event=Event(action="do" | "stand", actor=Passenger())))
+        ):
+            return ODD  # "a huge one I do not, like"
         case HowMany(of=Event(action="do", object=None)):
             return DOUBTFUL
+        case Why(suspect=Pronoun(form="it" | "this")):
+            return DOUBTFUL
+        case WhatIf(supposed=Is(state="visible", thing=Ego())):
+            return ODD  # "had you seen", of which nothing is told
         case HowMany(of=Pronoun() | Unknown() | Feature(kind="space" | "way")):
             return ODD
         case HowDecide(of=Caused()):
@@ -128,18 +167,31 @@ def _own(value: Any) -> float:
 def _related(value: Related) -> float:
     thing, to = value.thing, value.to
     if value.relation == "same-as":
-        if thing == to:
+        if thing == to or (_is_vague(thing) and _is_vague(to)):
+            return ODD
+        if isinstance(thing, Ego) and isinstance(to, Described) and to.bearing is not None:
+            return ODD
+        if isinstance(thing, Unknown):
             return ODD
         if isinstance(thing, _ROAD_USERS) and isinstance(to, (*_PLACES, Unknown)):
             return ODD
         return PLAIN
     if thing == to:
         return ODD
+    if value.relation == "on" and isinstance(to, (*_ROAD_USERS, Wanted)):
+        return ODD
     if value.relation == "with" and isinstance(to, (Pronoun, Wanted)):
         return DOUBTFUL
-    if isinstance(to, Unknown) or isinstance(thing, Unknown):
+    if isinstance(thing, Unknown):
+        return ODD
+    if isinstance(to, Unknown):
         return DOUBTFUL
     return PLAIN
+
+
+def _is_vague(thing: object) -> bool:
+    """Say whether a thing is a word that may stand for anything."""
+    return isinstance(thing, Pronoun) and thing.form in ("it", "that", "this")
 
 
 def _event(value: Event) -> float:

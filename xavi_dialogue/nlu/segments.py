@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from xavi_dialogue.nlu.grammar.chart import Chart, Entry, Node, tree
+from xavi_dialogue.nlu.grammar.chart import Chart, Entry, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.text.lattice import Lattice
 
@@ -13,6 +13,7 @@ CLAUSES = (
     "ask_extracted",
     "ask_subject",
     "ask_measure",
+    "ask_evidence",
     "polar",
     "declarative",
     "imperative",
@@ -20,6 +21,7 @@ CLAUSES = (
     "supposed",
     "talk",
     "topic",
+    "apposed",
 )
 RARE = (
     "ask_lacking",
@@ -73,6 +75,7 @@ _STARTERS = frozenset(
         "HAVE",
         "HAD",
         "V",
+        "THERE",
     ]
 )
 
@@ -109,20 +112,20 @@ def segment(
         for name in names:
             if name == "topic" and not opens:
                 continue
+            if name == "apposed" and node not in lattice.marks:
+                continue
             for end, entry in chart.read(name, start).items():
-                if end == last and name == "topic":
+                if (end == last and name == "topic") or (end != last and name == "apposed"):
                     continue
                 for cost, entries, _ in rows:
+                    if name == "apposed" and (not entries or entries[-1][1] == "talk"):
+                        continue
                     total = cost + entry[0] + UNIT + (border if entries else 0.0)
                     table[end].append((total, (*entries, entry), node))
-    built: dict[int, Node] = {}
-    found: list[Path] = []
-    for cost, entries, _ in _best(table[last], _FINAL, 5):
-        for entry in entries:
-            if id(entry) not in built:
-                built[id(entry)] = tree(entry)
-        found.append(Path(tuple(built[id(entry)] for entry in entries), cost))
-    return found
+    return [
+        Path(tuple(map(chart.tree, entries)), cost)
+        for cost, entries, _ in _best(table[last], _FINAL, 5)
+    ]
 
 
 def _cost(row: _Row) -> float:

@@ -6,12 +6,15 @@ from typing import Final
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Reading, Repair
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Reading, Repair, Unread, WhatIf
+from xavi_dialogue.nlu.besides import settled
 from xavi_dialogue.nlu.text.tokens import Token, Typed
 from xavi_dialogue.nlu.topics import fold
 
 MAX_READINGS: Final = 6
 SPREAD: Final = 1.5  # readings that cost this much more than the best are not offered
+DOUBTFUL: Final = 1.0  # cost from which on a sentence is read as a question by its mark alone
+_SUPPOSING: Final = frozenset({"suppose", "supposing", "say", "imagine", "assume", "if"})
 _STOPS: Final = frozenset({".", "?"})
 
 
@@ -36,9 +39,8 @@ def appended(first: Typed, second: Typed) -> Typed:
 
 def joined(rows: Sequence[Sequence[Reading]], ends: Sequence[str]) -> tuple[Reading, ...]:
     """Put the readings of sentences together, likeliest first; `ends` are the marks behind."""
-    if len(rows) == 1:
-        return tuple(rows[0])
-    kept = [[r for r in row[:3] if r.cost <= row[0].cost + SPREAD] for row in rows]
+    most = MAX_READINGS if len(rows) == 1 else 3
+    kept = [[r for r in row[:most] if r.cost <= row[0].cost + SPREAD] for row in rows]
     while len(kept) > 3 and len(max(kept, key=len)) > 1:
         del max(kept, key=len)[1:]
     return tuple(unlike(_one(row, ends) for row in product(*kept)))
@@ -57,21 +59,26 @@ def unlike(readings: Iterable[Reading]) -> list[Reading]:
 
 def _one(row: tuple[Reading, ...], ends: Sequence[str]) -> Reading:
     """Put one reading of each sentence together; what is named first is what "he" means."""
+    row = _without_world(row)
     acts = [act for reading in row for act in reading.acts]
-    named = {
-        id(act)
+    asked = {
+        id(reading.acts[-1])
         for reading, end in zip(row, ends, strict=True)
-        for act in reading.acts
-        if end != "?" and isinstance(act, Elliptic) and act == Elliptic(act.thing)
+        if end == "?" and reading.acts
     }
     owners: list[int | None] = []
     before = 0
     for reading in row:
         owners += [None if s.act is None else s.act + before for s in reading.shares]
         before += len(reading.acts)
+    spoken = owners
     folded, owners = fold(acts, owners)
-    if any(isinstance(act, Ask) for act in folded):
-        folded, owners = _without(folded, owners, named)
+    owners = _without_setting(row, acts, spoken, folded, owners)
+    stated = _stated(row, ends)
+    found = settled(
+        folded, [id(act) in asked for act in folded], [id(act) in stated for act in folded]
+    )
+    folded, owners = _without_none(found, owners)
     folded = [_on_claim(act, folded[:index]) for index, act in enumerate(folded)]
     shares = (share for reading in row for share in reading.shares)
     return Reading(
@@ -82,15 +89,68 @@ def _one(row: tuple[Reading, ...], ends: Sequence[str]) -> Reading:
     )
 
 
-def _without(
-    acts: list[Act], owners: list[int | None], dropped: set[int]
+def _without_world(row: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Leave out a question about a world that is supposed in words that were not understood."""
+    kept: list[Reading] = []
+    for reading in row:
+        before = kept[-1] if kept else None
+        lost = before is not None and not before.acts and _supposes(before)
+        if lost and reading.acts:
+            shares = tuple(structs.replace(share, act=None) for share in reading.shares)
+            words = tuple(share.text for share in shares)
+            reading = Reading((), shares, reading.cost, (Unread(words, True),))
+        kept.append(reading)
+    return tuple(kept)
+
+
+def _is_supposing(act: Act) -> bool:
+    """Say whether an act supposes something for a question to come."""
+    return isinstance(act, Ask) and isinstance(act.question, WhatIf)
+
+
+def _supposes(reading: Reading) -> bool:
+    """Say whether words suppose something."""
+    return any(share.text.lower() in _SUPPOSING for share in reading.shares[:2])
+
+
+def _stated(row: tuple[Reading, ...], ends: Sequence[str]) -> set[int]:
+    """Find the doubtful acts of sentences with a full stop, where another has a question mark."""
+    if "?" not in ends:
+        return set()
+    return {
+        id(act)
+        for reading, end in zip(row, ends, strict=True)
+        for act in reading.acts
+        if end == "." and reading.cost > DOUBTFUL and not _is_supposing(act)
+    }
+
+
+def _without_setting(
+    row: tuple[Reading, ...],
+    acts: list[Act],
+    spoken: list[int | None],
+    folded: list[Act],
+    owners: list[int | None],
+) -> list[int | None]:
+    """Take the words of a claim that found no place out of the question that it went into."""
+    shares = [share for reading in row for share in reading.shares]
+    found: list[int | None] = []
+    for share, before, now in zip(shares, spoken, owners, strict=True):
+        told = before is not None and isinstance(acts[before], Claim)
+        asked = now is not None and isinstance(folded[now], Ask)
+        found.append(None if share.share == "unknown" and told and asked else now)
+    return found
+
+
+def _without_none(
+    acts: Sequence[Act | None], owners: list[int | None]
 ) -> tuple[list[Act], list[int | None]]:
-    """Leave out exclamations such as "a roundabout!"."""
+    """Leave out acts that say nothing of their own."""
     rank: dict[int, int] = {}
     for index, act in enumerate(acts):
-        if id(act) not in dropped:
+        if act is not None:
             rank[index] = len(rank)
-    kept = [act for index, act in enumerate(acts) if index in rank]
+    kept = [act for act in acts if act is not None]
     return kept, [None if owner is None else rank.get(owner) for owner in owners]
 
 

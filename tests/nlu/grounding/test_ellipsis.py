@@ -139,8 +139,8 @@ def test_a_fragment_is_completed(before: Question, fragment: Elliptic, meant: Qu
 def _timeless(question: Question) -> Question:
     from msgspec.structs import replace
 
+    from xavi_dialogue.domain.rewriting import rewrite
     from xavi_dialogue.domain.terms import Unsaid
-    from xavi_dialogue.nlu.grounding.rewriting import rewrite
 
     def change(part: object) -> object:
         if hasattr(part, "time") and part.time != Unsaid():

@@ -29,8 +29,8 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Vehicle, Vehicles
-from xavi_dialogue.nlu.grounding.rewriting import parts
 
 Result: TypeAlias = Answer | Refusal
 

@@ -36,6 +36,7 @@ from xavi_dialogue.explain.answers.beliefs import history_of
 from xavi_dialogue.explain.answers.comfort import stretch
 from xavi_dialogue.explain.answers.conditions import handed
 from xavi_dialogue.explain.answers.decisions import decided_at
+from xavi_dialogue.explain.answers.delays import for_whom
 from xavi_dialogue.explain.answers.findings import known as valued
 from xavi_dialogue.explain.answers.mistakes import mistakes
 from xavi_dialogue.explain.answers.moments import SHORT, Window, window
@@ -93,6 +94,8 @@ def listing(question: Listing, asked: Asked) -> Answer:
     if question.of == "decisions" and about.instant:
         return decided_at(asked, about.middle)
     actor = _actor(asked, question.about)
+    if question.of == "stops":
+        return _of_kind(asked, Event("stop", actor if actor is not None else Ego()), about)
     if question.event is not None:
         return _of_kind(asked, question.event, about)
     return Happenings(
@@ -102,7 +105,9 @@ def listing(question: Listing, asked: Asked) -> Answer:
 
 def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
     """List all that was such an event in a stretch of the ride."""
-    found = tuple(e for e in occasions(asked, event) if overlaps(asked, e, about))
+    found = tuple(for_whom(asked, e) for e in occasions(asked, event) if overlaps(asked, e, about))
+    if not found and event.action == "brake":
+        return _of_kind(asked, replace(event, action="slow-down"), about)
     return Happenings("list", found, event.actor, about.begin, about.end, asked=event)
 
 
@@ -225,9 +230,6 @@ def _of_ride(asked: Asked, begin: float, end: float) -> tuple[Measure, ...]:
 
 def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[Episode, ...]:
     begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
-    if of == "stops":
-        who = actor if actor is not None else Ego()
-        return tuple(e for e in occasions(asked, Event("stop", who)) if overlaps(asked, e, about))
     if of == "decisions":
         mine = asked.world.episodes(actor=Ego(), begin=begin, end=end)
         return tuple(e for e in mine if e.action in MACROS)

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
@@ -13,8 +15,9 @@ from xavi_dialogue.domain.answers import (
     Options,
 )
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import HowMany, HowSure, Where, Whither, Why
+from xavi_dialogue.domain.meaning import HowMany, HowMuch, HowSure, WhatIf, Where, Whither, Why
 from xavi_dialogue.domain.terms import (
+    At,
     Ego,
     Event,
     Everyone,
@@ -52,7 +55,7 @@ from xavi_dialogue.explain.answers.naming import (
     number,
     somebodies,
 )
-from xavi_dialogue.explain.answers.occasions import did_not_happen
+from xavi_dialogue.explain.answers.occasions import did_not_happen, occasion
 from xavi_dialogue.explain.answers.onward import which_way
 from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
@@ -91,6 +94,10 @@ def _duration(of: Measured, asked: Asked) -> Answer:
 
 def _delay(of: Measured, asked: Asked) -> Answer:
     """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
+    if of.event is not None and (undone := _not_done(of, of.event, asked)) is not None:
+        supposed = WhatIf(Happens(undone), HowMuch(Measured("delay")))
+        if (suppose := causal.explainer(supposed, asked)) is not None:
+            return suppose(supposed, asked)
     if of.event is not None and of.event.action in CHOSEN:
         why = Why(Happens(of.event))
         explainer = causal.explainer(why, asked)
@@ -102,6 +109,15 @@ def _delay(of: Measured, asked: Asked) -> Answer:
     if event is None and number(of.thing) is not None:
         event = held_for(asked, of.thing)
     return Measures((cost_of(asked, event, window(asked, of.time)),))
+
+
+def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
+    """Give a choice of which it is asked what it would have cost: one that we did not make."""
+    if not is_us(event.actor) or event.action not in (*CHOSEN, "stop"):
+        return None
+    at = of.time if isinstance(of.time, At) else event.time
+    meant = replace(event, time=at, tense="past")
+    return meant if occasion(asked, replace(meant, time=event.time)) is None else None
 
 
 def _gained(explained: Answer) -> Measure | None:

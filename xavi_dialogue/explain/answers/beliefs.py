@@ -5,7 +5,7 @@ from itertools import pairwise
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Beliefs, NotRecorded, Verdict
+from xavi_dialogue.domain.answers import Answer, Beliefs, NotRecorded, Priority, Verdict
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.meaning import HowSure
 from xavi_dialogue.domain.terms import (
@@ -22,11 +22,12 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.closeness import How, closeness
-from xavi_dialogue.explain.answers.foreseen import came_of, chance, collision_chance
-from xavi_dialogue.explain.answers.moments import SHORT, instant, is_ahead, window
+from xavi_dialogue.explain.answers.foreseen import besides, came_of, chance, collision_chance
+from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import known, number
 from xavi_dialogue.explain.answers.occasions import occasion, occasions
 from xavi_dialogue.explain.answers.plans import foreseen
+from xavi_dialogue.explain.answers.priority import right_of_way
 
 UNSAID = Unsaid()
 LIKELY = 0.5  # probability from which something was expected
@@ -56,15 +57,23 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
             found = foreseen(asked, event)
             share = None if found is None else found.share
             return Verdict(of, None if share is None else share >= 0.5, probability=share)
+        case Related(relation="has-priority-over") if (rule := ruled(asked, of)) is not None:
+            return rule
         case Related(thing=thing) if number(thing) is not None:
             return history_of(asked, number(thing) or 0, None, time)
         case Is(thing=thing) if number(thing) is not None and of.state in ("safe", "dangerous"):
             how: How = "safe" if of.state == "safe" else "dangerous"
             return closeness(asked, number(thing), window(asked, time), how)
-    vehicle = _vehicle_in(of) or _last_moved(asked)
+    vehicle = _vehicle_in(of) or least_sure(asked, asked.now)
     if vehicle is None:
         raise Unanswered(NotRecorded("not-recorded", about="probability"))
     return history_of(asked, vehicle, None, time)
+
+
+def ruled(asked: Asked, of: Related) -> Priority | None:
+    """Tell who goes first, where the rule of the road settles it; None where it does not."""
+    told = right_of_way(asked, of.thing, of.to, Window(asked.now, asked.now))
+    return told if told.rule in ("priority", "give-way") else None
 
 
 def _under_way(asked: Asked, event: Event, time: Time) -> Verdict | None:
@@ -113,8 +122,9 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
         came = came_of(asked, vehicle, at)
     why = None if span is None else _conduct(asked, vehicle, span)
     return Beliefs(
-        vehicle, event, history, share, None if current is None else current.time, why, span, came
-    )
+        vehicle, event, history, share, None if current is None else current.time, why, span, came,
+        besides=() if event is None else besides(current, event),
+    )  # fmt: skip
 
 
 def since_when(asked: Asked, event: Event) -> Beliefs:
@@ -219,11 +229,11 @@ def _vehicle_in(of: Proposition | None) -> int | None:
     return None
 
 
-def _last_moved(asked: Asked) -> int | None:
-    """Give the vehicle of which the latest decision is least sure."""
+def least_sure(asked: Asked, at: float) -> int | None:
+    """Give the vehicle of which the decision at a time [s] is least sure."""
     found = [
         (belief.expectations[0].probability, vehicle)
-        for vehicle in asked.world.in_view(asked.now)
-        if (belief := asked.world.belief(vehicle, asked.now)) is not None and belief.expectations
+        for vehicle in asked.world.in_view(at)
+        if (belief := asked.world.belief(vehicle, at)) is not None and belief.expectations
     ]
     return min(found, default=(0.0, None))[1]

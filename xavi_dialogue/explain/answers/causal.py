@@ -21,26 +21,37 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Both,
     Caused,
     Compares,
     Ego,
     Event,
+    Everyone,
     Happens,
     Is,
     Not,
     Proposition,
+    Unsaid,
+    Vehicle,
+    Vehicles,
     Wanted,
+    WholeRide,
 )
-from xavi_dialogue.explain.answers import choices, deciding, knowing, possible, reasons, supposing
+from xavi_dialogue.explain.answers import choices, deciding, knowing, possible, reasons, risks
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.delays import held_up
+from xavi_dialogue.explain.answers.moments import window
+from xavi_dialogue.explain.answers.priority import goes_first
+from xavi_dialogue.explain.answers.provoked import because_of_us
 from xavi_dialogue.explain.answers.reading import is_own, unwrapped, vehicle_in
+from xavi_dialogue.explain.answers.wavering import wavered
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
 #: By type of question alone.
 QUESTIONS: Mapping[type, Explainer] = {
     Why: reasons.why,
-    WhatIf: supposing.what_if,
+    WhatIf: risks.what_if,
     HowKnow: knowing.how_know,
     HowSure: knowing.how_sure,
     HowDecide: knowing.how_decide,
@@ -51,15 +62,32 @@ NEEDED = frozenset(("necessary", "worth-it", "better"))
 LISTED = frozenset(("options", "decisions"))
 #: What of ours is for something or somebody.
 HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
+RULED = frozenset(("give-way", "let-go"))
 REASONS = frozenset(("causes", "reasons"))
 
 
 def explainer(question: Question, scene: Asked) -> Explainer | None:
     """Find the explainer of a causal question; None where it asks for facts alone."""
     match question:
+        case Whether(Both(join="or")):
+            return None
         case Whether(that):
             return _of_whether(that, scene)
-        case Which(Wanted(), such) if _holds_us_up(such):
+        case Why(of=Happens(event=event) | Is(state="allowed", event=Event() as event)) if (
+            "first" in event.manner
+            and event.action == "go"
+            and isinstance(event.actor, Vehicle | Vehicles | Everyone)
+        ):
+            return goes_first
+        case Why(of=Happens(event=event), suspect=Ego()) if event.action in HELD and isinstance(
+            event.actor, Vehicle
+        ):
+            return because_of_us
+        case Why(of=Happens(event=Event(action="change-plan", actor=Ego())), suspect=None):
+            return wavered
+        case Which(thing, such) if _holds_us_up(such) and _over_the_ride(thing, such):
+            return _who_held_up
+        case Which(Wanted() | Vehicles(), such) if _holds_us_up(such):
             return _what_for
         case HowKnow(Is(state="safe" | "possible", event=Event() as event)) if is_own(event.actor):
             return _why_safe
@@ -84,9 +112,29 @@ def _holds_us_up(such: Proposition | None) -> bool:
     if not isinstance(of, Happens) or negated:
         return False
     event = of.event
+    if event.modal == "must" and event.tense == "present" and event.action in RULED:
+        return False  # the rule of the road tells
     if event.action == "block":
         return isinstance(event.actor, Wanted) and is_own(event.object)
     return is_own(event.actor) and event.action in HELD and isinstance(event.object, Wanted)
+
+
+def _over_the_ride(thing: object, such: Proposition | None) -> bool:
+    """Whether it is asked of all who held us up: "which vehicles", or "so far"."""
+    of, _ = unwrapped(such)
+    asked = of.left if isinstance(of, Compares) else of.event if isinstance(of, Happens) else None
+    if asked is None or (isinstance(asked, Event) and asked.action != "block"):
+        return False
+    several = isinstance(thing, Vehicles) and asked.tense != "present"
+    return isinstance(asked.time, WholeRide) or several
+
+
+def _who_held_up(question: Which, scene: Asked) -> Answer:
+    """Who held us up, and when."""
+    of, _ = unwrapped(question.such)
+    time = of.left.time if isinstance(of, Compares) else getattr(of, "event", Event("block")).time
+    time = WholeRide() if isinstance(time, Unsaid) else time
+    return held_up(scene, window(scene, time, "past"))
 
 
 def _what_for(question: Which, scene: Asked) -> Answer:
@@ -118,7 +166,7 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return _slowed_because
     if possible.is_could(of):
         return possible.could
-    if possible.is_must(of):
+    if possible.is_must(of) and not _on_our_way(of):
         return possible.must
     if isinstance(of, Is) and of.state in NEEDED:
         about_us = of.event is None or is_own(of.event.actor)
@@ -126,6 +174,14 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
             return _worth
         return deciding.needed if about_us and is_own(of.thing) else None
     return None
+
+
+def _on_our_way(of: Proposition | None) -> bool:
+    """Whether it is asked which way we have to go from here: our route tells."""
+    if not isinstance(of, Happens) or of.event.tense != "present" or not is_own(of.event.actor):
+        return False
+    turning = of.event.action in ("turn", "exit-left", "exit-right", "exit-straight")
+    return turning and not isinstance(of.event.object, Vehicle)
 
 
 def _worth(question: Whether, scene: Asked) -> Answer:

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.answers import (
     NotApplicable,
 )
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.reasons import Suspected
 from xavi_dialogue.domain.terms import Ego, Event, Proposition
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.foils import earlier_exit, foil_at, named_foil, settled
@@ -46,6 +47,7 @@ from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 Form = Literal["why", "why-not", "necessary", "worth-it"]
+LATELY = 12.0  # [s] since when a change of lanes still tells why we are in our lane
 LEAST = 1.0  # [s] that a change of lane or a turn takes at least
 
 
@@ -143,7 +145,7 @@ def in_lane(scene: Asked) -> Answer:
     moves = [d for d in deeds_called(ride, (*CHANGES, *TURNS)) if _lasted(d)]
     before = [d for d in moves if d.time <= scene.moment + ROUNDING]
     last = before[-1] if before else None
-    if last is not None and last.action in CHANGES:
+    if last is not None and last.action in CHANGES and scene.moment - last.time <= LATELY:
         return ChoiceReason("why", episode_of(last), natural(ride, ride.choice_of(last)))
     unfrozen = [t for t in ride.traces if t.under_way is None and t.sim_time <= scene.moment]
     trace = unfrozen[-1] if unfrozen else ride.latest
@@ -188,29 +190,43 @@ def is_choice(event: Event) -> bool:
     return not set(names_of(event)) & DRIVING
 
 
-def with_suspect(found: Answer, suspect: int | None) -> Answer:
+def with_suspect(found: Answer, suspect: int | None, rival: int | None = None) -> Answer:
     """Tell of the vehicle that the question takes for the cause whether it is.
 
-    Where it is one of the causes it goes first, so that it is the one that is spoken of.
+    Where it is one of the causes it goes first, so that it is the one that is spoken of. Of two
+    that are asked about, the one that is the cause, or is more of it.
     """
-    if suspect is None:
+    if suspect is None or not isinstance(found, ChoiceReason | MotionReason):
         return found
-    if isinstance(found, ChoiceReason):
-        named = [cause.vehicle for cause in found.contrast.causes]
-        if found.ahead is not None and found.ahead.vehicle == suspect:
-            named = [suspect]
+    named = _blamed(found)
+    if rival is not None:
+        asked = [vehicle for vehicle in named if vehicle in (suspect, rival)]
+        suspect = asked[0] if asked else suspect
+        part: Suspected = "either" if asked else "neither"
+    else:
         part = _part(named, suspect)
+    if isinstance(found, ChoiceReason):
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
         return replace(found, contrast=against, suspect=suspect, suspected=part)
+    motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+    return replace(found, causes=tuple(motive), suspect=suspect, suspected=part)
+
+
+def _blamed(found: ChoiceReason | MotionReason) -> list[int]:
+    """List the vehicles that are causes, most important first."""
     if isinstance(found, MotionReason):
-        part = _part([cause.vehicle for cause in found.causes], suspect)
-        motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
-        return replace(found, causes=tuple(motive), suspect=suspect, suspected=part)
-    return found
+        return [cause.vehicle for cause in found.causes if cause.vehicle is not None]
+    against = found.contrast
+    named = [cause.vehicle for cause in against.causes]
+    if against.decisive == "collision" and against.collided_with is not None:
+        named = [against.collided_with, *named]
+    if found.ahead is not None and found.ahead.vehicle is not None:
+        named = [found.ahead.vehicle, *named]
+    return list(dict.fromkeys(named))
 
 
-def _part(named: list[int | None] | list[int], suspect: int) -> Literal["main", "part", "none"]:
+def _part(named: list[int], suspect: int) -> Suspected:
     if suspect not in named:
         return "none"
     return "main" if named[0] == suspect else "part"

@@ -10,6 +10,7 @@ from xavi_dialogue.explain.answers.foreseen import collision_chance
 from xavi_dialogue.explain.answers.moments import SHORT, Window
 
 How = Literal["safe", "dangerous", "close", "hit", "room"]
+NEARER = 0.5  # [m] by which a vehicle was nearer at another time
 URGENT = 10.0  # [s] beyond which a time to collision says nothing
 
 
@@ -26,12 +27,17 @@ def closeness(
         past: whether it is asked of what lies behind; else of now and what is to come.
     """
     near = about.widened() if about.instant else about
-    who = nearest_vehicle(asked, near) if vehicle is None else vehicle
+    seen = near if past else Window(asked.now, asked.now)  # what is told as of now is of now
+    who = nearest_vehicle(asked, seen) if vehicle is None else vehicle
     risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
-    closest = closest_approach(asked, who, near)
-    return Closeness(who, closest, shortest_time(asked, who, near), risk, how, about.end, past)
+    closest = closest_approach(asked, who, seen)
+    ever = closest_approach(asked, who, Window(asked.world.begin, asked.now))
+    least, then = ever.value or 0.0, closest.value
+    nearer = then is not None and least < then - NEARER
+    soon = shortest_time(asked, who, near)
+    return Closeness(who, closest, soon, risk, how, about.end, past, overall=not nearer)
 
 
 def closest_approach(asked: Asked, vehicle: int, about: Window) -> Measure:

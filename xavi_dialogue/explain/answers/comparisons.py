@@ -1,23 +1,17 @@
-"""Comparisons: whether an attribute has a value, how two compare, and whether there is anybody."""
+"""Comparisons: whether an attribute has a value, and how two compare."""
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Located, Measures
-from xavi_dialogue.domain.facts import Fact, Look, Measure
+from xavi_dialogue.domain.answers import Counted, Measures
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import HowMany
 from xavi_dialogue.domain.terms import (
     Compares,
-    Described,
-    Destination,
     Ego,
     Everyone,
     Exists,
-    Exit,
-    Feature,
     Has,
-    Junction,
-    Lane,
     Measured,
-    Nobody,
     Quantity,
     Thing,
     Unsaid,
@@ -26,17 +20,14 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import Attribute, Comparator, Extreme
 from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.counting import how_many
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.measures import best_of, value_at, values
 from xavi_dialogue.explain.answers.moments import Window, instant, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     check_sense,
-    first_look,
-    looks,
-    of_kind,
     somebodies,
 )
-from xavi_dialogue.explain.answers.places import junction
 
 #: Up to which difference two values are the same.
 SAME: dict[Attribute, float] = {
@@ -44,8 +35,11 @@ SAME: dict[Attribute, float] = {
     "time-to-collision": 0.3, "deceleration": 0.3, "acceleration": 0.3, "size": 0.3,
     "time-to-go": 1.0, "distance-to-go": 5.0, "probability": 0.03, "duration": 0.5,
 }  # fmt: skip
+KMH = 3.6  # [km/h] in 1 m/s
 LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
 #: What a vehicle keeps when it is out of view.
+#: Kinds that look like a car from outside.
+UNMARKED: frozenset[str] = frozenset(("taxi", "emergency"))
 LASTING: frozenset[Attribute] = frozenset(("colour", "kind", "size", "name", "origin"))
 #: What nobody can see of a vehicle from outside.
 INSIDE: frozenset[Attribute] = frozenset(("load", "occupant", "writing", "parts"))
@@ -81,11 +75,18 @@ def _has(of: Has, asked: Asked, thing: Thing, at: float) -> Finding:
     if of.attribute in LIGHTS:
         return Finding(_lit(of, value.lights), (value,))
     said = of.value.strip().lower()
+    if of.attribute == "kind" and value.word is not None and _is_finer(said, value.word.lower()):
+        return unknown("not-sensed")  # "is it a racing car?"
     if value.word is not None:
         return Finding(value.word.lower() == said or said in value.word.lower().split(), (value,))
     number = "" if value.value is None else f"{value.value:g}"
     side = value.side or ""
     return Finding(said in (number, side), (value,))
+
+
+def _is_finer(said: str, seen: str) -> bool:
+    """Say whether a kind that is named is finer than what can be seen from outside."""
+    return said.split()[-1:] == [seen] != said.split() or (seen == "car" and said in UNMARKED)
 
 
 def _shown_over(of: Has, asked: Asked, thing: Thing, about: Window) -> Finding:
@@ -131,6 +132,8 @@ def compares(of: Compares, asked: Asked) -> Finding:
     Raises:
         Unanswered: a thing is unknown.
     """
+    if of.left.attribute == "count":
+        return _tallied(of, asked)
     at = instant(asked, of.left.time, of.left.tense)
     each = somebodies(asked, of.left.thing, at)
     if len(each) < 2:
@@ -144,6 +147,16 @@ def compares(of: Compares, asked: Asked) -> Finding:
     return Finding(all(one.holds for one in told), (*left, *right))
 
 
+def _tallied(of: Compares, asked: Asked) -> Finding:
+    """Weigh how many there were, or how often something was done, by a number that was said."""
+    such = of.left.about.thing if isinstance(of.left.about, Exists) else None
+    found = how_many(HowMany(of.left.event or of.left.thing, such), asked)
+    if not isinstance(found, Counted) or not isinstance(of.right, Quantity):
+        return unknown("not-recorded")
+    holds = _holds(of.comparator, found.count - of.right.value, 0.0, of.by)
+    return Finding(holds, answer=replace(found, said=holds))
+
+
 def _compared(of: Compares, asked: Asked) -> Finding:
     at = instant(asked, of.left.time, of.left.tense)
     left = _left_side(of, asked, at)
@@ -153,10 +166,17 @@ def _compared(of: Compares, asked: Asked) -> Finding:
         facts = known(left, *(() if right is None else (right,)))
         return unknown(gap, *facts)
     margin = SAME.get(of.left.attribute, 0.0)
+    if left.attribute == right.attribute == "speed" and of.by is None and of.comparator != "same":
+        margin = _as_told(left.value, right.value)
     holds = _holds(of.comparator, left.value - right.value, margin, of.by)
     if isinstance(of.right, Measured):
         return Finding(holds, (left, right))
     return Finding(holds, (replace(left, reference=right.value),))
+
+
+def _as_told(one: float, other: float) -> float:
+    """Tell by how much two speeds are the same: what is told as one figure is, all else is not."""
+    return abs(one - other) if round(KMH * one) == round(KMH * other) else 0.0
 
 
 def _left_side(of: Compares, asked: Asked, at: float) -> Measure:
@@ -207,80 +227,3 @@ def _holds(comparator: Comparator, difference: float, margin: float, by: Quantit
             return difference <= margin
         case "same":
             return abs(difference) <= margin
-
-
-def exists(of: Exists, asked: Asked) -> Finding:
-    """Weigh that there is or was such a thing.
-
-    Raises:
-        Unanswered: it has no sense here.
-    """
-    check_sense(of.thing)
-    at = instant(asked, of.time, of.tense)
-    about = window(asked, of.time, of.tense)
-    match of.thing:
-        case Nobody():
-            near = _near(asked, at, of.thing.described)
-            return Finding(of.thing.described is None and not near, near)
-        case Lane():
-            return _lane(asked, of.thing, at)
-        case Junction():
-            found = junction(asked, of.thing, at)
-            if found.gap == "not-recorded":
-                return unknown(found.gap)
-            return Finding(found.gap is None, known(found))
-        case Exit() | Destination():
-            value = asked.world.measure("exit-number", Ego(), at)
-            return Finding(value.gap is None, known(value))
-        case Feature():
-            return unknown("not-recorded")
-        case Everyone():
-            return _anybody(of.thing, asked, about, at)
-    found_here = somebodies(asked, of.thing, at)
-    numbers = tuple(v.number for v in found_here if isinstance(v, Vehicle))
-    if not numbers:
-        return unknown("not-recorded")
-    seen = looks(asked, numbers, at) or _first(asked, numbers)
-    if seen and not any(look.in_view for look in seen) and not about_past(asked, of):
-        return Finding(None, answer=Located(of.thing, seen, gap="out-of-view"))
-    return Finding(any(look.in_view and look.time <= at for look in seen), seen)
-
-
-def about_past(asked: Asked, of: Exists) -> bool:
-    """Tell whether it is asked of the past."""
-    return is_past(asked, of.time, of.tense)
-
-
-def _anybody(thing: Everyone, asked: Asked, about: Window, at: float) -> Finding:
-    """Tell whether anybody of a kind is or was in view; kinds that no record has cannot be told."""
-    ever = asked.world.vehicles if about.end - about.begin > 1.5 else asked.world.in_view(at)
-    fits = of_kind(asked, ever, thing.kind, at)
-    if not fits and thing.kind in ("pedestrian", "tram"):
-        return unknown("not-recorded")
-    return Finding(bool(fits), looks(asked, fits, at))
-
-
-def _near(asked: Asked, at: float, described: Described | None) -> tuple[Fact, ...]:
-    """Tell who is in view when nobody fits: the nearest of the kind that was asked for."""
-    kind = "vehicle" if described is None else described.kind
-    seen = looks(asked, of_kind(asked, asked.world.in_view(at), kind, at), at)
-    return tuple(sorted(seen, key=lambda look: look.distance)[:1])
-
-
-def _first(asked: Asked, numbers: tuple[int, ...]) -> tuple[Look, ...]:
-    found = (first_look(asked, v, asked.world.begin) for v in numbers)
-    return tuple(look for look in found if look is not None)
-
-
-def _lane(asked: Asked, lane: Lane, at: float) -> Finding:
-    own = asked.world.measure("lane", Ego(), at)
-    if own.gap is not None:
-        return unknown(own.gap)
-    road = asked.world.road(at)
-    place = None if road is None else road.places.get(0)
-    if place is None or place.lane is None:
-        return unknown("not-recorded")
-    there = {
-        "left": place.lane + 1 < place.lanes, "right": place.lane > 0, "other": place.lanes > 1,
-    }  # fmt: skip
-    return Finding(there.get(lane.which, True), (own,))

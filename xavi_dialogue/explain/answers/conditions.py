@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
+from msgspec.structs import replace as with_fields
+
 from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
 from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
@@ -13,7 +15,6 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Lane,
-    Thing,
     Vehicle,
     Vehicles,
 )
@@ -23,24 +24,21 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import how_sure
 from xavi_dialogue.explain.answers.closeness import How, closeness
 from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
-from xavi_dialogue.explain.answers.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.foreseen import macros
-from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.limits import fast, within_limit
 from xavi_dialogue.explain.answers.mistakes import broken_down, wrong
-from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, is_past, window
+from xavi_dialogue.explain.answers.moments import RECENT, Window, instant, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     first_look,
     is_us,
     look_of,
     looks,
     number,
-    somebodies,
 )
-from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, taken_place
-from xavi_dialogue.explain.answers.places import time_to_go, to_go
+from xavi_dialogue.explain.answers.occasions import occasion, taken_place
+from xavi_dialogue.explain.answers.places import to_go
 from xavi_dialogue.explain.answers.priority import (
     lawful,
     owed,
@@ -48,13 +46,15 @@ from xavi_dialogue.explain.answers.priority import (
     where_rule_holds,
 )
 from xavi_dialogue.explain.answers.room import free
-from xavi_dialogue.explain.history.thresholds import STANDING
+from xavi_dialogue.explain.answers.sight import busy, minded
+from xavi_dialogue.explain.answers.stages import actor, late, over, still, stuck
 
 NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
 NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
 BIG = 7.0  # [m] from which a vehicle is big
-MANY = 6  # vehicles in view from which it is busy
-STUCK = 5.0  # [s] at a standstill from which one is stuck
+#: What goes on all the time: how it feels is asked of the ride.
+GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
+LATELY = 6.0  # [s] for which what is over is what "that" was
 RIGHT_OF_WAY = ("enter", "turn", "exit-left", "exit-right", "exit-straight", "cross", "go", "merge")
 
 
@@ -74,13 +74,6 @@ def handed(question: Question, asked: Asked) -> Answer | None:
     """Give the answer of the causal explainers, where the question is one of theirs."""
     explainer = causal.explainer(question, asked)
     return None if explainer is None else explainer(question, asked)
-
-
-def actor(of: Is) -> Thing:
-    """Tell whose state it is: ours where nobody is named."""
-    if of.thing is not None:
-        return of.thing
-    return Ego() if of.event is None else of.event.actor
 
 
 def _about(of: Is, asked: Asked) -> Window:
@@ -107,11 +100,15 @@ def _safe(of: Is, asked: Asked) -> Finding:
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:
+    if of.event is not None and of.event.action in GOING_ON:
+        of = with_fields(of, event=None)
     if of.event is not None:
         taken_place(asked, of.event)
-    about = _about(of, asked)
-    if of.event is None and about.instant and asked.past is None:
-        about = Window(asked.world.begin, asked.now)
+    about, begin = _about(of, asked), asked.world.begin
+    if of.event is None and about.instant and is_past(asked, of.time, of.tense):
+        about = Window(max(begin, asked.now - RECENT), asked.now)
+    elif of.event is None and about.instant and asked.past is None:
+        about = Window(begin, asked.now)
     found = comfort_of(asked, about)
     return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
 
@@ -190,18 +187,9 @@ def _seen(of: Is, asked: Asked) -> Finding:
     return Finding(look.in_view == (of.state in ("visible", "present")), facts)
 
 
-def _still(of: Is, asked: Asked) -> Finding:
-    about = window(asked, of.time, of.tense)
-    past = is_past(asked, of.time, of.tense)
-    if past and not about.instant:
-        event = Event("stand" if of.state == "stationary" else "move", actor(of), time=of.time)
-        return happens(Happens(event), asked)
-    who = (somebodies(asked, actor(of), about.end) or (Ego(),))[0]
-    speed = asked.world.measure("speed", who, instant(asked, of.time, of.tense))
-    if speed.value is None:
-        look = look_of(asked, who, asked.now)
-        return unknown(speed.gap or "not-recorded", *(() if look is None else (look,)))
-    return Finding((speed.value < STANDING) == (of.state == "stationary"), (speed,))
+def _is_told(asked: Asked) -> bool:
+    """Tell whether the passenger said when."""
+    return asked.past is not None and asked.past.said
 
 
 def _close(of: Is, asked: Asked) -> Finding:
@@ -211,6 +199,8 @@ def _close(of: Is, asked: Asked) -> Finding:
     past = is_past(asked, of.time, of.tense)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
     if past:
+        if vehicle is not None and asked.now - about.end <= LATELY and not _is_told(asked):
+            about = Window(about.begin, asked.now)  # what came nearest may be just over
         return Finding(None, answer=closeness(asked, vehicle, about, "close"))
     if vehicle is None:
         return Finding(None, answer=closeness(asked, None, about, "close", past=False))
@@ -228,51 +218,6 @@ def _close(of: Is, asked: Asked) -> Finding:
         near = headway.value < (NEAR_GAP if not of.too else NEAR_GAP / 2.0)
         return Finding(near == (of.state == "close"), known(gap, headway))
     return Finding((distance.value < NEAR) == (of.state == "close"), known(distance))
-
-
-def _over(of: Is, asked: Asked) -> Finding:
-    """Tell whether what is spoken of is over."""
-    vehicle = number(of.thing)
-    if of.event is not None:
-        found = taken_place(asked, of.event)
-        return Finding(found.end is not None and found.end < asked.now, (found,))
-    if vehicle is not None:
-        look = asked.world.look(vehicle, asked.now)
-        passed = look is not None and (not look.in_view or look.ahead < 0.0)
-        return Finding(passed, () if look is None else (look,))
-    if asked.ride.arrived or asked.ride.ended:
-        return Finding(True)
-    told = [
-        e
-        for e in asked.world.episodes()
-        if e.action not in PLAIN
-        and e.action != "speed-up"
-        and (isinstance(e.actor, Ego) or isinstance(e.object, Ego))
-    ]
-    past = asked.past
-    inside = [e for e in told if past is None or asked.meets(e.begin, e.end)]
-    on = [e for e in inside if e.end is None]
-    last = [e for e in on or inside if isinstance(e.actor, Ego)] or on or inside
-    return Finding(not on, tuple(last[-1:]))
-
-
-def _late(of: Is, asked: Asked) -> Finding:
-    """Tell whether we are late: no record has a time by which we are to be there."""
-    return unknown("unknown-plans", *known(time_to_go(asked, asked.now)))
-
-
-def _stuck(of: Is, asked: Asked) -> Finding:
-    who = actor(of)
-    event = Event("stand", who, time=of.time, tense="present")
-    found = occasion(asked, event)
-    if found is None:
-        speed = asked.world.measure("speed", (somebodies(asked, who, asked.now) or (Ego(),))[0],
-                                    asked.now)  # fmt: skip
-        return Finding(False, known(speed))
-    waiting = occasion(asked, Event("wait", who, tense="present"))
-    wait = (remaining_wait(asked),) if is_us(who) and stands(asked) else ()
-    facts: tuple[Fact, ...] = (waiting or found, *known(*wait))
-    return Finding(asked.now - found.begin >= STUCK, facts)
 
 
 def _sure(of: Is, asked: Asked) -> Finding:
@@ -306,12 +251,6 @@ def _big(of: Is, asked: Asked) -> Finding:
     return Finding(size.value >= BIG, (size, *(() if look is None else (look,))))
 
 
-def _busy(of: Is, asked: Asked) -> Finding:
-    at = instant(asked, of.time, of.tense)
-    seen = looks(asked, asked.world.in_view(at), at)
-    return Finding(len(seen) >= MANY, seen)
-
-
 def _constant(holds: bool | None, gap: Gap | None = None) -> Callable[[Is, Asked], Finding]:
     return lambda of, asked: Finding(holds, gap=gap)
 
@@ -322,14 +261,14 @@ STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
     "allowed": _allowed, "necessary": _judged, "worth-it": _judged, "better": _judged,
     "possible": _possible, "free": free,
     "visible": _seen, "hidden": _seen, "present": _seen, "lost": _seen,
-    "stationary": _still, "moving": _still,
+    "stationary": still, "moving": still,
     "fast": fast, "slow": fast, "close": _close, "far": _close,
-    "sure": _sure, "over": _over, "late": _late, "stuck": _stuck,
+    "sure": _sure, "over": over, "late": late, "stuck": stuck,
     "wrong": wrong, "right": wrong, "at-fault": _at_fault,
-    "first": _first, "last": _first, "big": _big, "busy": _busy,
+    "first": _first, "last": _first, "big": _big, "busy": busy,
     "normal": _constant(None, "not-recorded"),
     "dirty": _constant(None, "not-sensed"),
     "faulty": broken_down,
-    "awake": _constant(None, "others-thoughts"),
+    "awake": minded, "upset": minded,
     "autonomous": _constant(True),
 }  # fmt: skip

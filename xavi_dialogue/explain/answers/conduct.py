@@ -30,15 +30,28 @@ CLOSE, CLOSE_GAP = 1.5, 8.0  # [s], [m] up to which we moved in close ahead of h
 FIRM = 1.0  # [m/s2] deceleration from which somebody who brakes is stopping
 
 
+CHANGING: tuple[ActionName, ...] = ("change-left", "change-right", "change-lane")
+
+
 def conduct(asked: Asked, event: Event) -> Finding | None:
     """Weigh what positions and speeds show of an event; None where they add nothing."""
     if event.modal is not None or is_ahead(asked, event.time, event.tense):
         return None
     vehicle = number(event.actor)
-    if event.action == "cut-in" and is_us(event.actor) and number(event.object) is not None:
-        return _cutting_in(asked, event, number(event.object) or 0)
+    into = event.action in ("cut-in", "pull-out") and number(event.object) is not None
+    if into and is_us(event.actor):
+        cut = replace(event, action="cut-in")
+        found = _cutting_in(asked, cut, number(event.object) or 0)
+        if found is not None or event.action == "cut-in":
+            return found
     if event.action == "overtake" and is_us(event.actor) and event.tense == "present":
         return _passing(asked, event, number(event.object) or 0)
+    ahead = event.where.to if event.where and event.where.relation == "ahead-of" else None
+    if event.action in CHANGING and is_us(event.actor) and isinstance(ahead, Vehicle):
+        cut = Event("cut-in", Ego(), ahead, time=event.time, tense=event.tense)
+        return _cutting_in(asked, cut, ahead.number) or _cut_in(asked, cut, ahead)
+    if event.action == "follow" and is_us(event.actor) and number(event.object) is not None:
+        return _moving_behind(asked, event, number(event.object) or 0)
     if vehicle is None:
         straight = event.action in ("exit-straight", "continue") and event.tense == "present"
         return _straight(asked) if straight and is_us(event.actor) else None
@@ -68,6 +81,31 @@ def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:
     braked = occasion(asked, Event("brake", Vehicle(behind), time=event.time))
     late = braked is not None and braked.begin >= change.begin
     return Finding(True, (change, *((braked,) if braked is not None and late else ())))
+
+
+def _cut_in(asked: Asked, event: Event, behind: Vehicle) -> Finding | None:
+    """Tell that we moved in ahead of somebody, and that he braked then."""
+    changes = asked.world.episodes(actor=Ego(), actions=CHANGING, begin=asked.now - LATELY)
+    held = occasion(asked, event) or next(iter(changes[-1:]), None)
+    braked = occasion(asked, Event("brake", behind, time=event.time))
+    late = held is not None and braked is not None and braked.begin >= held.begin - 1.0
+    if held is None or not (late or held.action == "cut-in"):
+        return None
+    return Finding(True, (held, braked) if late and braked is not None else (held,))
+
+
+def _moving_behind(asked: Asked, event: Event, leader: int) -> Finding | None:
+    """Tell whether we are changing to the lane in which somebody drives ahead."""
+    look = asked.world.look(leader, asked.now)
+    if _over(asked, event) or look is None or look.ahead <= 0.0 or look.oncoming:
+        return None
+    found = asked.world.episodes(actor=Ego(), actions=("change-left", "change-right"),
+                                 begin=asked.now - LATELY)  # fmt: skip
+    change = next((e for e in reversed(found) if e.end is None), None)
+    if change is None or occasion(asked, event) is not None:
+        return None
+    towards = look.left > ASIDE if change.action == "change-left" else look.left < -ASIDE
+    return Finding(True, (change,)) if towards else None
 
 
 def _passing(asked: Asked, event: Event, other: int) -> Finding | None:

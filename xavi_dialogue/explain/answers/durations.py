@@ -1,12 +1,14 @@
 """Durations: how long something lasted, how long one waited, and what a manoeuvre cost."""
 
+from msgspec.structs import replace
+
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Happenings, Measures
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.foreseen import HALTS
+from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS
 from xavi_dialogue.explain.answers.moments import Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import is_us, looks
 from xavi_dialogue.explain.answers.occasions import (
@@ -18,9 +20,12 @@ from xavi_dialogue.explain.answers.occasions import (
     overlaps,
 )
 from xavi_dialogue.explain.answers.places import time_to_go
-from xavi_dialogue.explain.answers.plans import horizon, moving_on
+from xavi_dialogue.explain.answers.plans import foreseen, horizon, moving_on
 from xavi_dialogue.explain.history.thresholds import STANDING
 
+SOON = 3.0  # [s] within which one is about to stop
+LATELY = 15.0  # [s] since when what held us up is still spoken of
+PAUSE = 3.0  # [s] between two slowings that make one
 JOINED = 0.5  # [s] between what belongs together
 #: What costs time.
 HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
@@ -40,7 +45,7 @@ def event_lasting(event: Event, asked: Asked) -> Answer:
     ahead = is_ahead(asked, event.time, event.tense) or (
         event.modal == "must" and event.tense == "present"
     )
-    if ahead and event.action in HALTS and is_us(event.actor) and _waits(asked):
+    if ahead and event.action in HALTS and is_us(event.actor) and halted(asked):
         return Measures((remaining_wait(asked),))
     found = occasion(asked, event)
     if found is None and event.action in HALTS:
@@ -106,6 +111,14 @@ def stands(asked: Asked) -> bool:
     return bool(motion.speed) and motion.speed[-1] < STANDING
 
 
+def halted(asked: Asked) -> bool:
+    """Tell whether our car stands, waits, or is about to come to a halt."""
+    if _waits(asked):
+        return True
+    found = foreseen(asked, Event("stop"))
+    return found is not None and found.share >= EXPECTED and found.moment - asked.now < SOON
+
+
 def _waits(asked: Asked) -> bool:
     """Tell whether our car stands, or is about to wait."""
     on = asked.world.episodes(actor=Ego(), actions=WAITS, begin=asked.now - 0.5)
@@ -154,7 +167,8 @@ def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
     else:
         slow = list(asked.world.episodes(actor=Ego(), actions=HELD))
         near = [e for e in slow if overlaps(asked, e, about.widened())]
-        found = max(near or slow[-1:], key=lambda e: duration(asked, e), default=None)
+        late = [e for e in near if e.end is None or e.end >= asked.now - LATELY]
+        found = max(late or near or slow[-1:], key=lambda e: duration(asked, e), default=None)
     if found is None:
         raise did_not_happen(asked, event or Event("slow-down"))
     return lost(asked, found) or asked.world.delay(found)
@@ -163,13 +177,25 @@ def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
 def held_for(asked: Asked, other: Thing) -> Event:
     """Name what we did last for another vehicle that held us up."""
     found = asked.world.episodes(Ego(), HELD, object=other)
-    return Event(found[-1].action if found else "give-way", object=other)
+    trailed = asked.world.episodes(Ego(), ("follow",), object=other)
+    named = found or trailed
+    return Event(named[-1].action if named else "give-way", object=other)
 
 
 def lost(asked: Asked, deed: Episode) -> Measure | None:
     """Tell how much time [s] the slowing and waiting cost of which a deed of ours is a part."""
+    deed = replace(deed, begin=_since(asked, deed))
     end = asked.now if deed.end is None else deed.end
     part = asked.world.episodes(Ego(), HELD, deed.begin - JOINED, end + JOINED)
     costs = [asked.world.delay(e) for e in (deed, *part)]
     told = [cost for cost in costs if cost.value is not None]
     return max(told, key=lambda cost: cost.value or 0.0, default=None)
+
+
+def _since(asked: Asked, deed: Episode) -> float:
+    """Tell since when [s] we had slowed down again and again, with hardly a pause."""
+    begin = deed.begin
+    for one in sorted(asked.world.episodes(Ego(), HELD), key=lambda e: -e.begin):
+        if one.end is not None and one.begin < begin <= one.end + PAUSE:
+            begin = one.begin
+    return begin

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import Answer, Priority, Verdict
 from xavi_dialogue.domain.meaning import Fault, Whether, Why
 from xavi_dialogue.domain.terms import (
+    Both,
     Ego,
     Event,
     Everyone,
@@ -26,6 +27,7 @@ from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.halting import to_come
 from xavi_dialogue.explain.answers.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
@@ -44,6 +46,8 @@ FOR_ANOTHER: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
 GOING: tuple[ActionName, ...] = ("go", "enter", "cross", "merge", "pull-out", "turn", "pass")
 #: What we are said to do who cannot go on.
 STUCK: tuple[ActionName, ...] = ("keep-lane", "stand", "wait")
+#: What somebody does who comes into another one's way.
+INTO_PATH: tuple[ActionName, ...] = ("pull-out", "cut-in", "cross", "block")
 LIKELY = 0.5  # probability from which somebody is expected to stop for us all the same
 DUTIES = frozenset(("must", "should"))
 
@@ -61,6 +65,8 @@ def duty(asked: Asked, event: Event) -> Finding | None:
         return None if explainer is None else Finding(None, answer=explainer(told, asked))
     if event.modal is None and past and event.action in GOING and "first" in event.manner:
         return _went_first(asked, event)
+    if event.modal is None and event.action in INTO_PATH and is_us(event.actor):
+        return _before_him(asked, event)
     if event.modal not in DUTIES:
         return _unwilling(asked, event)
     if event.modal == "should" and past and is_us(event.actor) and event.action in YIELDING:
@@ -92,6 +98,17 @@ def _went_first(asked: Asked, event: Event) -> Finding | None:
     return Finding(holds, answer=replace(found, holds=holds))
 
 
+def _before_him(asked: Asked, event: Event) -> Finding | None:
+    """Tell of somebody whose way we came into at a junction that we went first."""
+    vehicle = number(event.object)
+    if vehicle is None or event.tense == "future" or occasion(asked, event) is not None:
+        return None
+    found = priority_at(asked, vehicle, window(asked, event.time, "past"))
+    if found.rule not in ("give-way", "equal", "depends") or not isinstance(found.first, Ego):
+        return None
+    return Finding(True, answer=replace(found, holds=True))
+
+
 def _unwilling(asked: Asked, event: Event) -> Finding | None:
     """Tell of somebody who is asked to stop for us that he goes first, where the rule is so."""
     if event.action in ("give-way", "let-go") and is_us(event.actor):
@@ -105,9 +122,13 @@ def _unwilling(asked: Asked, event: Event) -> Finding | None:
     if not towards_us or not to_come or number(event.actor) is None:
         return None
     present = replace(event, tense="present")
-    if occasion(asked, present) is not None or (chance(asked, event, asked.now) or 0.0) >= LIKELY:
+    if occasion(asked, present) is not None:
         return None
     found = _owed(asked, present, event.actor, event.object)
+    if found.holds and isinstance(found.answer, Priority):
+        return found  # it slows down to, if it does not stand yet
+    if (chance(asked, event, asked.now) or 0.0) >= LIKELY:
+        return None
     return found if found.holds is False and isinstance(found.answer, Priority) else None
 
 
@@ -127,6 +148,19 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
 def is_owed(of: Proposition) -> bool:
     """Tell whether it is said of somebody that he has to let another go first."""
     return isinstance(of, Happens) and of.event.modal in DUTIES and _pair(of.event) is not None
+
+
+def of_order(of: Both) -> Related | None:
+    """Give the right of way that is asked after by "do they go first or do we?"; None: else."""
+    for part in of.contents:
+        match part:
+            case Related(relation="has-priority-over" | "must-yield-to", tense="present"):
+                return part
+            case Happens(event=Event(action=action, tense="present", modal=None) as event) if (
+                action in GOING and "first" in event.manner
+            ):
+                return Related("has-priority-over", event.actor, Ego(), event.time)
+    return None
 
 
 def _pair(event: Event) -> tuple[Thing | None, Thing | None] | None:
@@ -178,6 +212,12 @@ def _owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: b
 def _advised(asked: Asked, event: Event) -> Finding | None:
     """Tell why we do not, or did not, do what we should, or that we do."""
     plain = replace(event, modal=None)
+    if event.action in FOR_ANOTHER and event.tense in ("present", "future"):
+        present = replace(plain, tense="present", time=Unsaid())
+        if occasion(asked, present) is not None:
+            return _handed(asked, Why(Happens(present)))
+        if (coming := to_come(asked, present)) is not None:
+            return Finding(None, answer=coming)
     paced = {"fast", "slowly"} & set(event.manner) or event.action in ("speed-up", "slow-down")
     held = None if event.action in GOING or paced else occasion(asked, plain)
     if held is not None:
@@ -230,6 +270,8 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     match such:
         case Related(relation="has-priority-over" | "must-yield-to"):
             pair, time, tense = (such.thing, such.to), such.time, such.tense
+        case Is(state="allowed", event=Event() as event) if (found := _pair(event)) is not None:
+            pair, time, tense = found, event.time, event.tense
         case Happens(event=event) if (found := _pair(event)) is not None and _duty_of(event):
             pair, time, tense = found, event.time, event.tense
         case _:
@@ -239,7 +281,31 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     about = window(asked, time, "past") if past else Window(asked.now, asked.now)
     if past and vehicle is None:
         about = where_rule_holds(asked, None, about)
-    return priority_at(asked, vehicle, about)
+    if vehicle is None and not past and (every := _to_all(asked, about, *pair)) is not None:
+        return every
+    told = priority_at(asked, vehicle, about)
+    if told.rule == "none" and vehicle is None:
+        told = priority_at(asked, None, where_rule_holds(asked, None, _ride(asked)))
+    return told
+
+
+def _to_all(
+    asked: Asked, about: Window, yielder: Thing | None, other: Thing | None
+) -> Priority | None:
+    """Tell to whom we have to yield now, or who all has to yield to us; None where nobody has."""
+    road = asked.world.road(asked.now)
+    if road is None or is_us(yielder) == is_us(other):
+        return None
+    near = {fact.vehicle for fact in road.priority}
+    among = tuple(v for v in asked.world.in_view(asked.now) if v in near)
+    found = _owed_to_all(asked, among, about, ours=is_us(yielder))
+    told = found.answer
+    return replace(told, holds=None) if isinstance(told, Priority) and found.holds else None
+
+
+def _ride(asked: Asked) -> Window:
+    """Give the whole ride so far."""
+    return Window(asked.world.begin, asked.now)
 
 
 def _duty_of(event: Event) -> bool:

@@ -74,13 +74,13 @@ def _answer(scene: Asked) -> Answer:
         question = act.question
         explainer = causal.explainer(question, scene) or factual.QUESTIONS.get(type(question))
         if explainer is None:
-            raise Unanswered(NotUnderstood(about=(type(question).__name__,)))
+            raise Unanswered(NotUnderstood())
         return explainer(question, scene)
     if isinstance(act, Beyond):
         raise Unanswered(CannotSay(act.topic, act.words))
     found = factual.ACTS.get(type(act))
     if found is None:
-        raise Unanswered(NotUnderstood(about=(type(act).__name__,)))
+        raise Unanswered(NotUnderstood())
     return found(act, scene)
 
 

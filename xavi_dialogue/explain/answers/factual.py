@@ -33,10 +33,11 @@ from xavi_dialogue.explain.answers.counting import how_many
 from xavi_dialogue.explain.answers.decisions import changed
 from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.happenings import doing, when
-from xavi_dialogue.explain.answers.identify import identify, which
+from xavi_dialogue.explain.answers.identify import identify
 from xavi_dialogue.explain.answers.lasting import how_long
 from xavi_dialogue.explain.answers.measures import how_much
 from xavi_dialogue.explain.answers.places import where, whither
+from xavi_dialogue.explain.answers.queues import who
 from xavi_dialogue.explain.answers.requests import request
 from xavi_dialogue.explain.answers.rivals import rivals
 from xavi_dialogue.explain.answers.summits import peak
@@ -48,7 +49,7 @@ Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 #: By type of question; those after reasons, suppositions and decisions are in `causal`.
 QUESTIONS: Mapping[type, Explainer] = {
     Whether: whether,
-    Which: which,
+    Which: who,
     Identify: identify,
     HowMuch: how_much,
     HowMany: how_many,

@@ -2,20 +2,22 @@
 
 from msgspec.structs import replace
 
-from planner.trace import Action, HeldUp, TrajectoryPrediction
+from planner.trace import Action, HeldUp, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
-from xavi_dialogue.domain.terms import Event, Vehicle
+from xavi_dialogue.domain.terms import Event, Road, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import overlaps
+from xavi_dialogue.explain.answers.precedence import first, into_our_road
 from xavi_dialogue.explain.history.motion import branches_off, foresees
 from xavi_dialogue.explain.history.ride import planned, prediction
 
 EXPECTED = 0.5  # probability from which something was expected
 MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
+OPEN = 0.1  # probability from which something else is told beside what is asked about
 CLEAR = 0.6  # from which one may be said to have been wrong
 BEFORE = 10.0  # [s] before an event that a prediction of it can be from
 
@@ -25,6 +27,7 @@ MEANINGS: dict[ActionName, tuple[Action, ...]] = {
     "continue": ("continue", "exit-straight"),
     "exit-straight": ("continue", "exit-straight"),
     "keep-lane": ("continue",),
+    "pass": ("continue", "exit-straight"),
     "turn": ("exit-left", "exit-right"),
     "leave": ("exit-left", "exit-right", "exit-straight"),
     "change-lane": ("change-left", "change-right"),
@@ -46,6 +49,8 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
         return None
     if event.action in ("collide", "nearly-collide"):
         return collision_chance(asked, at, vehicle)
+    if event.action in ("stop", "slow-down", "brake") and is_us(event.object):
+        event = replace(event, action="give-way")  # "will he stop for us?"
     event = _alongside(asked, event, vehicle, at)
     trace = asked.ride.at(at, vehicle)
     known = None if trace is None else prediction(trace, vehicle)
@@ -54,7 +59,8 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
     total, any_known = 0.0, False
     for goal in known.goals:
         for way in goal.trajectories:
-            does = _on_branch(event) if branches_off(goal, way) else foretells(way, event)
+            does = _on_branch(event) if branches_off(goal, way) else None
+            does = _meeting_us(trace, way, event) if does is None else does
             does = foretells(way, event) if does is None else does
             if does is None:
                 continue
@@ -73,6 +79,19 @@ def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
     if event.action == "pull-out" and look.bearing in ("ahead", "behind"):
         return replace(event, action="change-lane")  # from before or behind us, to another lane
     return replace(event, action="change-right" if look.left > 0.0 else "change-left")
+
+
+def _meeting_us(trace: PlanTrace, way: TrajectoryPrediction, event: Event) -> bool | None:
+    """Tell whether a predicted way leads before us, behind us or into our road, where asked."""
+    ours = event.object is None or is_us(event.object)
+    if event.action == "enter" and event.object == Road("own"):
+        return into_our_road(trace, way)
+    if not ours or event.action not in ("pull-out", "cross", *YIELDS):
+        return None
+    came, yields = first(trace, way), event.action in YIELDS
+    if came is None or (yields and came == "nobody"):
+        return None
+    return (came == "they") != yields
 
 
 def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
@@ -140,6 +159,13 @@ def matches(expected: Expectation, event: Event) -> bool | None:
     return contains(expected.actions, event)
 
 
+def besides(belief: Belief | None, event: Event) -> tuple[Expectation, ...]:
+    """Give what else than an event is likely by a belief, likeliest first."""
+    found = () if belief is None else belief.expectations
+    others = (e for e in found if e.probability >= OPEN and matches(e, event) is False)
+    return tuple(e for e in others if event.action not in e.actions)
+
+
 def belief_before(asked: Asked, event: Event, came: Episode | None, at: float) -> Belief | None:
     """Tell what was believed of the actor just before an event; else at a time [s]."""
     vehicle = number(event.actor)
@@ -158,7 +184,7 @@ def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belie
         came: whether it did.
     """
     vehicle = number(event.actor)
-    if vehicle is None or not macros(event) or event.action == "overtake":
+    if vehicle is None or not macros(event) or event.action in ("overtake", "pass"):
         return None  # who drives past in his own lane was not foreseen to leave it
     known = asked.world.beliefs(vehicle, max(about.begin - BEFORE, asked.world.begin), about.end)
     for belief in reversed(known):
@@ -184,6 +210,14 @@ def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
     found = asked.world.episodes(actor=Vehicle(vehicle), actions=ways, begin=since)
     later = [e for e in found if e.begin >= since - 0.5 or overlaps(asked, e, Window(since, since))]
     return min(later, key=lambda e: (ways.index(e.action) > 2, e.begin), default=None)
+
+
+def is_open(asked: Asked, belief: Belief) -> bool:
+    """Tell whether it is yet to be seen where a vehicle goes, as when it only changed lanes."""
+    came = came_of(asked, belief.vehicle, belief.time)
+    look = asked.world.look(belief.vehicle, asked.now)
+    undecided = came is None or came.action in ("change-left", "change-right")
+    return undecided and look is not None and look.in_view
 
 
 def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> float | None:

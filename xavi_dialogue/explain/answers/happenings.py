@@ -5,6 +5,7 @@ from typing import Literal
 
 from msgspec.structs import replace
 
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Activity,
     Answer,
@@ -32,7 +33,7 @@ from xavi_dialogue.explain.answers.accounts import TOLD, select, summary, taking
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import since_when
 from xavi_dialogue.explain.answers.findings import known as valued
-from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.foreseen import besides, chance
 from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
 from xavi_dialogue.explain.answers.occasions import (
@@ -47,6 +48,9 @@ from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
 from xavi_dialogue.explain.answers.reaching import reaching
 from xavi_dialogue.explain.answers.weighing import weigh
 from xavi_dialogue.explain.causes.announced import announced
+from xavi_dialogue.explain.history.motion import Trend
+
+CHANGING = 0.1  # [m/s2] from which a speed still changes
 
 
 def when(question: When, asked: Asked) -> Answer:
@@ -69,10 +73,13 @@ def when(question: When, asked: Asked) -> Answer:
     if leaving is not None:
         return leaving
     ahead = is_ahead(asked, event.time, event.tense)
+    if ahead and event.action == "move" and event.object is None and is_us(event.actor):
+        event = replace(event, action="go")
+        of = Happens(event)
     under_way = occasion(asked, replace(event, tense="present")) if ahead else None
     if ahead and under_way is None:
         return _to_come(asked, of)
-    found = under_way or occasion(asked, event)
+    found = under_way or occasion(asked, event) or _entered(asked, event)
     if found is None:
         raise did_not_happen(asked, event, planned=_planned(asked, event))
     form: Literal["how-long", "when"] = "how-long" if question.edge == "end" else "when"
@@ -80,6 +87,15 @@ def when(question: When, asked: Asked) -> Answer:
         form, (found,), found.actor, looks=taking_part(asked, (found,)), asked=event,
         measures=_until(asked, found) if question.edge == "end" else (),
     )  # fmt: skip
+
+
+def _entered(asked: Asked, event: Event) -> Episode | None:
+    """Give our way through the junction that we entered, or drove into, last."""
+    if event.action != "enter" or not is_us(event.actor) or event.tense == "future":
+        return None
+    about = window(asked, event.time, event.tense)
+    ways = asked.world.episodes(Ego(), ("exit-left", "exit-right", "exit-straight"), end=about.end)
+    return ways[-1] if ways else None
 
 
 def doing(question: Doing, asked: Asked) -> Answer:
@@ -137,8 +153,7 @@ def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
         ]
     speed = world.measure("speed", actor, at)
     vehicle = number(actor)
-    motion = asked.ride.motion(0 if vehicle is None else vehicle)
-    trend = motion.until(at).trend
+    trend = _trend(asked, EGO if vehicle is None else vehicle, at)
     look = look_of(asked, actor, at)
     belief = None if vehicle is None else world.belief(vehicle, at)
     lost = look is not None and not look.in_view
@@ -146,6 +161,16 @@ def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
         actor, at, () if lost else tuple(on), None if lost else speed.value,
         None if lost else trend, look, belief,
     )  # fmt: skip
+
+
+def _trend(asked: Asked, vehicle: int, at: float) -> Trend | None:
+    """Tell what a speed is doing at a time [s], over as soon as the newest scene shows it over."""
+    trend, scene = asked.ride.motion(vehicle).until(at).trend, asked.ride.scene
+    seen = None if scene is None or at < scene.time else scene.vehicles.get(vehicle)
+    if seen is None or trend not in ("slowing", "speeding-up"):
+        return trend
+    rate = seen.acceleration if trend == "speeding-up" else -seen.acceleration
+    return trend if rate > CHANGING else "steady"
 
 
 def _to_come(asked: Asked, of: Happens) -> Answer:
@@ -168,6 +193,8 @@ def _to_come(asked: Asked, of: Happens) -> Answer:
     vehicle = number(event.actor)
     share = chance(asked, event, asked.now)
     belief = None if vehicle is None else asked.world.belief(vehicle, asked.now)
+    if belief is not None:
+        belief = replace(belief, expectations=besides(belief, event))
     return Verdict(
         of, None, gap="in-future", believed=() if belief is None else (belief,), probability=share
     )

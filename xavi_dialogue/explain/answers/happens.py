@@ -21,14 +21,16 @@ from xavi_dialogue.explain.answers.findings import Finding, expected, known, unk
 from xavi_dialogue.explain.answers.foreseen import (
     HALTS,
     YIELDS,
+    besides,
     chance,
     collision_chance,
+    is_open,
     macros,
     wrong_belief,
 )
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
-from xavi_dialogue.explain.answers.nearing import closes, nears, passes, stays
+from xavi_dialogue.explain.answers.nearing import closes, nears, passes, stays, trails
 from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.picking import likeliest
 from xavi_dialogue.explain.answers.places import to_go, told
@@ -40,7 +42,7 @@ INTENDED: tuple[ActionName, ...] = ("pull-out", "let-go", "give-way", "enter", "
 CHANGES: frozenset[ActionName] = frozenset(("change-left", "change-right", "change-lane"))
 RECENT = 2.0  # [s] for which it may still be told what somebody who is hidden is going to do
 NEARLY = 10.0  # [s] before we are there from which on we are nearly there
-AT_HAND = 100.0  # [m] likewise
+AT_HAND = 150.0  # [m] likewise
 ROLLING = 1.0  # [m/s] from which somebody is on the move
 SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
 
@@ -67,7 +69,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
         coming = comes(asked, event)
         if coming is not None:
             return coming
-    if (moves := _moves(asked, event) or closes(asked, event)) is not None:
+    if moves := _moves(asked, event) or closes(asked, event) or trails(asked, event):
         return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
     if ahead or _intended(asked, event):
@@ -122,7 +124,7 @@ def _intended(asked: Asked, event: Event) -> bool:
     """Tell whether "is he turning off?" asks of somebody what he has not begun: what comes."""
     if event.tense != "present" or not isinstance(event.time, Unsaid | Now):
         return False
-    if is_us(event.actor) and event.action in CHANGES:
+    if is_us(event.actor) and (event.action in CHANGES or event.action == "keep-lane"):
         return asked.past is None and occasion(asked, event) is None
     if number(event.actor) is None or asked.past is not None:
         return False
@@ -143,6 +145,8 @@ def _has_been(asked: Asked, event: Event) -> Finding:
     if lost is not None:
         return lost
     wrong = wrong_belief(asked, event, about, came=False) if _was_to_tell(asked, event) else None
+    if wrong is not None and is_open(asked, wrong):
+        wrong = None
     facts: tuple[Fact, ...] = _how_hard(asked, event) or instead(asked, event, about)
     if event.tense == "present" or not facts:
         facts = (*_under_way(asked, event, about), *_speeds(asked, event, about)) or facts
@@ -178,7 +182,8 @@ def _to_come(asked: Asked, event: Event) -> Finding:
         if nearing is not None:
             return nearing
         found = foreseen(asked, event)
-        if found is None and event.action in ("continue", "keep-lane", "follow"):
+        kept = event.action in ("keep-lane", "follow")
+        if kept or (found is None and event.action == "continue"):
             moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
             remains = 1.0 - max((f.share for f in moves if f is not None), default=0.0)
             return expected(remains, *going)
@@ -203,6 +208,8 @@ def _to_come(asked: Asked, event: Event) -> Finding:
         return Finding(None, (), "in-future", answer=Bound(Vehicle(vehicle), belief))
     if look is not None and not look.in_view and now - (look.seen or now) > RECENT:
         return Finding(None, (look,), "out-of-view", () if belief is None else (belief,))
+    if belief is not None and not going:
+        belief = with_fields(belief, expectations=besides(belief, event))
     return expected(share, *going, believed=() if belief is None else (belief,))
 
 

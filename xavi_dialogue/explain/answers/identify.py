@@ -2,12 +2,13 @@
 
 from typing import Literal, TypeVar
 
-from msgspec.structs import fields, replace
+from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, Identified, Located, Priority
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Episode, Fact, Look, Relating
 from xavi_dialogue.domain.meaning import Identify, Which
+from xavi_dialogue.domain.rewriting import with_wanted
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -29,6 +30,7 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import time_of
 from xavi_dialogue.explain.answers.duties import who_first
 from xavi_dialogue.explain.answers.findings import Finding, known
+from xavi_dialogue.explain.answers.foreseen import YIELDS
 from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import (
     check_sense,
@@ -38,7 +40,14 @@ from xavi_dialogue.explain.answers.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, occasions, overlaps
-from xavi_dialogue.explain.answers.picking import extreme_of, lately_lost, owed_by_other
+from xavi_dialogue.explain.answers.others import why
+from xavi_dialogue.explain.answers.picking import (
+    extreme_of,
+    in_line,
+    lately_lost,
+    owed_by_other,
+    spent,
+)
 from xavi_dialogue.explain.answers.places import locate
 from xavi_dialogue.explain.answers.weighing import weigh
 
@@ -89,6 +98,9 @@ def which(question: Which, asked: Asked) -> Answer:
     such = question.such
     if such is None:
         return identified(asked, question.thing, asked.moment)
+    rule = who_first(asked, such) if isinstance(such, Related) else None
+    if rule is not None and rule.rule != "none":
+        return rule
     owed = owed_by_other(such)
     given = None if owed is None else _who_did(replace(question, thing=Wanted()), owed, asked)
     if isinstance(given, Identified) and not given.none:
@@ -134,7 +146,7 @@ def _who_did(question: Which, such: Happens, asked: Asked) -> Answer:
 def _told(
     asked: Asked, event: Event, candidate: Ego | Vehicle
 ) -> list[tuple[Episode, Ego | Vehicle]]:
-    single = _substituted(event, candidate)
+    single = with_wanted(event, candidate)
     if single.actor == single.object:
         return []
     return [(e, candidate) for e in occasions(asked, single)]
@@ -151,10 +163,24 @@ def _nobody(question: Which, such: Proposition, asked: Asked) -> Answer:
             told = tuple(e for e in mine if e.action not in PLAIN)[-1:]
             raise Unanswered(DidNotHappen(alone, told))
         return Identified((), such, (done,), none=True)
+    if event is not None and isinstance(event.actor, Vehicle) and event.action in YIELDS:
+        return _waits_for(event, asked)
     if event is not None and event.action in ("pass", "overtake") and _wants(event.actor):
         near = _coming_past(asked)
         return Identified(near, such, _conduct(asked, _numbers(near), asked.now), none=not near)
     return Identified((), such, none=True)
+
+
+def _waits_for(event: Event, asked: Asked) -> Answer:
+    """Tell whom somebody has to let go first who is not seen to wait; else why it slows or stands.
+
+    Raises:
+        Unanswered: it does neither, or was never seen.
+    """
+    owed = weigh(Related("must-yield-to", event.actor, Ego()), asked)
+    if event.tense == "present" and owed.holds and isinstance(owed.answer, Priority):
+        return replace(owed.answer, holds=None)
+    return why(replace(event, action="wait", object=None), asked, negated=False)
 
 
 def _coming_past(asked: Asked) -> tuple[Look, ...]:
@@ -184,7 +210,7 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     found: list[tuple[float, Ego | Vehicle, Finding]] = []
     for candidate in _candidates(question, asked, ever=unseen):
         try:
-            one = weigh(_substituted(such, candidate), asked)
+            one = weigh(with_wanted(such, candidate), asked)
         except Unanswered:
             continue
         if isinstance(one.answer, Priority):
@@ -204,7 +230,8 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     if many or (_seen_merely(such) and len(seen) > 1):
         return Identified(tuple(sorted(seen, key=lambda look: look.distance)))
     if isinstance(such, Related):
-        seen = _plainest(such, seen)
+        other = isinstance(such.to, Vehicle)
+        seen = in_line(such, seen, asked, at) if other else _plainest(such, seen)
         if such.relation in STRAIGHT and not getattr(question.thing, "plural", False):
             seen = seen[:1]
     facts = tuple(f for _, _, one in found for f in (*one.facts, *one.believed))
@@ -259,22 +286,6 @@ def _of_kind(asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float) -> 
     return strict or of_kind(asked, vehicles, kind, at)
 
 
-def _substituted(term: Term, by: Thing) -> Term:
-    """Give the term with whoever is asked for in the place of `Wanted`."""
-    changed: dict[str, object] = {}
-    for field in fields(term):
-        value = getattr(term, field.name)
-        if isinstance(value, Wanted):
-            changed[field.name] = by
-        elif isinstance(value, tuple) and any(isinstance(x, Value) for x in value):
-            changed[field.name] = tuple(
-                _substituted(x, by) if isinstance(x, Value) else x for x in value
-            )
-        elif isinstance(value, Value):
-            changed[field.name] = _substituted(value, by)
-    return replace(term, **changed) if changed else term
-
-
 def _open(event: Event) -> Event:
     """An event asked of somebody: without a part that is asked for, its actor is."""
     parts = (event.actor, event.object)
@@ -300,7 +311,7 @@ def _conduct(asked: Asked, numbers: tuple[int, ...], at: float) -> tuple[Fact, .
         on = [
             e
             for e in asked.world.episodes(actor=Vehicle(v), begin=at - 0.5, end=at)
-            if e.end is None or e.end >= at - 0.5
+            if (e.end is None or e.end >= at - 0.5) and not spent(asked, e, at)
         ]
         found += [e for e in on if e.action not in PLAIN or e.action == "follow"][-1:]
     return tuple(found)

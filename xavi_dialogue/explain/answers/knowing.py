@@ -12,15 +12,29 @@ from xavi_dialogue.domain.answers import (
     Method,
     NeedRollout,
     NotRecorded,
+    Priority,
+    Verdict,
 )
+from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
-from xavi_dialogue.domain.terms import Event, Proposition, Vehicle
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Happens,
+    Now,
+    Proposition,
+    Related,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, foils
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.beliefs import since_when
-from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.beliefs import ruled, since_when
+from xavi_dialogue.explain.answers.foreseen import besides, chance, collision_chance
+from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.motions import motion
+from xavi_dialogue.explain.answers.priority import priority_at, right_of_way
 from xavi_dialogue.explain.answers.reading import (
     check_seen,
     event_of,
@@ -37,6 +51,7 @@ from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, premise
 from xavi_dialogue.explain.history.ride import prediction
 
+FORESEEN = 12.0  # [s] within which what came is what was foreseen
 MOVED = 0.05  # of probability, from which a belief has moved
 
 
@@ -50,6 +65,9 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
         Unanswered: nothing was believed of it; or the record lacks it.
     """
     of, _ = unwrapped(question.of)
+    if isinstance(of, Related) and of.relation in ("has-priority-over", "must-yield-to"):
+        about = window(scene, of.time, of.tense)
+        return replace(right_of_way(scene, of.thing, of.to, about), grounds=True)
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     yields = event is not None and event.action in YIELDS | {"wait"}
@@ -57,7 +75,11 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
         return since_when(scene, event)
     if vehicle is not None:
         names = () if event is None or is_own(event.actor) else conduct_names(event)
-        return grounds(scene.ride, vehicle, names, scene.moment)
+        held = event is None or event.modal == "would" or not isinstance(event.time, Now)
+        return grounds(scene.ride, vehicle, names, scene.moment, held=held)
+    rule = None if event is None else _owed(event, scene)
+    if rule is not None:
+        return rule
     held_up = None if event is None else _because_of(event, scene)
     if held_up is not None:
         return grounds(scene.ride, held_up, (), scene.moment)
@@ -71,12 +93,26 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
         Unanswered: the record lacks it.
     """
     of, negated = unwrapped(question.of)
+    if isinstance(of, Related) and of.relation == "has-priority-over":
+        rule = ruled(scene, of)
+        if rule is not None:
+            return rule
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     if vehicle is not None:
         of_it = event is not None and not is_own(event.actor) and event.action != "do"
         found = beliefs(scene, vehicle, event if of_it else None)
+        off = negated and event is not None and event.action in ("go", "move")
+        if off and found.probability is not None:  # "that it would not move off"
+            stays = replace(event, action="stand") if event is not None else None
+            found = replace(found, of=stays, probability=1.0 - found.probability, besides=())
         return replace(found, changed=question.changed)
+    if event is not None and event.action in ("collide", "nearly-collide"):
+        struck = vehicle_in(event.object)
+        share = collision_chance(scene, scene.moment, struck)
+        if struck is not None:
+            event = replace(event, actor=Vehicle(struck), object=Ego())
+        return Verdict(Happens(event), None, probability=share, either=True)
     return certain(scene, event, negated=negated)
 
 
@@ -140,7 +176,8 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
         time=trace.sim_time,
         why=None if told is None else _meanwhile(scene, vehicle, told),
         turning=told,
-        came=done[-1] if done else _went(scene, vehicle, trace.sim_time),
+        came=done[-1] if done else _went(scene, vehicle, trace.sim_time, names),
+        besides=() if event is None else besides(current, event),
     )
 
 
@@ -173,6 +210,19 @@ def _whom(scene: Asked, of: Proposition | None, event: Event | None) -> int | No
     thing = getattr(of, "thing", None)
     found = check_seen(scene, thing)
     return found if found is not None else vehicle_in(getattr(of, "to", None))
+
+
+def _owed(event: Event, scene: Asked) -> Priority | None:
+    """Give the right of way for which we gave way, or waited; None: it was not for that."""
+    whom = vehicle_in(event.object)
+    if event.action not in YIELDS | {"wait"} or not is_own(event.actor):
+        return None
+    about = scene.past or Span(scene.now, scene.now)
+    try:
+        found = priority_at(scene, whom, Window(about.begin, about.end))
+    except Unanswered:
+        return None
+    return found if found.rule == "give-way" else None
 
 
 def _because_of(event: Event, scene: Asked) -> int | None:
@@ -235,7 +285,10 @@ def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode
     return real[-1] if real else None
 
 
-def _went(scene: Asked, vehicle: int, since: float) -> Episode | None:
-    """Where a vehicle went, after a time [s]."""
-    found = scene.world.episodes(Vehicle(vehicle), (*EXITS, *CHANGES), begin=since)
-    return found[0] if found else None
+def _went(
+    scene: Asked, vehicle: int, since: float, names: tuple[ActionName, ...]
+) -> Episode | None:
+    """Where a vehicle went after a time [s], or to which lane where that was asked about."""
+    kinds = CHANGES if set(names) & set(CHANGES) else EXITS
+    found = scene.world.episodes(Vehicle(vehicle), tuple(kinds), begin=since)
+    return next((one for one in found if since <= one.begin <= since + FORESEEN), None)

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Lasted
+from xavi_dialogue.domain.answers import Answer, Lasted, Staying
 from xavi_dialogue.domain.meaning import HowLong
 from xavi_dialogue.domain.terms import (
     At,
@@ -19,9 +19,12 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.durations import event_lasting
-from xavi_dialogue.explain.answers.moments import UNSAID, is_past, window
+from xavi_dialogue.explain.answers.durations import event_lasting, halted, remaining_wait, stands
+from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS, chance
+from xavi_dialogue.explain.answers.moments import UNSAID, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us
+from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.plans import MOVES, steps
 from xavi_dialogue.explain.answers.weighing import weigh
 
 STEP = 0.5  # [s] between the moments that are looked at
@@ -36,13 +39,50 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
         Unanswered: it did not happen.
     """
     of = question.of
+    if isinstance(of, Related) and of.relation in ("behind", "ahead-of") and _to_come(of, asked):
+        back, front = (of.thing, of.to) if of.relation == "behind" else (of.to, of.thing)
+        if is_us(back) and isinstance(front, Vehicle):
+            return staying(asked, front)
     if not isinstance(of, Event):
         return state_lasting(of, asked)
+    if is_us(of.actor) and _to_come(of, asked):
+        leader = of.object if isinstance(of.object, Vehicle) else in_front(asked)
+        behind = of.action == "follow" or (of.action in HALTS and not halted(asked))
+        if behind and leader is not None:
+            return staying(asked, leader)
     if of.action == "follow" and isinstance(of.object, Ego | Vehicle):
         return state_lasting(Related("behind", of.actor, of.object, of.time, of.tense), asked)
     if of.action == "see" and is_us(of.actor) and isinstance(of.object, Vehicle):
         return state_lasting(Is("visible", of.object, time=of.time, tense=of.tense), asked)
     return event_lasting(of, asked)
+
+
+def _to_come(of: Event | Related, asked: Asked) -> bool:
+    """Tell whether it is asked how long something goes on from now."""
+    if is_ahead(asked, of.time, of.tense):
+        return True
+    going = isinstance(of.time, Now | Unsaid) and of.tense == "present"
+    return going and isinstance(of, Event) and "already" not in of.manner
+
+
+def staying(asked: Asked, leader: Vehicle) -> Staying:
+    """Tell how long we mean to stay behind somebody: until we move out, or he turns off."""
+    if stands(asked):
+        return Staying(leader, left=remaining_wait(asked))
+    for action, begin in steps(asked):
+        if action in MOVES:
+            return Staying(leader, action, begin)
+    off = chance(asked, Event("turn", leader), asked.now)
+    if off is not None and off >= EXPECTED:
+        return Staying(leader, off=off)
+    return Staying(leader, left=time_to_go(asked, asked.now))
+
+
+def in_front(asked: Asked) -> Vehicle | None:
+    """Give the vehicle that we follow now."""
+    followed = asked.world.episodes(Ego(), ("follow",), asked.now - STEP)
+    on = [e.object for e in followed if e.end is None and isinstance(e.object, Vehicle)]
+    return on[-1] if on else None
 
 
 def state_lasting(of: Proposition, asked: Asked) -> Answer:

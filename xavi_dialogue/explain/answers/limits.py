@@ -1,15 +1,19 @@
 """Limits: whether somebody keeps to the speed limit, is fast, or slow."""
 
-from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Ego, Is, Thing
+from dataclasses import replace
+
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Is, Thing
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.findings import Finding, known, unknown
-from xavi_dialogue.explain.answers.moments import instant
-from xavi_dialogue.explain.answers.naming import (
-    somebodies,
-)
+from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, known, unknown
+from xavi_dialogue.explain.answers.moments import SHORT, instant
+from xavi_dialogue.explain.answers.naming import is_us, somebodies
+from xavi_dialogue.explain.answers.plans import foreseen
 
 OVER = 0.5  # [m/s] above the limit that is no more than rounding
+SOON = 5.0  # [s] within which we are about to slow down
+SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
 SLOW = 0.6  # share of the limit below which a vehicle is slow
 
 
@@ -29,12 +33,26 @@ def fast(of: Is, asked: Asked) -> Finding:
     """Tell whether somebody is fast, over the limit, or slow, far below it."""
     at = instant(asked, of.time, of.tense)
     if of.state == "fast":
-        return within_limit(asked, _whose(of), at, allowed=False)
+        found = within_limit(asked, _whose(of), at, allowed=False)
+        ours = is_us(_whose(of)) and asked.now - at < SHORT
+        return replace(found, facts=(*found.facts, *_slowing(asked))) if ours else found
     found = within_limit(asked, _whose(of), at, allowed=True)
     speed = next((f for f in found.facts if isinstance(f, Measure)), None)
     if speed is None or speed.value is None or speed.reference is None:
         return found
     return Finding(speed.value < SLOW * speed.reference, found.facts)
+
+
+def _slowing(asked: Asked) -> tuple[Episode, ...]:
+    """Give our braking that is under way, or about to begin."""
+    world = asked.world
+    found = world.episodes(actor=Ego(), actions=SLOWING, begin=asked.now - SHORT)
+    if going := [e for e in found if e.end is None]:
+        return (going[-1],)
+    coming = foreseen(asked, Event("slow-down"))
+    if coming is None or coming.share < EXPECTED or coming.moment > asked.now + SOON:
+        return ()
+    return (Episode(Ego(), "slow-down", max(coming.moment, asked.now)),)
 
 
 def _whose(of: Is) -> Thing:

@@ -44,6 +44,8 @@ NUMBERS: frozenset[Attribute] = frozenset(
 )  # fmt: skip
 #: Whose least value says nothing: it is always there.
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
+#: Gaps of who was out of sight then.
+UNSEEN = ("out-of-view", "hidden")
 #: Of two: the other one is ours where none is said.
 MUTUAL: frozenset[Attribute] = frozenset(("gap", "headway", "distance", "time-to-collision"))
 #: What takes no other name where somebody was near: "how close was it when it went by?".
@@ -76,7 +78,12 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         return _of_event(question, asked, of.event)
     if question.extreme in ("highest", "lowest", "mean", "total"):
         return Measures(tuple(_extremes(asked, of, question.extreme, window(asked, of.time))))
-    return Measures(values(asked, of))
+    found = values(asked, of)
+    unsaid = of.tense == "past" and (asked.past is None or not asked.past.said)
+    if unsaid and of.attribute in MUTUAL and all(one.gap in UNSEEN for one in found):
+        near = _extremes(asked, of, "lowest", Window(asked.world.begin, asked.now))
+        found = tuple(one for one in near if one.gap is None) or found
+    return Measures(found)
 
 
 def values(asked: Asked, of: Measured) -> tuple[Measure, ...]:

@@ -88,6 +88,8 @@ def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
 
 def broken_down(of: Is, asked: Asked) -> Finding:
     """Tell what shows of whether a vehicle has broken down: since when it stands, and for whom."""
+    if isinstance(of.thing, Ego):
+        return Finding(False, known(asked.world.measure("speed", Ego(), asked.now)))
     who = number(of.thing)
     if who is None:
         return unknown("not-recorded")

@@ -4,11 +4,11 @@ import dataclasses
 
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
+    Contrast,
     DidNotHappen,
     MotionCause,
     MotionReason,
@@ -21,8 +21,9 @@ from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes import when
-from xavi_dialogue.explain.causes.contrast import against_best
-from xavi_dialogue.explain.causes.driving import ego_speed, reasons_for
+from xavi_dialogue.explain.causes.contrast import RISK
+from xavi_dialogue.explain.causes.driving import Reasons, as_of, ego_speed, reasons_for
+from xavi_dialogue.explain.causes.natural import natural
 from xavi_dialogue.explain.causes.premise import episode_of
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.slowness import Slowness, slowness
@@ -46,6 +47,7 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
 STILL: tuple[ActionName, ...] = ("stop", "stand")
 STANDING = 0.3  # [m/s]
 CREEPING = 2.5  # [m/s] down to which one has not stopped
+RISKY = 0.05  # risk of a collision by which driving on is worse where somebody is in the way too
 BEGUN = 0.3  # [s] after which the decision that led to it was in force
 WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
 
@@ -139,7 +141,7 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
 def _picking_up(scene: Asked, found: Slowness) -> Slowness:
     """With picking up speed for the limit, where that is the reason and we are well below it."""
     causes = found.reasons.causes
-    alone = bool(causes) and all(cause.kind in ("limit", "plan") for cause in causes)
+    alone = all(cause.kind in ("limit", "plan") for cause in causes)
     motion = scene.ride.motion(EGO).until(found.deed.begin)
     if not found.is_slow or not alone or motion.trend != "speeding-up":
         return found
@@ -155,6 +157,12 @@ def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
     if not slowing:
         return found
     reasons = reasons_for(scene.ride, scene.world, slowing[-1])
+    if not any(c.vehicle is not None and c.kind != "give-way-line" for c in reasons.causes):
+        return found
+    causes = as_of(scene.ride, reasons.causes, time)
+    if not any(cause.vehicle for cause in causes):
+        return found
+    reasons = dataclasses.replace(reasons, causes=causes)
     return dataclasses.replace(found, reasons=reasons)
 
 
@@ -205,15 +213,13 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
-    reasons = reasons_for(scene.ride, scene.world, deed)
+    reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
-    stopping = deed.action in (*STILL, *SLOWING) and _chose_stop(scene, deed, reasons.trace)
-    if not ours and stopping:
-        contrast = against_best(scene.ride, reasons.trace)
-        if contrast.decisive == "collision" and not contrast.close:
-            past = is_past(scene, event)
-            return ChoiceReason("why", deed, contrast, past=past)
-        if _given_up(scene, deed):
+    if deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
+        contrast = natural(scene.ride, reasons.trace)
+        if _speaks(contrast, somebody=bool(ours)):
+            return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
+        if not ours and _given_up(scene, deed):
             reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
     return MotionReason(
         deed=deed,
@@ -224,14 +230,34 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         manner=next(iter(event.manner), None),
         limit=limit_at(scene.ride, deed.begin),
         cleared=reasons.cleared,
-        past=event.tense == "past",
+        past=event.tense == "past" or _before(scene),
+        halted=_halted(scene, deed, reasons),
     )
 
 
-def _chose_stop(scene: Asked, deed: Episode, trace: PlanTrace) -> bool:
-    """Whether stopping was what had been decided when it began."""
-    begun = scene.ride.at(deed.begin + BEGUN)
-    return chose(trace, "stop") or (begun is not None and chose(begun, "stop"))
+def _before(scene: Asked) -> bool:
+    """Tell whether a moment is named that lies behind: "why not three seconds ago?"."""
+    named = scene.past
+    return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
+
+
+def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
+    """Tell when, while slowing down already, it was decided to stop; None where it was not."""
+    stops = chose(reasons.trace, "stop") and not chose(scene.ride.latest, "continue")
+    later = reasons.trace.sim_time > deed.begin + BEGUN
+    given_up = any(cause.kind == "given-up" for cause in reasons.causes)
+    return reasons.trace.sim_time if stops and later and not given_up else None
+
+
+def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
+    """Whether what driving on would come to tells why we stop, rather than who is in our way."""
+    risk = contrast.collision - contrast.fact_collision
+    if contrast.decisive == "collision" or contrast.close:
+        return risk >= (RISKY if somebody else RISK)
+    if somebody:
+        return False
+    slower = contrast.decisive in ("late", "time") and bool(contrast.causes)
+    return slower or contrast.decisive == "dead"
 
 
 def _given_up(scene: Asked, deed: Episode) -> bool:
@@ -260,7 +286,8 @@ def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]
         near = when.pick(_loose(scene), others, lambda e: (e.begin, e.end))
         if near is not None:
             return Unanswered(DidNotHappen(event, (near,), elsewhen=near.begin))
-    deed = scene.pick(scene.ride.deeds, lambda d: d.span)
+    moves = [deed for deed in scene.ride.deeds if deed.action != "continue"]
+    deed = scene.pick(moves, lambda d: d.span)
     return Unanswered(DidNotHappen(event, () if deed is None else (episode_of(deed),)))
 
 

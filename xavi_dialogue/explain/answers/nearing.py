@@ -2,11 +2,13 @@
 
 from typing import Final
 
+from xavi_dialogue.domain.answers import PlaceReason
 from xavi_dialogue.domain.facts import Fact, Look, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Now, Unsaid, Vehicle
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, known
 from xavi_dialogue.explain.answers.naming import is_us, look_of
+from xavi_dialogue.explain.answers.occasions import occasion
 
 BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
 ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
@@ -75,3 +77,18 @@ def _speeds(asked: Asked, look: Look) -> tuple[tuple[Measure, ...], float | None
     both = (asked.world.measure("speed", who, asked.now) for who in (Ego(), Vehicle(look.vehicle)))
     found = known(*both)
     return found, next((m.value for m in found if isinstance(m.thing, Ego)), None)
+
+
+def trails(asked: Asked, event: Event) -> Finding | None:
+    """Tell that somebody behind us goes our way, who is too far behind to be following us."""
+    look = look_of(asked, event.actor, asked.now)
+    timely = event.tense == "present" and isinstance(event.time, Unsaid | Now)
+    if event.action != "follow" or not timely or look is None or not look.in_view:
+        return None
+    if event.object is not None and not is_us(event.object):
+        return None
+    if not look.bearing.startswith("behind") or look.oncoming or look.speed == 0.0:
+        return None
+    if occasion(asked, event) is not None:
+        return None
+    return Finding(None, answer=PlaceReason(look.vehicle, "behind", None))

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Proposition,
+    Related,
     Road,
     Thing,
     Unsaid,
@@ -141,12 +142,24 @@ def leaves_when(asked: Asked, event: Event) -> Course | None:
     return course(asked, "way" if turning else "road", turning)
 
 
+def stays_on(asked: Asked, event: Event) -> Course | None:
+    """Tell that we stay on the road, where it is asked why we do not leave it; None: else."""
+    over = asked.past is not None and asked.past.end < asked.now - SHORT
+    found = None if over else leaves_when(asked, event)
+    return found if found is not None and found.form == "road" else None
+
+
 def whether_ours(question: Whether, asked: Asked) -> Course | None:
     """Answer whether we turn, go straight on, take an exit or stay on the road; None: else."""
     place = _ahead_of_us(question.that)
     if place is not None and asked.past is None:
         found = junctions_left(asked, place)
+        if found.steps and not isinstance(question.that, Exists):  # "are we going round it?"
+            return course(asked, "way", found.steps[:1], holds=True)
         return replace(found, holds=bool(found.steps))
+    if _is_turning(question.that) and asked.past is None and (next_ := steps_ahead(asked)[:1]):
+        turned = next_[0].exit == 1 if next_[0].inside else _turned(next_[0])
+        return course(asked, "way", next_, holds=turned)
     missed = _missed(question.that, asked)
     if missed is not None:
         left = _by_exit(asked, steps_ahead(asked), missed)
@@ -162,6 +175,9 @@ def whether_ours(question: Whether, asked: Asked) -> Course | None:
         return course(asked, "road", turning[:1], holds=not turning)
     if event.tense == "present" and occasion(asked, event) is not None:
         return None
+    if event.action == "circle":
+        ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
+        return course(asked, "way", ring, holds=False) if ring else None
     if event.action == "enter":
         ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
         return course(asked, "way", ring) if ring else None
@@ -190,11 +206,22 @@ def _ahead_of_us(that: Proposition) -> Junction | None:
     return None
 
 
+def _is_turning(that: Proposition) -> bool:
+    """Tell whether it is asked whether a place is where we turn: "is this our turning?"."""
+    return (
+        isinstance(that, Related)
+        and that.relation == "same-as"
+        and isinstance(that.thing, Junction | Exit)
+    )
+
+
 def _missed(that: Proposition, asked: Asked) -> Event | None:
     """Take "did we go past our exit?" for whether we have left, where we did not pass one."""
     match that:
-        case Happens(event=Event(action="pass", object=Exit()) as event) if is_us(event.actor):
-            if occasion(asked, event) is None:
+        case Happens(
+            event=Event(action="pass" | "continue-next-exit" as action, object=Exit()) as event
+        ) if is_us(event.actor) and event.tense in ("past", "perfect"):
+            if action == "continue-next-exit" or occasion(asked, event) is None:
                 return replace(event, action="leave", object=None, tense="present", time=Now())
     return None
 
@@ -214,6 +241,8 @@ def _own_way(that: Proposition) -> Event | None:
         return event if event.object is None or isinstance(event.object, Road) else None
     if event.action == "enter":
         return event if event.object == Junction("roundabout") else None
+    if event.action == "circle":
+        return event
     if event.action == "leave":
         placed = isinstance(event.object, Road) or _is_exit(event.object)
         return event if event.object is None or placed else None

@@ -19,19 +19,29 @@ from xavi_dialogue.domain.terms import Ego, Event, Proposition, Related, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.priority import rule_between
 from xavi_dialogue.explain.answers.reading import check_seen, event_of, is_own, is_past
 from xavi_dialogue.explain.causes.actions import YIELDS
 from xavi_dialogue.explain.causes.announced import announced, meeting
 from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
+from xavi_dialogue.explain.causes.driving import ego_speed
 from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, slowed, stood
+from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.when import RECENT
+from xavi_dialogue.explain.history.ride import ROUNDING
 
+CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge", "enter", "pull-out")
+JUST = 4.0  # [s] for which we have only just moved in ahead of somebody
 EXPECTED = 0.3  # probability from which something may be said to be expected
 CREEPING = 1.5  # [m/s]
+LONG = 3.0  # [s] from which one who stands may be parked
 STILL = frozenset[ActionName](("stop", "stand", "wait", "give-way", "let-go", "block"))
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 GOING = frozenset[ActionName](("go", "move", "continue", "enter", "cross", "come", "pull-out"))
+PASSING = frozenset[ActionName](("overtake", "pass"))
+SAME = 1.0  # [m/s] up to which one is no faster
 OPEN = frozenset[ActionName](("do", "happen", "signal", "see", "appear", "disappear", "block"))
 #: What a vehicle does instead, that answers why it did not do something.
 INSTEAD: dict[ActionName, tuple[ActionName, ...]] = {
@@ -66,6 +76,8 @@ def why(event: Event, scene: Asked, *, negated: bool) -> Answer:
 
 def slows(scene: Asked, vehicle: int) -> bool:
     """Tell whether it is slowing down or stands, rather than driving slowly all the time."""
+    if setting_off(scene.ride, scene.now, vehicle):
+        return False
     begin = scene.now - RECENT
     return bool(scene.world.episodes(Vehicle(vehicle), STILL | SLOWING, begin, scene.now))
 
@@ -74,6 +86,8 @@ def slowly(scene: Asked, vehicle: int) -> Answer:
     """Tell why it drives slowly, who does not slow down: who is in its way, if anybody."""
     speed = scene.world.measure("speed", Vehicle(vehicle), scene.now).value
     deed = Episode(Vehicle(vehicle), "move", scene.now, speed_to=speed)
+    if setting_off(scene.ride, scene.now, vehicle):
+        return OtherReason(vehicle, deed, None, (MotionCause("starting"),))
     hindered = at_present(scene.ride, vehicle, scene.now)
     return OtherReason(vehicle, deed, None, hindered.causes, None, hindered.evidence)
 
@@ -126,13 +140,32 @@ def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
             now = found.end is None or scene.moment <= end
             if not hindered.causes and now:
                 hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
+            if not hindered.causes and _parked(scene, vehicle, found):
+                return OtherReason(vehicle, found, None, (MotionCause("parked"),))
         else:
             hindered = slowed(scene.ride, vehicle, found.begin, end)
             if not hindered.causes and scene.moment <= end:
                 hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
+        if not hindered.causes and _owes_us(scene, vehicle, found.begin, end):
+            hindered = Hindrance((MotionCause("right-of-way", EGO),))
         said = rank == 0 or _hardly_moves(scene, vehicle)
         return _told(scene, vehicle, found, None if said else event, hindered, found.begin)
     raise _denied(scene, vehicle, event)
+
+
+def _owes_us(scene: Asked, vehicle: int, begin: float, end: float) -> bool:
+    """Tell whether it had to let us go first while it slowed down or stood."""
+    rule = rule_between(scene, vehicle, Window(begin, end))
+    return rule is not None and rule[1] == "priority" and begin - LONG <= rule[0] <= end + LONG
+
+
+def _parked(scene: Asked, vehicle: int, standing: Episode) -> bool:
+    """Whether it has stood since it was first seen, and does not hold the brake, as who waits."""
+    first = scene.ride.motion(vehicle).time[:1]
+    since = bool(first) and standing.begin <= first[0] + ROUNDING and standing.end is None
+    trace = scene.ride.at(scene.moment, vehicle)
+    lit = trace is None or bool(trace.scene[vehicle].signals)
+    return since and not lit and scene.now - standing.begin >= LONG
 
 
 def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
@@ -223,10 +256,24 @@ def _why_not(event: Event, scene: Asked, vehicle: int) -> Answer:
     if did and not (instead and instead[-1].begin > did[-1].begin):
         raise Unanswered(DidNotHappen(event, did[-1:]))
     deed = instead[-1] if instead else None
+    pace = _pace(event, scene, vehicle)
+    if pace is not None:
+        return OtherReason(vehicle, None, event, (pace,))
     if deed is not None and deed.action in STILL | SLOWING:
         found = _braking(Event(deed.action, event.actor, tense=event.tense), scene, vehicle)
         return _asked(found, event)
     return _told(scene, vehicle, deed, event, Hindrance(), end)
+
+
+def _pace(event: Event, scene: Asked, vehicle: int) -> MotionCause | None:
+    """Find that it is no faster than we are, which is why it does not go past us."""
+    if event.action not in PASSING or not is_own(event.object or Ego()):
+        return None
+    time = scene.moment
+    ours, its = ego_speed(scene.ride, time), scene.world.measure("speed", Vehicle(vehicle), time)
+    if ours is None or its.value is None or its.value > ours + SAME:
+        return None
+    return MotionCause("limit", EGO, speed=its.value, value=limit_at(scene.ride, time))
 
 
 def _last(
@@ -246,11 +293,20 @@ def _told(
     hindered: Hindrance,
     time: float,
 ) -> OtherReason:
-    causes: tuple[MotionCause, ...] = hindered.causes
+    causes = tuple(_came_in(scene, cause, time) for cause in hindered.causes)
     goal = _goal(scene, vehicle, time)
     if deed is not None and deed.action in STILL | SLOWING and not _turns(goal):
         goal = None  # nobody stops or slows for going straight on
     return OtherReason(vehicle, deed, asked, causes, goal, hindered.evidence)
+
+
+def _came_in(scene: Asked, cause: MotionCause, time: float) -> MotionCause:
+    """Tell of us, who are in somebody's way, that we have only just moved in ahead of him."""
+    if cause.vehicle != EGO or cause.kind != "leader":
+        return cause
+    moved = scene.world.episodes(Ego(), CHANGES, time - JUST, scene.now)
+    begun = any(time - JUST <= episode.begin <= time + 1.0 for episode in moved)
+    return replace(cause, kind="cut-in") if begun else cause
 
 
 def _turns(goal: Belief | None) -> bool:

@@ -126,9 +126,13 @@ def of_us(
         return closeness(scene, vehicle_in(event.object), now, "hit", past=False)
     if event.action in GOING and (not _stopped(scene) or manner_of(event, "fast") is not None):
         return hastened(event, scene, form, struck)
+    if event.action in GOING and event.side is None and event.object is None:
+        return undone(structs.replace(event, action="stop", manner=()), scene, form, struck)
     try:
         against = _against(event, scene)
     except SameAsPlan as same_:
+        if form == "crash":
+            return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
         against = against_best(scene.ride, same_.trace)
         return SupposedOfUs(against, done=True, past=past, form=form)
     except Unanswered as unanswered:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Verdict
-from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
@@ -21,9 +21,10 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, expected
 from xavi_dialogue.explain.answers.foreseen import chance
-from xavi_dialogue.explain.answers.naming import somebodies
+from xavi_dialogue.explain.answers.naming import look_of, somebodies
 
 LIKELY = 0.5  # probability from which it is told who of several is going to do something
+STEADY = 0.3  # [m/s2] below which a speed is held
 LATELY = 10.0  # [s] for which one that was lost from view may still be around
 
 
@@ -78,3 +79,28 @@ def likeliest(asked: Asked, event: Event) -> Finding:
         return expected(share)
     told = Verdict(Happens(replace(event, actor=who)), None, probability=share)
     return Finding(None, probability=share, answer=told)
+
+
+def in_line(such: Related, seen: tuple[Look, ...], asked: Asked, at: float) -> tuple[Look, ...]:
+    """Choose of those in front of or behind another vehicle who is in its lane."""
+    of = look_of(asked, such.to, at)
+    straight = such.relation in ("ahead-of", "behind")
+    if not straight or of is None or of.bearing.startswith("crossing"):
+        return tuple(sorted(seen, key=lambda look: look.distance))
+    near = sorted(seen, key=lambda look: abs(look.ahead - of.ahead))
+    road = asked.world.road(at)
+    places = {} if road is None else road.places
+    here = places.get(of.vehicle)
+    beside = [
+        v for v, there in places.items()
+        if here is not None and there.edge == here.edge and there.lane != here.lane
+    ]  # fmt: skip
+    return tuple(look for look in near if look.vehicle not in beside)
+
+
+def spent(asked: Asked, episode: Episode, at: float) -> bool:
+    """Tell whether a change of speed is over, though the record has not yet closed it."""
+    if episode.action not in ("speed-up", "slow-down", "brake"):
+        return False
+    rate = asked.world.measure("acceleration", episode.actor, at).value
+    return rate is not None and abs(rate) < STEADY

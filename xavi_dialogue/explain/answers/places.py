@@ -1,8 +1,8 @@
 """Places: where somebody or something is or was, and where somebody is going."""
 
 from sim.scene import EGO
-from xavi_dialogue.domain.answers import Answer, Bound, Located, NotRecorded, PlanAhead
-from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.answers import Answer, Bound, Identified, Located, NotRecorded, PlanAhead
+from xavi_dialogue.domain.facts import Belief, Episode, Measure
 from xavi_dialogue.domain.meaning import Where, Whither
 from xavi_dialogue.domain.terms import (
     Destination,
@@ -27,6 +27,7 @@ from xavi_dialogue.explain.answers.moments import SHORT, instant, is_ahead, is_p
 from xavi_dialogue.explain.answers.naming import check_sense, first_look, looks, somebodies
 from xavi_dialogue.explain.answers.occasions import taken_place
 from xavi_dialogue.explain.answers.plans import current_plan, plan_ahead
+from xavi_dialogue.explain.causes.announced import announced
 
 TOLD = 2  # vehicles of which it is told where they have gone
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
@@ -50,7 +51,10 @@ def where(question: Where, asked: Asked) -> Answer:
         if isinstance(of.actor, Everyone) and of.action in LEAVING:
             return _vehicles(asked, Vehicles(_left_behind(asked)), asked.now)
         return took_place(asked, of)
-    return locate(asked, of, instant(asked, question.time))
+    at = instant(asked, question.time)
+    if isinstance(of, Everyone) and not asked.world.in_view(at):
+        return Identified((), none=True)
+    return locate(asked, of, at)
 
 
 def locate(asked: Asked, thing: Thing, at: float) -> Answer:
@@ -77,6 +81,9 @@ def locate(asked: Asked, thing: Thing, at: float) -> Answer:
     raise Unanswered(NotRecorded("not-recorded", thing=thing, about="place"))
 
 
+EVEN = 0.5  # chance from which somebody is expected to go somewhere
+
+
 def whither(question: Whither, asked: Asked) -> Answer:
     """Tell where somebody is going, was going, or has gone.
 
@@ -93,9 +100,20 @@ def whither(question: Whither, asked: Asked) -> Answer:
     lost = look is not None and not look.in_view
     belief = asked.world.belief(vehicle, at)
     went = came_of(asked, vehicle, at) if past or lost else None
+    if not past and not lost and (shown := _shows(asked, vehicle, belief)) is not None:
+        return shown
     if went is None and lost:
         went = _last_way(asked, vehicle)
     return Bound(found[0], belief, went, look if lost or past else None)
+
+
+def _shows(asked: Asked, vehicle: int, belief: Belief | None) -> Answer | None:
+    """Tell what a vehicle of which nothing is expected for certain announces by its indicator."""
+    likeliest = belief.expectations[:1] if belief is not None else ()
+    lit = [e for e in asked.world.episodes(Vehicle(vehicle), "signal") if e.end is None]
+    if not lit or any(one.probability >= EVEN for one in likeliest):
+        return None
+    return announced(asked.ride, asked.world, vehicle, lit[-1], asked.now)
 
 
 def gone(asked: Asked, who: Vehicle) -> Bound:

@@ -9,9 +9,10 @@ from typing import Literal, TypeAlias, cast
 from msgspec.structs import replace as changed
 
 from planner.road import RoadFacts
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody
-from xavi_dialogue.domain.meaning import Fault
+from xavi_dialogue.domain.meaning import Fault, Question
 from xavi_dialogue.domain.terms import Ego, Happens, Proposition, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -47,6 +48,8 @@ YIELDS: dict[str, bool] = {
     "priority": False, "give-way": True, "we-change": True, "it-changes": False,
 }  # fmt: skip
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
+STILL = 0.5  # [m/s] below which somebody stands
+GOING = 1.0  # [m/s] from which we go
 LEAD = 3.0  # [s] before a crossing at which its rule is read off
 
 
@@ -103,15 +106,18 @@ def priority_at(
     Raises:
         Unanswered: the vehicle is unknown, or the record does not hold it.
     """
+    general = vehicle is None
     if vehicle is not None:
         known(asked, Vehicle(vehicle), about.end)
+    present = about.instant and about.end >= asked.now - 0.1
     if vehicle is None:
-        present = about.instant and about.end >= asked.now - 0.1
         vehicle = crossing_now(asked) if present else met_about(asked, about)
     met = None if vehicle is None else rule_between(asked, vehicle, about)
     time = _rule_time(asked, about) if met is None else met[0]
     near = Window(time - NEAR, max(about.end, time) + NEAR)
     waited = _waited(asked, vehicle, near)
+    if general and present and waited is not None and waited.end is not None:
+        waited = None  # it is asked of now
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
     rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
@@ -126,8 +132,43 @@ def priority_at(
         time, rule or "none", vehicle, first, waited, blame,
         conflict=_conflict(asked, vehicle, near) if blame else None,
         deeds=_deeds(asked, vehicle, about) if blame else (),
-        stood=vehicle is not None and isinstance(first, Ego) and stood(asked, vehicle, near),
+        stood=vehicle is not None and _let_by(asked, vehicle, first, near, about),
+        ring=general and _at_ring(asked.world.road(time)),
     )  # fmt: skip
+
+
+def _let_by(
+    asked: Asked, vehicle: int, first: Somebody | None, near: Window, about: Window
+) -> bool:
+    """Tell whether a vehicle stood when we went, or stands now that we go."""
+    if first is None and about.instant and about.end >= asked.now - 0.1:
+        theirs = asked.world.measure("speed", Vehicle(vehicle), asked.now).value
+        ours = asked.world.measure("speed", Ego(), asked.now).value
+        return theirs is not None and theirs < STILL and ours is not None and ours > GOING
+    return isinstance(first, Ego) and stood(asked, vehicle, near)
+
+
+def _at_ring(road: RoadFacts | None) -> bool:
+    """Tell whether the next junction is that of a roundabout, or we are on one."""
+    if road is None:
+        return False
+    place = road.places.get(EGO)
+    on = place is not None and place.roundabout
+    return on or (bool(road.route) and road.route[0].kind == "roundabout")
+
+
+def goes_first(question: Question, asked: Asked) -> Answer:
+    """Tell who has right of way, where it is asked why somebody goes before us.
+
+    Raises:
+        Unanswered: the vehicle is unknown, or the record does not hold the rule.
+    """
+    of = getattr(question, "of", None)
+    event = getattr(of, "event", None)
+    assert event is not None
+    past = event.tense in ("past", "perfect")
+    about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    return priority_at(asked, number(event.actor), about)
 
 
 def owed(found: Priority, *, ours_yield: bool) -> Finding:

@@ -1,8 +1,10 @@
 """Reasons: answers to why: of our choices, of how we drive, of states, and of others."""
 
+import dataclasses
+
 from msgspec import structs
 
-from xavi_dialogue.domain.answers import Answer, DidNotHappen
+from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotApplicable
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Whether, Why
 from xavi_dialogue.domain.terms import (
@@ -27,6 +29,7 @@ from xavi_dialogue.explain.answers import (
     deciding,
     going,
     motions,
+    onward,
     others,
     refraining,
     signalling,
@@ -51,6 +54,7 @@ GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "
 WAY = frozenset[ActionName](("go", "move", "head", "come", "pass"))
 #: Names for coming in among others: a change of lanes, or a turn into a road.
 JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
+CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
 CROSSINGS = frozenset[ActionName](
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
 )
@@ -59,6 +63,10 @@ PLACES = frozenset[Relation](("ahead-of", "behind", "left-of", "right-of", "besi
 #: What one does who does not leave his lane.
 KEEPING = frozenset[ActionName](
     ("follow", "keep-distance", "approach", "keep-lane", "wait", "stand", "move", "slow-down")
+)
+#: What one does not do who goes first.
+YIELDING = frozenset[ActionName](
+    ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
 SIDES: dict[str, Side] = {"left": "left", "right": "right"}
@@ -80,7 +88,7 @@ def why(question: Why, scene: Asked) -> Answer:
         blamed = blamed or check_seen(scene, of.cause)
         of, negated = unwrapped(of.effect) if of.effect is not None else (None, negated)
     found = _why(of, scene, question, negated=negated)
-    return choices.with_suspect(found, blamed)
+    return choices.with_suspect(found, blamed, check_seen(scene, question.rival))
 
 
 def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:
@@ -88,6 +96,11 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
         case Happens(event) if not negated and _goes_first(event):
             past = scene.past or Span(scene.now, scene.now)
             return priority_at(scene, vehicle_in(event.actor), Window(past.begin, past.end))
+        case Related("has-priority-over", thing) if vehicle_in(thing) is not None:
+            past = scene.past or Span(scene.now, scene.now)
+            return priority_at(scene, vehicle_in(thing), Window(past.begin, past.end))
+        case Happens(event) if negated and (rule := _need_not(event, scene)) is not None:
+            return rule
         case Happens(event) if not is_own(event.actor) and vehicle_in(event.actor) is not None:
             return others.why(event, scene, negated=negated)
         case Happens(event):
@@ -121,6 +134,19 @@ def _goes_first(event: Event) -> bool:
     return going and vehicle_in(event.actor) is not None
 
 
+def _need_not(event: Event, scene: Asked) -> Answer | None:
+    """Tell that another vehicle goes first, where it is asked why it does not stop or give way."""
+    vehicle = None if is_own(event.actor) else vehicle_in(event.actor)
+    if vehicle is None or event.action not in YIELDING:
+        return None
+    past = scene.past or Span(scene.now, scene.now)
+    try:
+        rule = priority_at(scene, vehicle, Window(past.begin, past.end))
+    except Unanswered:
+        return None
+    return rule if rule.rule == "give-way" else None
+
+
 def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     """Tell why we did something, or drove so.
 
@@ -144,6 +170,9 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return choices.why_not(other, scene)
     if event.action == "signal":
         return signalling.why_signal(event.side, scene, past=is_past(scene, event))
+    blamed = question is not None and question.suspect is not None
+    if not blamed and (past_it := refraining.not_passed(event, scene)) is not None:
+        return past_it
     if event.action in HOLDING:
         return motions.slow(scene, manner_of(event, "close", "far") or "slowly", event)
     if event.action == "continue" and not is_past(scene, event):
@@ -194,6 +223,10 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
     """
     check_able(event)
+    if (stays := onward.stays_on(scene, event)) is not None:
+        return stays
+    if event.then is not None and event.then.action in JOINING | CHANGING:
+        return _not_joining(structs.replace(event.then, tense=event.tense), scene, None)
     if event.action == "speed-up" or manner_of(event, "fast") is not None:
         return motions.standing_or_slow(scene)
     if event.action in GOING:
@@ -204,7 +237,24 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     if left is not None:
         return choices.why_not(Event("keep-lane"), scene, left)
     instead = None if question is None else event_of(question.instead)
+    if event.action in JOINING:
+        return _not_joining(event, scene, instead)
     return choices.why_not(event, scene, instead)
+
+
+def _not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
+    """Why we did not come in among others: the change of lanes, or going into the junction."""
+    lane = event
+    if event.action == "enter" and not isinstance(event.object, Junction | Exit):
+        lane = structs.replace(event, action="merge", object=None)
+    spoken = scene.past is not None and scene.past.said
+    for setting in (scene,) if spoken else (scene, dataclasses.replace(scene, span=None)):
+        try:
+            return choices.why_not(lane, setting, instead)
+        except Unanswered as unanswered:
+            if not isinstance(unanswered.result, NotApplicable):
+                raise
+    return _not_going(structs.replace(event, action="go", object=None, where=None), scene)
 
 
 def _not_going(event: Event, scene: Asked) -> Answer:
@@ -237,11 +287,12 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if of.state in ("moving", "fast") and negated and vehicle is None:
         return motions.standing_or_slow(scene, Event("move", tense=of.tense))
     if vehicle is not None and of.state in SLOW | {"moving", "fast"}:
-        action: ActionName = "stand" if of.state in ("stationary", "stuck") else "slow-down"
+        still = of.state in ("stationary", "stuck") or (negated and of.state == "moving")
+        action: ActionName = "stand" if still else "slow-down"
         event = Event(action, of.thing or _nobody(), tense=of.tense)
         if of.state == "slow" and scene.past is None and not others.slows(scene, vehicle):
             return others.slowly(scene, vehicle)
-        return others.why(event, scene, negated=negated and of.state == "moving")
+        return others.why(event, scene, negated=False)
     if of.state in SLOW and is_own(of.thing):
         if of.tense == "present" and motions.is_slowing(scene):
             return motions.motion(Event("slow-down", tense="present"), scene)

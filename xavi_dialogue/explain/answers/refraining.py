@@ -5,9 +5,16 @@ import math
 from msgspec import structs
 
 from planner.trace import Action as MacroAction
-from xavi_dialogue.domain.answers import Answer, Bystander, DidNotHappen, GoReason, MotionReason
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Bystander,
+    DidNotHappen,
+    GoReason,
+    MotionReason,
+    NeedRollout,
+)
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.terms import Event, Lane, Related
+from xavi_dialogue.domain.terms import Ego, Event, Lane, Related, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, going, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -21,6 +28,7 @@ from xavi_dialogue.explain.history.deeds import Deed
 REFRAINS = HALTS | frozenset[ActionName](
     ("slow-down", "brake", "follow", "keep-distance", "keep-lane")
 )
+APART = 2.0  # [m] sideways from which somebody drives in another lane
 FRESH = 5.0  # [s] since when it is, though nothing says that staying behind is meant
 #: By which change of lanes a lane is left.
 LEFT_BY: dict[str, MacroAction] = {
@@ -29,6 +37,8 @@ LEFT_BY: dict[str, MacroAction] = {
     "left": "change-right",
     "leftmost": "change-right",
 }
+BESIDE = 5.0  # [m] sideways up to which somebody in front of us is on our road
+SLOWER = 0.5  # [m/s] from which somebody is slower than us
 LATELY = 12.0  # [s] since when a change of lanes may be what was done instead of staying behind
 
 
@@ -48,11 +58,23 @@ def refrained(event: Event, scene: Asked) -> Answer:
         past = change.ended is not None
         foil = Event("keep-lane", tense="past" if past else event.tense, time=event.time)
         return choices.why_not(foil, scene, Event(change.action, tense="past"))
+    aside = _aside(event, scene)
+    if aside is not None:
+        return choices.why_not(structs.replace(event, action=aside, object=None), scene)
     if stays:
         return choices.why_not(Event("keep-lane", tense=event.tense, time=event.time), scene)
     if crossed is None:
         return _undone(event, scene)
     return _went(event, scene, crossed)
+
+
+def _aside(event: Event, scene: Asked) -> ActionName | None:
+    """Find the change of lanes by which one would get behind whom one is asked to follow."""
+    vehicle = vehicle_in(event.object)
+    look = None if vehicle is None else scene.world.look(vehicle, scene.moment)
+    if event.action != "follow" or look is None or look.oncoming or abs(look.left) < APART:
+        return None
+    return "change-left" if look.left > 0.0 else "change-right"
 
 
 def _change(scene: Asked) -> Deed | None:
@@ -102,9 +124,28 @@ def _undone(event: Event, scene: Asked) -> Answer:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise
     if event.action in ("slow-down", "brake") and not is_past(scene, event):
-        return motions.fast(scene)
+        return motions.fast(scene) if vehicle is None else _kept_speed(event, vehicle, scene)
     foil = Event("stop", tense=event.tense, time=event.time)
     return choices.why_not(foil, scene)
+
+
+def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
+    """Why we do not slow down for somebody: how far ahead it is, and whether it is slower."""
+    at = scene.moment
+    look = scene.world.look(vehicle, at)
+    theirs = scene.world.measure("speed", Vehicle(vehicle), at).value
+    ours = scene.world.measure("speed", Ego(), at).value
+    if look is None or theirs is None or ours is None:
+        return motions.fast(scene)
+    in_front = look.ahead > 0.0 and abs(look.left) < BESIDE and not look.oncoming
+    rule = None if in_front else priority_at(scene, vehicle, Window(at, at), blame=True).rule
+    found = Bystander(
+        vehicle,
+        first="ahead" if in_front else "ego" if rule == "priority" else "none",
+        trend="steady" if theirs >= ours - SLOWER else "slowing",
+        distance=look.distance,
+    )
+    return GoReason(None, (found,), past=False, refrained=event.action)
 
 
 def left_lane(event: Event, scene: Asked) -> Event | None:
@@ -122,3 +163,16 @@ def is_refraining(event: Event) -> bool:
     if event.action == "keep-lane":
         return not isinstance(event.object, Lane) or event.object.which == "own"
     return event.action in REFRAINS
+
+
+def not_passed(event: Event, scene: Asked) -> Answer | None:
+    """Tell why we stay behind a vehicle that we could overtake; None: we could not."""
+    ahead = event.action == "follow" and vehicle_in(event.object) is not None
+    if not ahead or is_past(scene, event):
+        return None
+    try:
+        return choices.why_not(Event("overtake", object=event.object, tense="present"), scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+    return None

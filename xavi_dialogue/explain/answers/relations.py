@@ -2,8 +2,20 @@
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Fact, Look, Relating
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Related, Road, Thing, Unsaid, Vehicle
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Related,
+    Road,
+    Thing,
+    Unsaid,
+    Vehicle,
+    Vehicles,
+)
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
@@ -12,7 +24,10 @@ from xavi_dialogue.explain.answers.moments import SHORT, Window, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, looks, number, somebodies
 from xavi_dialogue.explain.answers.priority import owed, right_of_way, where_rule_holds
 from xavi_dialogue.explain.answers.sight import others_mind
+from xavi_dialogue.explain.causes.actions import EXITS
+from xavi_dialogue.explain.history.ride import planned
 
+LATELY = 10.0  # [s] since when a turn leads the way that we go
 STEP = 0.5  # [s] between the moments at which a relation is tried over a stretch
 COMPARING: dict[Relation, Attribute] = {
     "faster-than": "speed", "slower-than": "speed", "closer-than": "distance",
@@ -45,6 +60,10 @@ def related(of: Related, asked: Asked) -> Finding:
     if of.relation == "can-see" and is_us(of.thing) and number(of.to) is not None:
         seeing = Event("see", of.thing, of.to, time=of.time, tense=of.tense)
         return happens(Happens(seeing), asked)
+    if of.relation == "can-see" and is_us(of.thing) and isinstance(of.to, Vehicles):
+        seen = tuple(x for x in looks(asked, of.to.numbers, asked.now) if x.in_view)
+        if len(seen) == len(of.to.numbers):  # "have you noticed both?"
+            return Finding(True, answer=Verdict(Exists(of.to), True, seen))
     if of.relation == "same-as":
         one, other = number(of.thing), number(of.to)
         both = somebodies(asked, of.thing, about.end) + somebodies(asked, of.to, about.end)
@@ -82,6 +101,8 @@ def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) 
         near = Window(asked.now, asked.now)  # who came with us is with us
     holds, at = holds_over(asked, of.relation, thing, to, near)
     facts = _facts(of, asked, thing, to, at)
+    if holds is False and of.relation == "with" and is_us(to):
+        holds = _went_our_way(asked, thing)
     if holds is False and is_us(to) and of.relation in ("behind", "ahead-of"):
         side = "behind" if of.relation == "behind" else "ahead"
         holds = any(isinstance(f, Look) and f.bearing.startswith(side) for f in facts)
@@ -104,12 +125,23 @@ def _facts(of: Related, asked: Asked, thing: Thing, to: Thing, at: float) -> tup
     return seen
 
 
+def _went_our_way(asked: Asked, thing: Thing) -> bool:
+    """Tell whether somebody has just made the turn that we are going to make."""
+    ours = next((action for action in planned(asked.ride.latest) if action in EXITS), None)
+    if ours is None or not isinstance(thing, Vehicle):
+        return False
+    made = asked.world.episodes(thing, (ours,), begin=asked.now - LATELY)
+    return any(episode.action == ours for episode in made)
+
+
 def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
     """Tell who goes first: told as right of way, whichever way round it was asked."""
     ours = is_us(of.thing) == (of.relation == "has-priority-over")
     past = is_past(asked, of.time, of.tense)
     near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
     found = right_of_way(asked, of.thing, of.to, near)
+    if found.rule == "none" and ours:  # "do we fit in before it gets here?"
+        return Finding(None, answer=found)
     return owed(found, ours_yield=not ours)
 
 

@@ -14,7 +14,7 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
-from xavi_dialogue.explain.answers import motions
+from xavi_dialogue.explain.answers import motions, refraining
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.findings import known
@@ -54,6 +54,10 @@ def request(act: Request, asked: Asked) -> Answer:
     already = able and _doing(asked, event, now.trend)
     soon = _coming(asked, event) if able and not already else None
     cannot = _cannot(asked, event) if able and not already and soon is None else None
+    if event.action == "overtake" and not already and soon is None and cannot is None:
+        staying = refraining.not_passed(replace(event, action="follow"), asked)
+        if staying is not None:
+            return staying
     hurried = sided(event) in STARTS | {"speed-up", "continue"}
     cause = _cause(asked) if able and hurried and soon is None else None
     facts = _instead(asked, event) if cause is None else ()

@@ -44,7 +44,7 @@ def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
         for one in somebodies(asked, option, at)
     ]
     if question.by not in BY or len(things) < 2:
-        raise Unanswered(NotUnderstood(about=(type(question).__name__,)))
+        raise Unanswered(NotUnderstood())
     attribute, most = BY[question.by]
     values = sorted((_value(asked, attribute, t, at) for t in things), key=_key, reverse=most)
     first, second = values[0], values[1]

@@ -2,14 +2,22 @@
 
 from xavi_dialogue.domain.answers import Located
 from xavi_dialogue.domain.facts import Fact
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, unknown
 from xavi_dialogue.explain.answers.foreseen import came_of
-from xavi_dialogue.explain.answers.moments import is_ahead, window
-from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
+from xavi_dialogue.explain.answers.moments import instant, is_ahead, window
+from xavi_dialogue.explain.answers.naming import (
+    first_look,
+    is_us,
+    look_of,
+    looks,
+    number,
+    somebodies,
+)
 
+MANY = 6  # vehicles in view from which it is busy
 #: What a driver does for another one whom he sees.
 KIND: tuple[ActionName, ...] = (
     "give-way",
@@ -55,6 +63,21 @@ def _sees_again(asked: Asked, vehicle: int) -> Finding:
     known: tuple[Fact | None, ...] = (went, look)
     facts = tuple(fact for fact in known if fact is not None)
     return unknown("in-future", *facts)
+
+
+def minded(of: Is, asked: Asked) -> Finding:
+    """Tell what bears on how a driver feels, or attends to the road: what he did for us."""
+    vehicle = number(of.thing)
+    if vehicle is None:
+        return unknown("others-thoughts")
+    return unknown("others-thoughts", *others_mind(asked, vehicle).facts[:1])
+
+
+def busy(of: Is, asked: Asked) -> Finding:
+    """Tell whether many vehicles are in view."""
+    at = instant(asked, of.time, of.tense)
+    seen = looks(asked, asked.world.in_view(at), at)
+    return Finding(len(seen) >= MANY, seen)
 
 
 def others_mind(asked: Asked, vehicle: int) -> Finding:

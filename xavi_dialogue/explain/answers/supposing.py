@@ -5,12 +5,14 @@ from msgspec import structs
 from xavi_dialogue.domain.answers import (
     Answer,
     CannotSay,
+    Measures,
     SupposedOfOther,
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Doing, Question, WhatIf, Whether
 from xavi_dialogue.domain.terms import (
     At,
+    Ego,
     Event,
     Everyone,
     Exists,
@@ -29,7 +31,9 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import reacting
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.beliefs import least_sure
 from xavi_dialogue.explain.answers.closeness import closeness
+from xavi_dialogue.explain.answers.freed import asks_pace, freed
 from xavi_dialogue.explain.answers.hastening import hastened
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.own_suppositions import (
@@ -78,8 +82,12 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     event = event_of(of)
     if event is not None and reacting.is_somebody(event) and not negated:
         return reacting.for_anybody(event, scene)
+    of, negated = _mistaken(scene, of, negated=negated)
+    event = event_of(of)
     vehicle = _whom(scene, of)
     if _asks_of_other(question.then):
+        if negated and (found := freed(question.then, vehicle, scene)) is not None:
+            return found
         raise Unanswered(CannotSay("unsupported-condition"))
     if vehicle is not None:
         return _of_other(question, scene, of, vehicle, negated=negated)
@@ -92,6 +100,21 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if negated:
         return undone(event, scene, form, struck)
     return of_us(event, scene, form, struck)
+
+
+def _mistaken(
+    scene: Asked, of: Proposition | None, *, negated: bool
+) -> tuple[Proposition | None, bool]:
+    """Read "if you were wrong about it" as its not doing what is expected of it."""
+    if not isinstance(of, Is) or of.state != "wrong" or negated:
+        return of, negated
+    about = of.thing.number if isinstance(of.thing, Vehicle) else least_sure(scene, scene.moment)
+    belief = None if about is None else scene.world.belief(about, scene.moment)
+    if about is None or belief is None or not belief.expectations:
+        return of, negated
+    steps = belief.expectations[0].actions
+    step = next((a for a in steps if a != "continue"), steps[0])
+    return Happens(Event(step, Vehicle(about), tense=of.tense)), True
 
 
 def _faster(event: Event | None, then: Question | None) -> Event | None:
@@ -137,6 +160,9 @@ def _of_other(
     question: WhatIf, scene: Asked, of: Proposition | None, vehicle: int, *, negated: bool
 ) -> Answer:
     event = event_of(of)
+    if event is not None and event.then is not None and negated:  # "does not leave and goes round"
+        event, negated = structs.replace(event.then, tense=event.tense), False
+        of = Happens(event)
     if event is not None and event.then is not None and event.then.action in reacting.COLLIDING:
         event = structs.replace(event, action="cut-in", object=None, then=None)
         of = Happens(event)
@@ -153,6 +179,8 @@ def _of_other(
     if quick or (isinstance(of, Exists) and not negated):  # nobody can be put where he was not
         raise Unanswered(CannotSay("unsupported-condition"))
     supposed = None if _is_absence(of, negated=negated) else event
+    if supposed is None and not past and asks_pace(question.then):
+        return Measures((scene.world.measure("speed", Ego(), scene.now),))
     return _replanned(question, scene, supposed, vehicle, past=past, negated=negated)
 
 

@@ -4,27 +4,33 @@ from dataclasses import replace as refound
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Priority, Verdict
+from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
     Compares,
+    Ego,
+    Event,
     Happens,
     Is,
     Measured,
     Not,
+    Now,
     Proposition,
     Related,
+    Unsaid,
     Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import State
-from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.conditions import handed
 from xavi_dialogue.explain.answers.findings import Finding
+from xavi_dialogue.explain.answers.lasting import staying
 from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
-from xavi_dialogue.explain.answers.onward import whether_ours
+from xavi_dialogue.explain.answers.onward import WAYS, whether_ours
 from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.weighing import weigh
 
@@ -44,13 +50,49 @@ def whether(question: Whether, asked: Asked) -> Answer:
     if ours is not None:
         return ours
     that = _as_state(_as_it_was(_affirmed(question.that), asked))
+    if (behind := _stays_behind(that, asked)) is not None:
+        return staying(asked, behind)
     if (why := _disputed(that, asked)) is not None:
         return why
     found = _seen_since(that, weigh(that, asked), asked)
     if question.tag and that != question.that and found.holds and found.answer is None:
         told = _seen_since(Not(that), found.negated(), asked)
         return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open
+    if found.holds is False and (kept := _kept_behind(that, found, asked)) is not None:
+        return kept
+    if found.holds is False and isinstance(that, Happens) and "safely" in that.event.manner:
+        that = Happens(replace(that.event, manner=()))  # it has not done so at all
     return found.answer if found.answer is not None else found.verdict(that)
+
+
+def _kept_behind(that: Proposition, found: Finding, asked: Asked) -> Answer | None:
+    """Tell why we are not going to overtake, where it is asked whether we are."""
+    match that:
+        case Happens(event=Event(action="overtake", actor=Ego(), tense="future") as event):
+            reason = Why(Not(Happens(replace(event, tense="present", modal=None, time=Now()))))
+            try:
+                return handed(reason, asked) if not found.facts else None
+            except Unanswered as unanswered:
+                if isinstance(unanswered.result, NeedRollout):
+                    raise
+    return None
+
+
+def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
+    """Find the vehicle ahead behind which we are asked to be about to stay."""
+    match that:
+        case Happens(
+            event=Event(action="follow", actor=Ego(), object=Vehicle() as leader) as event
+        ):
+            if event.modal not in (None, "will", "want"):
+                return None
+            lasts = "long" in event.manner or isinstance(event.time, WholeRide)
+            onward = event.tense == "future" or (event.tense == "present" and lasts)
+            look = asked.world.look(leader.number, asked.now)
+            ahead = look is not None and look.in_view and not look.oncoming and look.ahead > 0.0
+            over = asked.past is not None and event.tense == "present"
+            return leader if onward and ahead and not over else None
+    return None
 
 
 def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
@@ -78,7 +120,9 @@ def _as_state(that: Proposition) -> Proposition:
 def _affirmed(that: Proposition) -> Proposition:
     """Take the negation and "do you think" off a question: "yes" affirms the fact as such."""
     while (isinstance(that, Not) and not that.lexical) or (
-        isinstance(that, Believed) and that.tense == "present"
+        isinstance(that, Believed)
+        and that.tense == "present"
+        and isinstance(that.time, Unsaid | Now)
     ):
         that = that.content
     return that
@@ -91,14 +135,29 @@ def claim(act: Claim, asked: Asked) -> Answer:
         Unanswered: it is of what is unknown, or rollouts are needed.
     """
     act = replace(act, that=_as_state(act.that))
-    if (why := _disputed(act.that, asked)) is not None:
+    if (why := _disputed(act.that, asked) or _our_way(act.that, asked)) is not None:
         return why
     found = _seen_since(act.that, weigh(act.that, asked), asked)
     if isinstance(found.answer, Priority):
         return replace(found.answer, claim=True)
+    if isinstance(found.answer, Beliefs):
+        return found.answer
     if found.answer is not None and (found.holds is None or _own_type(act.that)):
         return found.answer
     return _checked(found, act)
+
+
+def _our_way(that: Proposition, asked: Asked) -> Answer | None:
+    """Tell our way, where it is said which way we were or were not meant to go."""
+    content = that.content if isinstance(that, Not) else that
+    match content:
+        case Happens(event=Event(actor=Ego(), modal="should" | "must") as event) if (
+            event.action in WAYS or event.action == "leave"
+        ):
+            meant = replace(event, tense="present", modal=None, time=Unsaid())
+            found = whether_ours(Whether(Happens(meant)), asked)
+            return None if found is None else replace(found, holds=None)
+    return None
 
 
 def _disputed(that: Proposition, asked: Asked) -> Answer | None:

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Beliefs, Measures, Verdict
+from xavi_dialogue.domain.answers import Beliefs, Measures, Priority, Verdict
 from xavi_dialogue.domain.facts import Fact, Look
 from xavi_dialogue.domain.meaning import Whither, Why
 from xavi_dialogue.domain.terms import (
@@ -29,12 +29,14 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.beliefs import time_of
-from xavi_dialogue.explain.answers.comparisons import compares, exists, has
+from xavi_dialogue.explain.answers.comparisons import compares, has
 from xavi_dialogue.explain.answers.conditions import condition, handed
 from xavi_dialogue.explain.answers.conduct import conduct
-from xavi_dialogue.explain.answers.duties import duty, is_owed
+from xavi_dialogue.explain.answers.duties import duty, is_owed, of_order, who_first
+from xavi_dialogue.explain.answers.existing import exists
 from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, unknown
-from xavi_dialogue.explain.answers.foreseen import chance, macros
+from xavi_dialogue.explain.answers.foreseen import besides, chance, macros
+from xavi_dialogue.explain.answers.halting import stop_or_go
 from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.measures import values
 from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, window
@@ -101,9 +103,15 @@ def _contrary(found: Finding) -> Finding:
 
 def _joined(of: Both, asked: Asked) -> Finding:
     """Give several together: all must hold, or one of them."""
+    if of.join == "or" and (halting := stop_or_go(of, asked)) is not None:
+        return halting
+    if of.join == "or" and (first := of_order(of)) is not None:
+        rule = who_first(asked, first)
+        if rule is not None and rule.rule != "none":
+            return Finding(None, answer=replace(rule, holds=None))
     owed = next((part for part in of.contents if is_owed(part)), None)
-    if owed is not None:
-        return weigh(owed, asked)  # the rule decides, also over what goes with it
+    if owed is not None:  # the rule decides, also over what goes with it
+        return _open_to_all(weigh(owed, asked)) if of.join == "or" else weigh(owed, asked)
     if of.join == "or" and (chosen := either(of, asked)) is not None:
         return chosen
     found = [weigh(part, asked) for part in of.contents]
@@ -115,6 +123,13 @@ def _joined(of: Both, asked: Asked) -> Finding:
     gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
     believed = tuple(belief for one in told for belief in one.believed)
     return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def _open_to_all(found: Finding) -> Finding:
+    """Leave out yes or no: it was asked which of several holds."""
+    if not isinstance(found.answer, Priority):
+        return found
+    return Finding(None, answer=replace(found.answer, holds=None))
 
 
 def either(of: Both, asked: Asked) -> Finding | None:
@@ -136,6 +151,10 @@ def either(of: Both, asked: Asked) -> Finding | None:
         told = Finding(True, found[0][1].facts)
         return Finding(True, told.facts, answer=replace(told.verdict(same), either=True))
     likely = [(p, one) for p, one in found if one.holds]
+    deeds = {part.event.action for part, _ in likely if isinstance(part, Happens)}
+    if len(likely) > 1 and len(likely) == len(found) and len(deeds) == 1:
+        both = replace(of, join="and")
+        return Finding(True, answer=replace(Finding(True).verdict(both), either=True))
     if len(likely) != 1:
         return _way_of(of, asked)
     part, one = likely[0]
@@ -230,7 +249,10 @@ def _expected_of(asked: Asked, event: Event, time: Time) -> Finding:
     if share is None:
         look = first_look(asked, number(event.actor) or 0, at)
         return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
-    told = Beliefs(number(event.actor) or 0, event, shown, probability=share, time=at)
+    told = Beliefs(
+        number(event.actor) or 0, event, shown, probability=share, time=at,
+        besides=besides(belief, event),
+    )  # fmt: skip
     answer = told if came is None else None
     return Finding(share >= EXPECTED, facts, None, shown, probability=share, answer=answer)
 

@@ -4,7 +4,7 @@ An indicator announces a change of lanes or a turn to that side; who drives in f
 is no reason for it. Where a vehicle is, seen from us, is told by who let whom go, or went past.
 """
 
-from planner.trace import Action, PlanTrace
+from planner.trace import PlanTrace
 from xavi_dialogue.domain.answers import SignalReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
@@ -13,10 +13,11 @@ from xavi_dialogue.explain.causes.conduct import probability
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride, prediction
 
-MEANT: dict[Side, tuple[Action, ...]] = {
+MEANT: dict[Side, tuple[ActionName, ...]] = {
     "left": ("change-left", "exit-left"),
     "right": ("change-right", "exit-right"),
 }
+LEAVING: tuple[ActionName, ...] = ("leave",)  # a roundabout, to the right
 LATER = 15.0  # [s] after an indicator within which what it announced is done
 EARLY = 1.0  # [s] before it shows in which that may have begun
 THOUGHT = 0.1  # probability from which something is thought possible
@@ -33,19 +34,24 @@ def announced(
     meant = MEANT.get(signal.side) if signal.side is not None else None
     if meant is None:
         return None
+    road = world.road(signal.begin)
+    place = None if road is None else road.places.get(vehicle)
+    if place is not None and place.roundabout and signal.side == "right":
+        meant = LEAVING
     done = world.episodes(Vehicle(vehicle), meant, signal.begin - EARLY, signal.begin + LATER)
     done = tuple(e for e in done if e.action in meant and e.begin >= signal.begin - EARLY)
     trace = ride.at(time if signal.end is None else min(time, signal.end), vehicle)
-    chance, thought = None, set[Action]()
+    chance, thought = None, set[ActionName]()
     if trace is not None and prediction(trace, vehicle) is not None:
         chance = probability(ride, trace, vehicle, meant)
         thought = {a for a in meant if probability(ride, trace, vehicle, (a,)) >= THOUGHT}
-    aims = tuple(a for a in meant if a in thought or a in _possible(trace, vehicle, meant))
+    possible = meant if meant == LEAVING else _possible(trace, vehicle, meant)
+    aims = tuple(a for a in meant if a in thought or a in possible)
     return SignalReason(vehicle, signal, aims, chance, done[0] if done else None)
 
 
 def _possible(
-    trace: PlanTrace | None, vehicle: int, meant: tuple[Action, ...]
+    trace: PlanTrace | None, vehicle: int, meant: tuple[ActionName, ...]
 ) -> tuple[ActionName, ...]:
     """Which of a change of lanes and a turn the road allows there."""
     road = None if trace is None else trace.road

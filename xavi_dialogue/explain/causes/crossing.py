@@ -56,6 +56,8 @@ def crossing(
     if speed < MOVING and not setting_off:
         return None
     ours = _our_way(ride, begin)
+    if not ours:
+        return None
     along = list(accumulate((math.dist(a, b) for a, b in pairwise(ours)), initial=0.0))
     limit = _limit(ride, begin)
     found = []

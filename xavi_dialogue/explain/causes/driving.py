@@ -5,6 +5,7 @@ that was in force, and by the events; each vehicle is tried by planning without 
 was in the way, the road tells: a turn, a line to give way at, the end of the trip.
 """
 
+import math
 from dataclasses import dataclass
 
 from msgspec.structs import replace
@@ -13,7 +14,7 @@ from planner.events import Event as RideEvent
 from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
-from xavi_dialogue.causal.model import CausalModel
+from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Vehicle
@@ -27,8 +28,14 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
+ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
+JUST_OVER = 1.0  # [s] since when what is over is told as if it went on
+FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
+AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
 SOON, FAR = 2.0, 5.0  # [s] after a decision within which it shows that one is slower for somebody
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
+STOPPING = 0.5  # [s] by which braking may go on after a stop was given up
+LATELY = 2.5  # [s] since when a stop that was given up is what is asked about
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 ROAD = frozenset(
     ("turn", "bend", "roundabout", "limit")
@@ -46,15 +53,22 @@ class Reasons:
     trace: PlanTrace
 
 
-def reasons_for(ride: Ride, world: World, deed: Episode) -> Reasons:
+def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
     """Find why the ego drove as it did in an episode of braking, standing, waiting, or the like.
+
+    Args:
+        ride: the record.
+        world: its facts.
+        deed: the episode.
+        at: [s] the moment of it that is asked about; None: its middle.
 
     Raises:
         Unanswered: the record lacks the decision; or rollouts are needed.
     """
     end = ride.now if deed.end is None else deed.end
-    wait = _waited(ride, deed, end)
-    trace = _decision(ride, deed, end, wait)
+    wait = _waited(ride, world, deed, end)
+    moment = (deed.begin + end) / 2.0 if at is None else min(max(at, deed.begin), end)
+    trace = _decision(ride, deed, end, wait, moment)
     model = ride.model(trace)
     try:
         plan = factual(model, trace)
@@ -69,13 +83,39 @@ def reasons_for(ride: Ride, world: World, deed: Episode) -> Reasons:
     tried = proven(ride, model, ranked, plan, at=slow_at)
     tried = _with_wait(tried, wait)
     causes = tuple(motion_cause(ride, world, cause, trace, deed.begin) for cause in tried.causes)
+    over = deed.end is not None and ride.now - deed.end > JUST_OVER
+    causes = as_of(ride, causes, deed.begin if over else ride.now)
     rests_on = evidence(ride, model, plan)
     if not causes:
-        causes = beside(road_causes(ride, trace, deed), tried.cleared)
+        causes = beside(of_road(ride, trace, deed, plan), tried.cleared)
     elif deed.action in SLOWING:
         road = road_causes(ride, trace, deed)
         causes = (*causes, *(cause for cause in road if cause.kind in ROAD))
     return Reasons(causes, tried.cleared, rests_on, trace)
+
+
+def of_road(
+    ride: Ride, trace: PlanTrace, deed: Episode, plan: Intervention
+) -> tuple[MotionCause, ...]:
+    """Tell what of the road explains an episode, with whom one has to be ready to let go first.
+
+    At a line that is reached already, with nobody to let go, the way behind it is the reason.
+    """
+    found = [_to_whom(trace, plan, one) for one in road_causes(ride, trace, deed)]
+    line = [one.kind == "give-way-line" and not (one.vehicle or one.value) for one in found]
+    return tuple(one for _, one in sorted(zip(line, found, strict=True), key=lambda pair: pair[0]))
+
+
+def _to_whom(trace: PlanTrace, plan: Intervention, cause: MotionCause) -> MotionCause:
+    """Add who may have to be let go first where one has to be ready to give way."""
+    if cause.kind != "give-way-line":
+        return cause
+    shares = {v: h.share for v, h in hold_ups(plan).items() if _goes_first(trace, v)}
+    facts = () if trace.road is None else trace.road.priority
+    known = [fact.vehicle for fact in facts if fact.who == "vehicle"]
+    alone = known[0] if len(known) == 1 else None
+    first = max(shares, key=lambda v: shares[v], default=alone)
+    return cause if first is None else replace(cause, vehicle=first)
 
 
 def beside(found: tuple[MotionCause, ...], cleared: tuple[int, ...]) -> tuple[MotionCause, ...]:
@@ -91,7 +131,8 @@ def motion_cause(
 ) -> MotionCause:
     """Tell a vehicle that held us up as a reason for how we drove."""
     how = cause.mechanism.how if cause.mechanism is not None else "leader"
-    if how in ("leader", "cut-in") and _goes_first(trace, cause.vehicle):
+    joins = how in ("leader", "cut-in") and _goes_first(trace, cause.vehicle)
+    if joins and not _leads(world, cause.vehicle, time):
         how = "right-of-way"  # it will be ahead of us only once we have let it go first
     since = world.episodes(Vehicle(cause.vehicle), SINCE, trace.sim_time, ride.now)
     since = tuple(e for e in since if e.begin >= trace.sim_time)
@@ -107,29 +148,54 @@ def motion_cause(
     )
 
 
+def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[MotionCause, ...]:
+    """Tell who held us up with their speeds at a time [s], without leaders who drew away then."""
+    ours, found = ego_speed(ride, time), []
+    for cause in causes:
+        speeds = () if cause.vehicle is None else ride.motion(cause.vehicle).until(time).speed
+        told = replace(cause, speed=speeds[-1]) if speeds else cause
+        theirs = told.speed if told.kind == "leader" else None
+        if theirs is None or ours is None or theirs <= ours + FASTER:
+            found.append(told)
+    return tuple(found)
+
+
 def _goes_first(trace: PlanTrace, vehicle: int) -> bool:
     """Whether a vehicle whose way crosses ours has right of way."""
     facts = () if trace.road is None else trace.road.priority
     return any(fact.vehicle == vehicle and fact.who == "vehicle" for fact in facts)
 
 
-def _waited(ride: Ride, deed: Episode, end: float) -> RideEvent | None:
+def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | None:
     """The giving way within an episode, or shortly before it."""
     if deed.action == "speed-up":
         return None
     waits = [event for event in ride.events if event.kind == "gave-way"]
     near = [e for e in waits if deed.begin - BEFORE <= e.sim_time <= end]
+    near = [e for e in near if e.sim_time >= deed.begin or not _leads(world, e.vehicle, deed.begin)]
     if isinstance(deed.object, Vehicle):
         near = [e for e in near if e.vehicle == deed.object.number] or near
     return near[-1] if near else None
 
 
-def _decision(ride: Ride, deed: Episode, end: float, wait: RideEvent | None) -> PlanTrace:
+def _leads(world: World, vehicle: int | None, time: float) -> bool:
+    """Whether a vehicle drives ahead of us in our lane at a time [s]."""
+    look = None if vehicle is None else world.look(vehicle, time)
+    return look is not None and look.ahead > 0.0 and abs(look.left) <= ASIDE and not look.oncoming
+
+
+def _decision(
+    ride: Ride, deed: Episode, end: float, wait: RideEvent | None, at: float
+) -> PlanTrace:
     """The decision under which it happened.
 
-    That is the last one before way was given; else, of those taken meanwhile, the one whose plan
-    is held up most, or the last one before the middle of what was seen.
+    That is the one for a stop that was begun with it, or the last one before way was given; else,
+    of those taken meanwhile, the one whose plan is held up most, or the last one before the middle
+    of what was seen.
     """
+    halt = _stop_of(ride, deed, end, at)
+    if halt is not None:
+        return halt
     middle = (deed.begin + end) / 2.0
     trace = ride.at(middle if wait is None else wait.sim_time) or next(iter(ride.traces), None)
     if trace is None:
@@ -137,8 +203,19 @@ def _decision(ride: Ride, deed: Episode, end: float, wait: RideEvent | None) -> 
     if wait is not None or deed.action == "speed-up":
         return trace
     window = (deed.begin - LEEWAY, end + LEEWAY)
-    meanwhile = [t for t in ride.traces if deed.begin - LEEWAY <= t.sim_time <= end]
-    return max((trace, *meanwhile), key=lambda t: _held(ride, t, window))
+    meanwhile = [t for t in ride.traces if deed.begin - AHEAD <= t.sim_time <= end]
+    return max(meanwhile or [trace], key=lambda t: _held(ride, t, window))
+
+
+def _stop_of(ride: Ride, deed: Episode, end: float, at: float) -> PlanTrace | None:
+    """Find the decision for a stop because of which one braked at a time [s], or stood."""
+    if deed.action not in (*SLOWING, "stop", "stand"):
+        return None
+    known = [d for d in ride.begun if d.action == "stop"]
+    until = {d.started: math.inf if d.ended is None else d.ended for d in known}
+    meant = [d for d in known if d.started <= end and until[d.started] >= deed.begin - STOPPING]
+    last = [d for d in meant if d.started <= at + LEEWAY and until[d.started] >= at - LATELY]
+    return ride.choice_of(last[-1]) if last else None
 
 
 def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:

@@ -28,10 +28,13 @@ DRIVEN = frozenset[ActionName](("slow-down", "speed-up"))
 ANYTHING = frozenset[ActionName](("do", "happen"))  # what leaves open what is done
 
 
-def grounds(ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: float) -> Grounds:
+def grounds(
+    ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: float, *, held: bool = True
+) -> Grounds:
     """Tell how we came to know what a vehicle would do, or what it is most likely to do.
 
-    Where it did so, the decisions up to then count; else those up to a moment [s].
+    Where it did so, the decisions up to then count; else those up to a moment [s], or up to when
+    it was believed most where it is asked why it was `held` at all.
 
     Raises:
         Unanswered: no decision expects anything of the vehicle, or none can expect that.
@@ -47,7 +50,7 @@ def grounds(ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: flo
         raise Unanswered(NotRecorded("not-recorded", Vehicle(vehicle), about="doing"))
     known = [t for t in every if end is None or t.sim_time <= end + ROUNDING] or every[:1]
     beliefs = [_belief(before, trace, vehicle, asked, stays) for trace in known]
-    if beliefs[-1] < EVEN <= max(beliefs):
+    if held and beliefs[-1] < EVEN <= max(beliefs):
         top = max(range(len(known)), key=lambda k: (round(beliefs[k], 6), k))
         known, beliefs = known[: top + 1], beliefs[: top + 1]
     return _grounds(before, known, beliefs, vehicle, asked, seen=end is not None)
@@ -58,7 +61,7 @@ def _expected(ride: Ride, trace: PlanTrace, vehicle: int) -> tuple[ActionName, .
     if known is None:
         return ()
     best = max(range(len(known.goals)), key=lambda g: known.goals[g].probability)
-    return likeliest(ride.model(trace), vehicle, best)[0][-1:]
+    return likeliest(ride.model(trace), vehicle, best)[0][-1:] or STRAIGHT
 
 
 def _done(ride: Ride, vehicle: int, names: Sequence[ActionName]) -> float | None:

@@ -1,7 +1,8 @@
 """Natural foils: what one thinks of first instead of what was done.
 
 Against a turn, an exit or going straight on that is another direction; against a change of lanes
-it is staying. Stopping is compared only where nothing else was possible.
+it is staying, and against a stop going on as planned. Stopping is compared only where nothing else
+was possible.
 """
 
 from msgspec.structs import replace
@@ -34,6 +35,8 @@ def natural(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
     fact = plan[len(node)] if len(plan) > len(node) else None
     if fact in CHANGES:
         return _staying(ride, trace, node)
+    if fact == "stop":
+        return _going_on(ride, trace, node)
     if fact in DIRECTIONS:
         return other_way(ride, trace, node) or against_best(ride, trace, node)
     return against_best(ride, trace, node)
@@ -84,6 +87,21 @@ def on_way(trace: PlanTrace, found: Contrast, node: Actions = ()) -> Contrast:
     if both and lost and on_route(trace, fact[0], node):
         return replace(found, way=True)
     return found
+
+
+def _going_on(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
+    """Compare a stop with doing at once what is planned after it; else with the best alternative.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    after = planned(trace)[len(node) + 1 :]
+    try:
+        return contrast(ride, trace, after[:1], node) if after else against_best(ride, trace, node)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return against_best(ride, trace, node)
 
 
 def _staying(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:

@@ -118,6 +118,8 @@ def _unnamed(ride: Ride, subject: Subject) -> Premise:
             return Premise(ride.choice_of(deed), deed)
         moment = moment_of(subject.span, ride.now)
         trace = ride.at(moment)
+        if trace is None and subject.span is not None and not subject.span.said:
+            trace = ride.latest
         if trace is None:
             raise Unanswered(NotRecorded("before-record", since=moment))
         return Premise(trace, deed)

@@ -58,9 +58,9 @@ def limit_at(ride: Ride, time: float) -> float | None:
     return None if place is None else place.limit
 
 
-def setting_off(ride: Ride, time: float) -> bool:
-    """Tell whether the ego had stood shortly before a time [s] and was speeding up at it."""
-    motion = ride.motion(EGO).until(time)
+def setting_off(ride: Ride, time: float, vehicle: int = EGO) -> bool:
+    """Tell whether a vehicle had stood shortly before a time [s] and was speeding up at it."""
+    motion = ride.motion(vehicle).until(time)
     if motion.trend != "speeding-up":
         return False
     pairs = zip(motion.time, motion.speed, strict=True)

@@ -13,7 +13,15 @@ from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.explain.causes.contrast import evidence, factual
-from xavi_dialogue.explain.causes.driving import Reasons, beside, ego_speed, motion_cause
+from xavi_dialogue.explain.causes.driving import (
+    FASTER,
+    Reasons,
+    as_of,
+    beside,
+    ego_speed,
+    motion_cause,
+    of_road,
+)
 from xavi_dialogue.explain.causes.involved import expected_actions, holding_up
 from xavi_dialogue.explain.causes.necessity import proven
 from xavi_dialogue.explain.causes.roadside import limit_at, road_causes, setting_off
@@ -25,7 +33,6 @@ AT_LIMIT = 0.93  # of the limit, from which one drives at it
 HEADWAY = 5.0  # [s] within which somebody in front sets the pace
 NEAR = 12.0  # [m] likewise, however slow we are
 ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
-FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
 AROUND = 3.0  # [s] of the plan that count as now
 
 
@@ -137,11 +144,12 @@ def _reasons(
     if ahead is not None and paced and ahead.vehicle not in [c.vehicle for c in found]:
         found.append(_as_leader(ride, trace, ahead))
     tried = proven(ride, model, found, plan, at=trace.sim_time + AROUND)
-    causes = [motion_cause(ride, world, c, trace, deed.begin) for c in tried.causes]
+    held = tuple(motion_cause(ride, world, c, trace, deed.begin) for c in tried.causes)
+    causes = list(as_of(ride, held, deed.begin))
     if setting_off(ride, deed.begin):
         causes.append(MotionCause("starting"))
     if not causes:
-        causes = list(beside(road_causes(ride, trace, deed), tried.cleared))
+        causes = list(beside(of_road(ride, trace, deed, plan), tried.cleared))
     return Reasons(tuple(causes), tried.cleared, evidence(ride, model, plan), trace)
 
 

@@ -130,7 +130,8 @@ def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
             if end - begin < FOLLOWED or _between(states, vehicle, (begin + end) / 2.0, ours):
                 continue
             actor, other = (EGO, vehicle) if ours else (vehicle, EGO)
-            over = end < states.ride.now - 1.5 or states.ride.ended
+            old = 1.5 if states.ride.scene is None else 0.5
+            over = end < states.ride.now - old or states.ride.ended
             yield Episode(named(actor), "follow", begin, end if over else None, named(other))
 
 

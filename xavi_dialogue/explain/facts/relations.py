@@ -8,7 +8,6 @@ from xavi_dialogue.domain.terms import Ego, Exit, Junction, Lane, Road, Thing, V
 from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.facts import bodies
 from xavi_dialogue.explain.facts.actions import somebody
-from xavi_dialogue.explain.facts.attributes import ATTRIBUTES
 from xavi_dialogue.explain.facts.bearings import Offset, oncoming
 from xavi_dialogue.explain.facts.meetings import followings
 from xavi_dialogue.explain.facts.states import States
@@ -17,6 +16,7 @@ from xavi_dialogue.explain.history.motion import EPSILON
 from xavi_dialogue.explain.history.thresholds import NEAR, ROAD_WIDTH, SAME_LANE, STANDING
 
 Told: TypeAlias = bool | None
+KMH = 3.6  # [km/h] in 1 m/s
 
 
 def holds(states: States, relation: Relation, thing: Thing, to: Thing, at: float) -> Told:
@@ -131,7 +131,7 @@ def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
         a, b = states.state(thing, at), states.state(to, at)
         if a is None or b is None:
             return None
-        return sign * (a.speed - b.speed) > ATTRIBUTES["speed"].tolerance
+        return sign * (round(KMH * a.speed) - round(KMH * b.speed)) > 0  # as they are told
 
     return read
 

@@ -19,6 +19,7 @@ from xavi_dialogue.explain.history.thresholds import (
 
 FRESH = 1.5  # [s] how old a decision may be whose plan tells what is going on now
 SOON = 0.5  # [s] after now in which what begins counts as begun
+RATE = 0.2  # [m/s2] from which a speed changes
 GROWS = 0.2  # [m/s] in a second from which a speed grows
 
 
@@ -35,8 +36,18 @@ def _speeds(states: States, vehicle: int) -> list[Episode]:
             found.append(_changed(states, vehicle, motion, sighting))
     found += _standstills(states, vehicle, motion)
     if vehicle == EGO and not any(e.end is None and e.action != "speed-up" for e in found):
-        found += underway(states)
+        found += list(underway(states)) or _lit(states)
     return found
+
+
+def _lit(states: States) -> Iterator[Episode]:
+    """The braking of the ego that the brake light shows and the speed hardly shows yet."""
+    scene = states.ride.scene
+    if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
+        return
+    if scene.ego.speed > MOVING:
+        speed = scene.ego.speed
+        yield Episode(named(EGO), "brake", scene.time, speed_from=speed, speed_to=speed)
 
 
 def underway(states: States) -> Iterator[Episode]:
@@ -44,6 +55,8 @@ def underway(states: States) -> Iterator[Episode]:
     ride = states.ride
     trace = ride.traces[-1] if ride.traces else None
     if trace is None or ride.ended or ride.now - trace.sim_time > FRESH:
+        return
+    if _rate_now(states, EGO) > RATE:
         return
     plan = tuple(step.action for step in trace.plan)
     driven = (r for r in trace.rollouts if r.speed and _drives(r, plan[:1]))
@@ -74,7 +87,9 @@ def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -
     first, last = inside[0], inside[-1]
     peak = max(-motion.rate[k] for k in inside)
     slower = sighting.action == "slow-down"
-    going_on = _open(states, vehicle, sighting.end) and _continues(motion, slower)
+    going_on = _open(states, vehicle, sighting.end) and _continues(
+        states, vehicle, motion, slower=slower
+    )
     return Episode(
         named(vehicle),
         "brake" if slower and peak >= BRAKING else sighting.action,
@@ -87,11 +102,22 @@ def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -
     )
 
 
-def _continues(motion: Motion, slower: bool) -> bool:
-    """Whether the speed still changes at the end of the record."""
+def _continues(states: States, vehicle: int, motion: Motion, *, slower: bool) -> bool:
+    """Whether the speed still changes at the end of the record, as far as it is seen now."""
     if motion.speed[-1] < STANDING:
         return False
-    return motion.rate[-1] <= -0.2 if slower else motion.rate[-1] >= 0.2
+    rate, now = motion.rate[-1], _rate_now(states, vehicle)
+    return max(rate, now) <= -RATE if slower else min(rate, now) >= RATE
+
+
+def _rate_now(states: States, vehicle: int) -> float:
+    """Tell how a speed changes [m/s2]: as the newest scene shows it, else between two samples."""
+    scene, motion = states.ride.scene, states.motion(vehicle)
+    seen = None if scene is None else scene.vehicles.get(vehicle)
+    if seen is not None:
+        return seen.acceleration
+    apart = motion.time[-1] - motion.time[-2] if len(motion.time) > 1 else 0.0
+    return (motion.speed[-1] - motion.speed[-2]) / apart if apart > EPSILON else 0.0
 
 
 def _open(states: States, vehicle: int, end: float) -> bool:

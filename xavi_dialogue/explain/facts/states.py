@@ -75,8 +75,9 @@ class States:
     def shape(self, vehicle: int) -> VehicleState | None:
         """A vehicle as it looks, at any time."""
         if vehicle not in self._shapes:
-            known = (t.scene[vehicle] for t in reversed(self.ride.traces) if vehicle in t.scene)
-            self._shapes[vehicle] = next(known, None)
+            seen = (t.scene[vehicle] for t in reversed(self.ride.traces) if vehicle in t.scene)
+            here = None if self.ride.scene is None else self.ride.scene.vehicles.get(vehicle)
+            self._shapes[vehicle] = here or next(seen, None)
         return self._shapes[vehicle]
 
     def hidden(self, vehicle: int, time: float) -> float | None:
@@ -85,9 +86,16 @@ class States:
             if begin + EPSILON < time <= end + EPSILON:
                 return begin
         trace = self.trace(time)
-        if trace is None or time - trace.sim_time > STALE:
+        if trace is None or time - trace.sim_time > STALE or self._seen_since(vehicle, time):
             return None
         return trace.unseen.get(vehicle)
+
+    def _seen_since(self, vehicle: int, time: float) -> bool | None:
+        """Whether a vehicle was seen up to a time [s], after the last decision; None: not known."""
+        scene = self.ride.scene
+        if scene is None or time < scene.time - EPSILON:
+            return None
+        return vehicle in scene.vehicles
 
     def known(self, vehicle: int, time: float) -> bool:
         """Whether it is known where a vehicle is at a time [s]: seen, or hidden but remembered."""
@@ -100,7 +108,9 @@ class States:
         if k + 1 < len(motion.time) and motion.time[k + 1] - motion.time[k] < 0.5:
             return True
         trace = self.trace(time)
-        return trace is not None and vehicle in trace.scene and time - trace.sim_time <= STALE
+        if trace is None or vehicle not in trace.scene or time - trace.sim_time > STALE:
+            return False
+        return vehicle in trace.unseen or self._seen_since(vehicle, time) is not False
 
     def visible(self, vehicle: int, time: float) -> bool:
         """Whether a vehicle is in view at a time [s]."""
@@ -140,7 +150,7 @@ class States:
         if k is None or shape is None:
             return None
         (x, y), heading, speed = motion.position[k], motion.heading[k], motion.speed[k]
-        rest = time - motion.time[k]
+        rest, seen = time - motion.time[k], self._seen_since(vehicle, time)
         if rest > EPSILON and k + 1 < len(motion.time) and motion.time[k + 1] - time < 0.5:
             share = rest / (motion.time[k + 1] - motion.time[k])
             x += share * (motion.position[k + 1][0] - x)
@@ -152,7 +162,7 @@ class States:
             position=(x, y),
             heading=math.remainder(heading, math.tau),
             speed=speed,
-            acceleration=motion.rate[k],
+            acceleration=shape.acceleration if seen else motion.rate[k],
             signals=self.lights(vehicle, time) or (),
         )
 

@@ -6,9 +6,12 @@ on. Whom another one waits for is told by what was predicted of it, and is never
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from planner.trace import HoldUp, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
@@ -16,6 +19,7 @@ from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
 
 Holder = tuple[int, HoldUp]
+AWAY = 6.0  # [m] behind somebody from which one is past
 
 
 def waits(states: States, vehicle: int) -> list[Episode]:
@@ -26,9 +30,10 @@ def waits(states: States, vehicle: int) -> list[Episode]:
 def _waits(states: States, vehicle: int) -> list[Episode]:
     stood = [e for e in speeds(states, vehicle) if e.action in ("stop", "stand")]
     if vehicle != EGO:
-        return [wait for still in stood for wait in _stood_for(states, vehicle, still)] + [
+        found = [wait for still in stood for wait in _stood_for(states, vehicle, still)] + [
             wait for still in stood for wait in _let_us_go(states, vehicle, still)
         ]
+        return [_until_past(states, vehicle, wait) for wait in found]
     given = _merged(_gave_way(states, stood))
     waited = [wait for still in stood for wait in _stood_for(states, EGO, still)]
     told = [
@@ -37,6 +42,24 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         if not any(g.object == wait.object and _meet(g, wait) for g in given)
     ]
     return given + told
+
+
+def _until_past(states: States, vehicle: int, wait: Episode) -> Episode:
+    """End a wait that goes on where the one waited for is past and behind."""
+    other = EGO if isinstance(wait.object, Ego) else getattr(wait.object, "number", None)
+    if wait.end is not None or other is None or not _past(states, vehicle, other, states.ride.now):
+        return wait
+    times = (t.sim_time for t in reversed(states.ride.traces) if t.sim_time > wait.begin)
+    before = (time for time in times if not _past(states, vehicle, other, time))
+    return replace(wait, end=next(before, wait.begin))
+
+
+def _past(states: States, vehicle: int, other: int, time: float) -> bool:
+    """Whether another one is behind a vehicle, or drives away from it with its back to it."""
+    ours, theirs = states.offset(vehicle, other, time), states.offset(other, vehicle, time)
+    if ours is None or theirs is None:
+        return False
+    return ours.ahead < 0.0 or theirs.ahead < -ours.clear - AWAY
 
 
 def _merged(given: Iterator[Episode]) -> list[Episode]:

@@ -4,14 +4,17 @@ Joined motions are kept for the rides asked about last: a ride that has gone on 
 known, and one that is looked back upon is a part of it.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from planner.road import LightChange
 from planner.trace import SAMPLE_PERIOD, PlanTrace, Track
-from sim.scene import EGO
+from sim.network import angle_between
+from sim.scene import EGO, Scene, VehicleState
 from xavi_dialogue.explain.history.motion import EPSILON, Motion
 
+FILLED = 2.0  # [s] between the last decision and a scene that are filled in
 KEPT = 4  # rides whose motions are kept
 Traces = tuple[PlanTrace, ...]
 Span = tuple[float, float]  # [s]
@@ -58,6 +61,48 @@ class Joined:
         time = traces[-1].sim_time
         seen = {v: known.until(time) for v, known in self.seen.items()}
         return Joined(traces, {v: known for v, known in seen.items() if known.motion.time})
+
+    def reaching(self, scene: Scene) -> "Joined":
+        """The same with what was seen after the last decision.
+
+        What lies between is filled in evenly, as each was seen there and here.
+        """
+        last = self.traces[-1]
+        seen = dict(self.seen)
+        for vehicle, since in last.unseen.items():
+            if vehicle in seen and vehicle not in scene.vehicles:
+                known = seen[vehicle]
+                hidden = (*(span for span in known.hidden if span[0] != since), (since, scene.time))
+                seen[vehicle] = Seen(known.motion, known.lights, hidden)
+        for vehicle, state in scene.vehicles.items():
+            known = seen.get(vehicle, Seen())
+            lights, shown = known.lights, state.signals
+            if not lights or lights[-1].shown != shown:
+                lights = (*lights, LightChange(scene.time, shown))
+            seen[vehicle] = Seen(_reaching(known.motion, scene.time, state), lights, known.hidden)
+        return Joined(self.traces, seen)
+
+
+def _reaching(motion: Motion, time: float, state: VehicleState) -> Motion:
+    """A motion with one more sample at a time [s], and those that are missing in between."""
+    since = motion.time[-1] if motion.time else -math.inf
+    count = math.ceil((time - since) / SAMPLE_PERIOD - 0.01) if time - since <= FILLED else 1
+    if time <= since + EPSILON or count < 1:
+        return motion
+    (x, y), heading, speed = state.position, state.heading, state.speed
+    shares = [k * SAMPLE_PERIOD / (time - since) for k in range(1, count)]
+    if shares:
+        (x0, y0), h0, v0 = motion.position[-1], motion.heading[-1], motion.speed[-1]
+        turn = angle_between(heading, h0)
+    between = tuple(
+        (x0 + s * (x - x0), y0 + s * (y - y0), h0 + s * turn, v0 + s * (speed - v0)) for s in shares
+    )
+    return Motion(
+        motion.time + tuple(round(since + s * (time - since), 3) for s in shares) + (time,),
+        motion.position + tuple((a, b) for a, b, _, _ in between) + ((x, y),),
+        motion.heading + tuple(h for _, _, h, _ in between) + (heading,),
+        motion.speed + tuple(v for _, _, _, v in between) + (speed,),
+    )
 
 
 _kept: list[Joined] = []  # latest first

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from planner.events import Event
 from planner.trace import PlanTrace
+from sim.scene import Scene
 from xavi_dialogue.domain.answers import NeedRollout
 
 
@@ -18,3 +19,4 @@ class Record:
     extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
     refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing
     gaps: tuple[tuple[float, float], ...] = ()  # [s] from when to when some of it was lost
+    scene: Scene | None = None  # what was seen last up to `now`; None: the last decision has it

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from planner.trace import Action, PlanTrace, VehiclePrediction
-from sim.scene import EGO
+from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import (
     NeedRollout,
@@ -66,6 +66,15 @@ class Ride:
         self.notes: dict[str, object] = {}  # what others worked out of it
         self._models: dict[int, CausalModel] = {}
 
+    @cached_property
+    def scene(self) -> Scene | None:
+        """What was seen last, after the last decision; None where that one knows no less."""
+        scene = self.record.scene
+        if scene is None or not self.traces or EGO not in scene.vehicles:
+            return None
+        since = self.traces[-1].sim_time
+        return scene if since + ROUNDING < scene.time <= self.now + ROUNDING else None
+
     @property
     def latest(self) -> PlanTrace:
         """The last decision.
@@ -80,10 +89,11 @@ class Ride:
     @cached_property
     def deeds(self) -> tuple[Deed, ...]:
         """What the ego carried out, oldest first."""
-        return tuple(deed for deed in self._begun if deed.carried_out and not self._given_up(deed))
+        return tuple(deed for deed in self.begun if deed.carried_out and not self._given_up(deed))
 
     @cached_property
-    def _begun(self) -> list[Deed]:
+    def begun(self) -> list[Deed]:
+        """What the ego set out to do, oldest first; also what it gave up."""
         return read_deeds(self.events)
 
     def stood(self, deed: Deed) -> float | None:
@@ -101,7 +111,7 @@ class Ride:
     @property
     def under_way(self) -> Deed | None:
         """What the ego is about, even where the turn itself is still to come."""
-        begun = self._begun
+        begun = self.begun
         return begun[-1] if begun and begun[-1].ended is None else None
 
     def meant(self, deeds: Sequence[Deed], span: Span | None = None) -> Deed | None:
@@ -131,7 +141,8 @@ class Ride:
 
     @cached_property
     def _joined(self) -> Joined:
-        return joined(self.traces)
+        known = joined(self.traces)
+        return known if self.scene is None else known.reaching(self.scene)
 
     def seen(self, vehicle: int) -> Seen:
         """What was seen of a vehicle over all decisions: motion, lights, when it was hidden."""

@@ -7,11 +7,18 @@ from xavi_dialogue.domain.answers import Beliefs, Compared, Options
 from xavi_dialogue.domain.facts import Belief, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Proposition, Thing, Vehicle
 from xavi_dialogue.nlg.content.clauses import doing, event_clause
-from xavi_dialogue.nlg.content.facts import belief_message, episode_message, option_message
+from xavi_dialogue.nlg.content.contrasts import consequence_slots
+from xavi_dialogue.nlg.content.facts import (
+    belief_message,
+    besides_of,
+    episode_message,
+    option_message,
+    verbs_of,
+)
 from xavi_dialogue.nlg.content.measures import UNITS, measure_message
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.propositions import clause_of, eventful
-from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Who
@@ -24,7 +31,7 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
     """Plan what was believed of a vehicle, how that moved, and what came of it."""
     latest = answer.history[-1] if answer.history else None
     at = answer.time if answer.time is not None else latest.time if latest else context.now
-    past = context.now - at > PRESENT
+    past = context.now - at > since(context)
     moved, came = _moved(answer, context), _came(answer, context) if past else None
     wanted = (moved, came) if answer.changed else (came,)
     details = tuple(d for d in wanted if d is not None)
@@ -44,6 +51,7 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
             who=Who(vehicle, at if past else None),
             of=clause,
             chance=Chance(answer.probability),
+            **besides_of(answer.besides, past=past),
         )
         return Plan((first,), details, more)
     if latest is None or not latest.expectations:
@@ -57,7 +65,8 @@ def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
     if answer.turning is None or len(answer.history) < 2:
         return None
     begin, end = answer.turning
-    before = min(answer.history, key=lambda b: abs(b.time - begin))
+    before = max((b for b in answer.history if b.time <= begin), key=_when, default=None)
+    before = answer.history[0] if before is None else before
     after = min(answer.history, key=lambda b: abs(b.time - end))
     start, stop = _share(before, answer, after), _share(after, answer, after)
     if start is None or stop is None or abs(start - stop) < MOVED:
@@ -65,8 +74,20 @@ def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
     why = episode_message(answer.why, context, when=False, tense="past") if answer.why else None
     return Message("BELIEF_MOVED", {
         "from": Chance(start), "to": Chance(stop), "begin": Moment(begin), "end": Moment(end),
-        "why": why,
+        "why": why, "gone": None if why is not None else _gone(after, answer),
     })  # fmt: skip
+
+
+def _gone(after: Belief, answer: Beliefs) -> tuple[Clause, ...] | None:
+    """The conduct asked about, where it was no longer possible in the end."""
+    wanted = _actions(answer.of)
+    if not wanted or any(_within(wanted, e.actions) for e in after.expectations):
+        return None
+    return verbs_of(wanted)
+
+
+def _when(belief: Belief) -> float:
+    return belief.time
 
 
 def _share(belief: Belief, answer: Beliefs, latest: Belief) -> float | None:
@@ -99,6 +120,10 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
     """Plan what could have been done, and what was expected of each."""
     if not answer.options:
         return Plan((message("OPTIONS_NONE"),))
+    if answer.risk:
+        told = option_message(answer.options[0], risk=True)
+        counts = {"hits": str(answer.hits) if answer.hits else None, "drives": str(answer.drives)}
+        return Plan((message(told.rule, **told.slots, **counts),))
     chosen = next((o for o in answer.options if o.chosen), answer.options[0])
     others = [o for o in answer.options if o.action != chosen.action]
     verb = _verb(chosen.action)
@@ -138,6 +163,7 @@ def plan_compared(answer: Compared, context: SpeechContext) -> Plan:
     pair = _pair(answer.measures, winner, loser)
     first = message(
         "COMPARED",
+        because=_because(answer, context),
         better=answer.better,
         word=comparative,
         plain=plain,
@@ -153,6 +179,17 @@ def plan_compared(answer: Compared, context: SpeechContext) -> Plan:
 
 
 _DECIDED = ("first", "second")
+
+
+def _because(answer: Compared, context: SpeechContext) -> Message | None:
+    """What would have come of the worse option in all, where that is what was not done."""
+    against = answer.contrast
+    if against is None or answer.by != "best" or answer.better not in _DECIDED:
+        return None
+    if (against.value or 0.0) < 0.0:
+        return None
+    past = context.now - against.decided > PRESENT
+    return Message("CONSEQUENCE", consequence_slots(against, context, past=past, that=False))
 
 
 def _by(answer: Compared) -> Quantity | None:

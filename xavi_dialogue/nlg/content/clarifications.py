@@ -49,4 +49,5 @@ def _told_apart(
 def plan_unfamiliar(answer: Unfamiliar, context: SpeechContext) -> Plan:
     """Plan which words were not understood, before the answer to the rest."""
     words = tuple(f'"{one}"' for one in answer.words)
-    return Plan((message("UNFAMILIAR", words=words or None, many=len(words) > 1),))
+    slots = {"words": words, "many": len(words) > 1, "known": answer.known}
+    return Plan((Message("UNFAMILIAR", slots),))

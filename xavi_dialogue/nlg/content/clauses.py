@@ -21,7 +21,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Side
-from xavi_dialogue.nlg.content.tenses import PRESENT, event_tense, moment_of
+from xavi_dialogue.nlg.content.tenses import PRESENT, event_tense, goes_on, moment_of
 from xavi_dialogue.nlg.surface.tables import table, word
 from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 
@@ -108,6 +108,8 @@ def event_clause(
     negated = negated and not isinstance(event.actor, Nobody)  # "nobody does" denies by itself
     at = moment_of(event.time)
     verb, rest = verb_phrase(event.action, event.actor, event.object, event.side, time=at)
+    if negated:
+        rest = tuple(map(denied, rest))
     obliged = modal == "must"
     manners = table("doings")["manner"]
     told_by_verb = ("first",) if event.action == "let-go" else ()
@@ -149,12 +151,23 @@ def event_clause(
     )
 
 
+def denied(part: object) -> object:
+    """Say "anybody" for nobody in a clause that is denied by its verb."""
+    if not isinstance(part, Who) or not isinstance(part.thing, Nobody):
+        return part
+    of = part.thing.described
+    if of is None or (of.kind == "vehicle" and of.colour is None):
+        return "anybody"
+    named = of.colour, word("vehicles", "kind", of.kind)
+    return " ".join(("any", *filter(None, named)))
+
+
 def episode_clause(
     episode: Episode, now: float, *, tense: Tense | None = None, negated: bool = False
 ) -> Clause:
     """An episode as a clause: past, or under way where it goes on."""
     over = episode.end
-    going_on = over is None or (now - over <= PRESENT and over > episode.begin)
+    going_on = over is None or (goes_on(episode, now) and over > episode.begin)
     told: Tense = tense or ("past" if not going_on or episode.begin > now else "present")
     if tense is None and episode.begin > now + PRESENT:
         told = "future"

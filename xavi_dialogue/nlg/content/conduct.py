@@ -120,9 +120,7 @@ def plan_ahead(answer: PlanAhead, context: SpeechContext) -> Plan:
         return Plan((message("PLAN_NEXT", arrived=True),))
     ring = ring_of(answer.measures, context.now)
     covered = frozenset(("turn", "exit-number", "distance"))
-    others = tuple(
-        measure_message(m, context) for m in answer.measures if m.attribute not in covered
-    )
+    others = tuple(_in_all(m, context) for m in answer.measures if m.attribute not in covered)
     if not answer.steps:
         way = tuple(m for m in answer.measures if m.attribute in covered)
         return Plan((message("PLAN_NEXT", none=True),), (*way_messages(way, context), *others))
@@ -140,6 +138,13 @@ def plan_ahead(answer: PlanAhead, context: SpeechContext) -> Plan:
         others=tuple(later) or None,
     )
     return Plan((told,), (*_elsewhere(answer, turn, ring, context), *others))
+
+
+def _in_all(one: Measure, context: SpeechContext) -> Message:
+    """Name the destination, which after a junction would not be what "there" means."""
+    told = measure_message(one, context)
+    whole = one.attribute == "time-to-go" and one.value is not None
+    return message(told.rule, **told.slots, whole=True) if whole else told
 
 
 def _far(ring: Ring) -> Quantity | None:

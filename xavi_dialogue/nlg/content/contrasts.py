@@ -26,6 +26,7 @@ SURE = 0.995  # probability from which none is told
 EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
 STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
+OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 LITTLE = 2.0  # [s] a gain up to which it is called little
 WORSE = 0.25  # [s] by which a plan is worse than its foil by its own record
 LARGE = 8.0  # [s] a difference that is much in everyday words
@@ -220,7 +221,8 @@ def told_cause(contrast: Contrast) -> Cause | None:
         named = [c for c in contrast.causes if c.vehicle == struck or struck is None]
         sure = [c for c in named if c.probability >= EVEN and telling(c.actions)]
         return sure[0] if sure else None
-    return contrast.causes[0] if contrast.causes else None
+    slower = [c for c in contrast.causes if c.mechanism is None or c.mechanism.how != "collision"]
+    return slower[0] if slower else None
 
 
 def cause_message(
@@ -233,6 +235,7 @@ def cause_message(
     lowest = mechanism.speed_to if mechanism is not None else None
     start = mechanism.speed_from if mechanism is not None else None
     slows = start is not None and lowest is not None and start - lowest >= SLOWING
+    look = context.look(cause.vehicle, contrast.decided)
     simple = context.detail == "simpler"
     ahead = present and how in ("leader", "blocked", "cut-in")
     return message(
@@ -246,7 +249,7 @@ def cause_message(
         halts=lowest is not None and lowest < STANDING,
         slows=slows,
         speed=None if lowest is None or simple else Quantity(lowest, "m/s"),
-        verbs=_expected(cause, slows=slows, simple=simple),
+        verbs=_expected(cause, None if look is None else look.speed, slows=slows, simple=simple),
         acts=other_verbs(cause.actions) if telling(cause.actions) else None,
         **chances(cause.probability, context),
     )
@@ -268,7 +271,7 @@ def chances(probability: float, context: SpeechContext) -> dict[str, object]:
     }
 
 
-def _expected(cause: Cause, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
+def _expected(cause: Cause, seen: float | None, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
     """What the vehicle was expected to do: how it gets in the way, and where it goes."""
     mechanism = cause.mechanism
     actions = other_verbs(cause.actions) if cause.actions else ()
@@ -283,8 +286,11 @@ def _expected(cause: Cause, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
     lowest = mechanism.speed_to
     if lowest is not None and lowest < STANDING:
         return (Clause("it", "stop ahead of us"), *(a for a in after if a.verb != "stop"))
-    if slows and lowest is not None and mechanism.speed_from is not None and not simple:
-        speeds = Range(Quantity(mechanism.speed_from, "m/s"), Quantity(lowest, "m/s"))
+    start = mechanism.speed_from
+    if slows and lowest is not None and start is not None and not simple:
+        if seen is not None and abs(seen - start) > OTHERWISE:
+            return (Clause("it", "slow down to about", (Quantity(lowest, "m/s"),)), *after)
+        speeds = Range(Quantity(start, "m/s"), Quantity(lowest, "m/s"))
         return (Clause("it", "slow from", (speeds,)), *after)
     if slows:
         return (Clause("it", "slow down"), *after)

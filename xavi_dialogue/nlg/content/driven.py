@@ -8,6 +8,8 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Quantity, Who
 
 STANDING = 0.5  # [m/s]
+GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
+ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that we are to take
 
 
 def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
@@ -30,9 +32,12 @@ def motion_cause(
         deed: what we did for that reason.
     """
     ahead = cause.kind in ("leader", "cut-in", "blocked")
-    who = None
+    who, aside = None, False
     if cause.vehicle is not None:
-        who = Who(Vehicle(cause.vehicle), time, placed=not ahead)
+        look = context.look(cause.vehicle, time)
+        beside = look is not None and look.bearing in ASIDE
+        aside = cause.kind == "leader" and beside and speed_told(cause.speed, context) is not None
+        who = Who(Vehicle(cause.vehicle), time, placed=aside or not ahead)
     stands = cause.speed is not None and cause.speed < STANDING
     unit = "m/s" if cause.kind == "limit" else "m"
     value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
@@ -41,8 +46,9 @@ def motion_cause(
         "DRIVEN_BY",
         kind=cause.kind,
         who=who,
-        past=past,
+        past=past or _gone(cause, context),
         stands=stands,
+        aside=aside,
         speed=speed_told(cause.speed, context),
         value=value,
         number=None if simple else value,
@@ -51,6 +57,14 @@ def motion_cause(
         foreseen=cause.kind == "cut-in" and cause.did is None and not _sure(cause),
         **chances(cause.probability if cause.probability is not None else 1.0, context),
     )
+
+
+def _gone(cause: MotionCause, context: SpeechContext) -> bool:
+    """Whether who had to be let go first has gone: out of view, behind, or past our way."""
+    if cause.kind != "right-of-way" or cause.vehicle is None:
+        return False
+    look = context.look(cause.vehicle)
+    return look is None or not look.in_view or look.bearing in GONE
 
 
 def _sure(cause: MotionCause) -> bool:

@@ -1,11 +1,24 @@
 """Facts: any fact of the record as a clause."""
 
-from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure, OptionValue, Relating
+from collections.abc import Sequence
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import (
+    Belief,
+    Episode,
+    Expectation,
+    Fact,
+    Look,
+    Measure,
+    OptionValue,
+    Relating,
+)
 from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
 from xavi_dialogue.nlg.content.clauses import doing, episode_clause
 from xavi_dialogue.nlg.content.measures import measure_message
 from xavi_dialogue.nlg.content.propositions import clause_of
-from xavi_dialogue.nlg.content.tenses import PRESENT, tense_at
+from xavi_dialogue.nlg.content.tenses import since, tense_at
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
@@ -13,6 +26,9 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, R
 
 CHANGED = 1.4  # [m/s] change of speed from which it is told
 OBJECTLESS = frozenset(("slow-down", "brake", "speed-up", "stop"))
+TOLD = 0.1  # probability from which an alternative is told
+BESIDES = 2  # likely alternatives that are told
+MOST_PASSED = 2  # exits of a roundabout that are counted
 LONG = 1.5  # [s] from which it is told how long somebody stood or waited
 LASTING = frozenset(("stand", "wait", "block", "follow"))
 
@@ -92,35 +108,74 @@ def _lasted(episode: Episode) -> Quantity | None:
 
 def belief_message(belief: Belief, context: SpeechContext) -> Message:
     """Make a clause of what is or was expected of a vehicle, with the percentage."""
-    past = context.now - belief.time > PRESENT
+    past = context.now - belief.time > since(context)
     if not belief.expectations:
         return message("BELIEF_NONE", who=Who(Vehicle(belief.vehicle)), past=past)
-    first = belief.expectations[0]
+    ring = in_ring(belief.expectations)
+    told = _by_words(belief.expectations, ring=ring)
+    first, others = told[0], [e for e in told[1:3] if e.probability >= TOLD]
     who = Who(Vehicle(belief.vehicle), belief.time if past else None)
-    second = belief.expectations[1] if len(belief.expectations) > 1 else None
+    second = others[0] if others else None
+    third = others[1] if len(others) > 1 else None
+    if third is not None:  # the last of three is told behind "or"
+        second, third = third, second
     return message(
         "BELIEF",
         who=who,
-        verbs=verbs_of(first.actions),
+        verbs=verbs_of(first.actions, ring=ring),
         chance=Chance(first.probability),
         past=past,
         when=Moment(belief.time) if past else None,
         open=first.probability < 0.55,
-        other=verbs_of(second.actions) if second else None,
+        other=verbs_of(second.actions, ring=ring) if second else None,
         other_chance=Chance(second.probability) if second else None,
+        third=verbs_of(third.actions, ring=ring) if third else None,
+        third_chance=Chance(third.probability) if third else None,
     )
 
 
-def verbs_of(actions: tuple[str, ...], ego: bool = False) -> tuple[Clause, ...]:
-    """The verb phrases of a row of actions, to be inflected."""
+def _by_words(expected: Sequence[Expectation], *, ring: bool) -> list[Expectation]:
+    """What is expected, with what is said in the same words told once; likeliest first."""
+    found: dict[tuple[Clause, ...], Expectation] = {}
+    for one in expected:
+        words = verbs_of(one.actions, ring=ring)
+        known = found.get(words)
+        both = one.probability + (0.0 if known is None else known.probability)
+        found[words] = replace(known or one, probability=min(both, 1.0))
+    return sorted(found.values(), key=lambda e: -e.probability)
+
+
+def in_ring(expected: Sequence[Expectation]) -> bool:
+    """Say whether what is expected tells that it is in a roundabout."""
+    return any("continue-next-exit" in e.actions for e in expected)
+
+
+def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object]:
+    """Tell what else is or was likely, each with its percentage."""
+    ring = in_ring(others)
+    told = tuple(
+        message("BESIDE", verbs=verbs_of(e.actions, ring=ring), chance=Chance(e.probability),
+                past=past)
+        for e in others[:BESIDES]
+    )  # fmt: skip
+    return {"besides": told, "several": len(told) > 1}
+
+
+def verbs_of(
+    actions: tuple[str, ...], ego: bool = False, *, ring: bool = False
+) -> tuple[Clause, ...]:
+    """The verb phrases of a row of actions, to be inflected; `ring`: in a roundabout."""
+    passed = actions.count("continue-next-exit")
+    if (passed or ring) and actions[-1].startswith("exit-"):
+        return (Clause("it", word("doings", "leaving", str(min(passed, MOST_PASSED)))),)
     kept = [a for k, a in enumerate(actions) if a != "continue" or len(actions) == 1 or k == -1]
-    rest = kept or list(actions)
+    rest = [a for k, a in enumerate(kept or actions) if k == 0 or a != (kept or actions)[k - 1]]
     return tuple(Clause("it", doing(a, ego=ego)) for a in rest)  # type: ignore[arg-type]
 
 
 def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> Message:
     """Make a clause of where a vehicle is, and how far away; only that where its place is told."""
-    past = context.now - look.time > PRESENT or not look.in_view
+    past = context.now - look.time > since(context) or not look.in_view
     tense: Tense = "past" if past else "present"
     at = look.seen if not look.in_view and look.seen is not None else look.time
     place = word("vehicles", "place", look.bearing)
@@ -138,12 +193,12 @@ def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> M
     )
 
 
-def option_message(option: OptionValue) -> Message:
-    """Make a clause of how an option was valued."""
+def option_message(option: OptionValue, *, risk: bool = False) -> Message:
+    """Make a clause of how an option was valued; or only of with whom it would have collided."""
     verb = Clause(Who(), doing(option.action, ego=True))
     delta = option.delta
     return message(
-        "OPTION",
+        "OPTION_RISK" if risk else "OPTION",
         verb=verb,
         chosen=option.chosen,
         outcome=option.outcome,

@@ -14,6 +14,7 @@ from xavi_dialogue.nlg.content.proposals import about_vehicle
 from xavi_dialogue.nlg.content.tenses import PRESENT
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.quantities import clock
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Who
 
 EVEN = 0.45  # probability below which we are not sure at all
@@ -22,6 +23,8 @@ BETTER = 1.2  # times by which a path must fit better to be told
 UNFORESEEN = 0.25  # probability up to which something was not to be foreseen
 MOVED = 0.02  # change of probability from which it is told
 DOUBTED = 0.1  # probability below which something is not believed
+SETTLED = 0.65  # probability from which something is believed
+EQUAL = 2.0  # times by which what fits better still fits about as well
 NAMED = 3  # options named
 
 
@@ -37,8 +40,9 @@ def plan_grounds(answer: Grounds, context: SpeechContext) -> Plan:
         "simple": simple,
         "deed": None,
         "chance": None if latest is None else Chance(latest),
-        "doubted": latest is not None and latest < DOUBTED,
+        "doubted": latest is not None and (latest < DOUBTED or _has_sunk(answer, latest)),
     }
+    slots["rival"] = other_verbs(answer.rival) if _is_open(answer, latest) else None
     if answer.deed is not None:
         clause = episode_clause(answer.deed, context.now, tense="past")
         slots["deed"] = Clause("it", clause.verb, clause.rest, "past")
@@ -47,12 +51,26 @@ def plan_grounds(answer: Grounds, context: SpeechContext) -> Plan:
         slots |= {"before": Chance(answer.before), "after": Chance(answer.after),
                   "fell": answer.after < answer.before}  # fmt: skip
     if answer.start is not None and answer.end is not None:
-        slots |= {"start": Moment(answer.start), "end": Moment(answer.end)}
+        slots |= {"start": Moment(answer.start), "end": Moment(answer.end),
+                  "at_once": clock(answer.start) == clock(answer.end)}  # fmt: skip
     since = None
     if answer.since is not None and not simple and not answer.seen:
         since = message("GROUNDS_SINCE", when=Moment(answer.since))
-    details = tuple(one for one in (_fit(answer, context), since) if one is not None)
+    fit = None if slots["doubted"] else _fit(answer, context)
+    details = tuple(one for one in (fit, since) if one is not None)
     return Plan((Message("GROUNDS", slots),), details, (), (), about_vehicle(answer.vehicle))
+
+
+def _has_sunk(answer: Grounds, latest: float) -> bool:
+    """Say whether it is no longer believed what for a while was more probable than not."""
+    return latest < EVEN <= (answer.after or 0.0)
+
+
+def _is_open(answer: Grounds, latest: float | None) -> bool:
+    """Say whether what was seen fits something else about as well."""
+    if latest is None or answer.seen or not answer.rival or answer.fit is None:
+        return False
+    return 1.0 - SETTLED < latest < SETTLED and 1.0 / EQUAL < answer.fit < EQUAL
 
 
 def _fit(answer: Grounds, context: SpeechContext) -> Message | None:

@@ -1,14 +1,17 @@
 """Joint measures: several values told together, none of which says what another does."""
 
-from xavi_dialogue.domain.answers import Lasted, Measures
+import dataclasses
+
+from xavi_dialogue.domain.answers import Lasted, Measures, Staying
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Junction, Vehicle
+from xavi_dialogue.nlg.content.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.measures import measure_message
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.routes import way_messages
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Moment, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
 
 _FEW = 3  # vehicles whose speeds are told one by one
 _MANY = 2  # measures that go into one sentence
@@ -37,6 +40,24 @@ def plan_lasted(answer: Lasted, context: SpeechContext) -> Plan:
             "HELD", length=Quantity(until - answer.begin, "s"), on=answer.end is None,
             whole=answer.at_least, begin=Moment(answer.begin),
             end=Moment(until),
+        ),
+    ))  # fmt: skip
+
+
+def plan_staying(answer: Staying, context: SpeechContext) -> Plan:
+    """Plan how long we stay behind another vehicle."""
+    left = answer.left
+    if left is not None and left.attribute == "waiting-time":
+        return Plan((measure_message(left, context),))
+    deed = None if answer.until is None else own_verbs((answer.until,))[0]
+    if deed is not None:
+        deed = dataclasses.replace(deed, tense="present")
+    return Plan((
+        message(
+            "STAYING", who=Who(answer.behind, placed=False), deed=deed,
+            at=None if answer.at is None else Moment(answer.at),
+            off=None if answer.off is None else Chance(answer.off),
+            left=None if left is None or left.value is None else Quantity(left.value, "s"),
         ),
     ))  # fmt: skip
 

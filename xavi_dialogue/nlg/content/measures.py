@@ -7,7 +7,7 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Destination, Ego, Exit, Junction, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.nlg.content.agreement import verbs
-from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.tables import table, word
@@ -84,7 +84,7 @@ def _has_value(one: Measure) -> bool:
 
 def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
     """The slots that every attribute has: who, when, and verbs that go with them."""
-    past = context.now - one.time > PRESENT and one.extreme is None
+    past = context.now - one.time > since(context) and one.extreme is None
     past = past and one.attribute != "visibility"
     ego = isinstance(one.thing, Ego)
     plain = one.attribute not in _UNPLACED
@@ -98,7 +98,7 @@ def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
         "attribute": one.attribute, "who": who, "ego": ego, "past": told, "noun": noun,
         "named": _named(one, who, noun), "vague": one.attribute in _VAGUE,
         "topic": TOPICS.get(one.attribute, "that"), "inside": one.attribute in INSIDE,
-        "when": Moment(one.time) if past and when else None,
+        "when": Moment(one.time) if past and when else None, "clocked": context.then,
         "moment": Moment(one.time) if past else None,
         "to": Who(one.to, at, placed=plain) if one.to is not None else None,
         "to_ego": isinstance(one.to, Ego), "to_place": _is_place(one.to),

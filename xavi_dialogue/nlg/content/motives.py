@@ -13,10 +13,10 @@ from xavi_dialogue.nlg.content.manoeuvres import denial, other_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.suspects import suspected
-from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.tenses import dated, goes_on
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
 AT_LIMIT = 0.07  # of the limit, within which one drives at it
 YIELDS = frozenset(("give-way", "wait", "let-go"))
@@ -59,7 +59,7 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
 
 def is_past(deed: Episode, context: SpeechContext) -> bool:
     """Tell whether something is over."""
-    return deed.end is not None and context.now - deed.end > PRESENT
+    return not goes_on(deed, context.now)
 
 
 def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Message:
@@ -79,6 +79,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         "speed": speed_told(answer.deed.speed_to, context),
         "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
         "at_limit": _at_limit(answer),
+        "halted": None if answer.halted is None else Moment(answer.halted),
     }
     if answer.form == "why" and slots["yields"] and answer.asked in ("let-go", "give-way"):
         number = causes[0].vehicle
@@ -146,7 +147,8 @@ def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
         rest = () if context.detail == "simpler" else (Quantity(deed.speed_to, "m/s"),)
         tense = "past" if past else "present"
         return Clause(Who(ride=True), verb, rest, tense, progressive=True)  # type: ignore[arg-type]
-    return episode_clause(deed, context.now, tense="past" if past else "present")
+    clause = episode_clause(deed, context.now, tense="past" if past else "present")
+    return dated(clause, deed, context)
 
 
 def _only(deed: Clause, answer: MotionReason) -> Clause:

@@ -27,6 +27,7 @@ OPEN = frozenset(("do", "happen", "signal", "see", "appear", "disappear", "block
 FOR_GOAL = frozenset(("signal", "exit-left", "exit-right", "exit-straight", "change-left",
                       "change-right"))  # fmt: skip
 GOING = frozenset(("go", "move", "continue", "enter", "cross", "speed-up", "come"))
+FORESEEN = 0.2  # chance below which what is announced was not foreseen
 
 
 def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
@@ -45,6 +46,10 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         "asked": _not_asked(answer, context),
         "cause": None if cause is None else _their_cause(cause, answer, context, past),
         "hedge": None if cause is None else _hedge(cause),
+        "ours": {None: None, True: "yes", False: "no"}[answer.ours],
+        "parked": cause is not None and cause.kind == "parked",
+        "setting_off": cause is not None and cause.kind == "starting",
+        **_paced(cause, context),
     }
     if deed is not None and cause is None and goal is not None:
         told = Message("OTHER_GOES", {**slots, **goal.slots, "who": who})
@@ -61,6 +66,14 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
     return Plan((core,), details, tuple(more), (), about_cause(answer))
 
 
+def _paced(cause: MotionCause | None, context: SpeechContext) -> dict[str, object]:
+    """Give the slots of one that is no faster than we are, with the limit that is in force."""
+    known = cause is not None and cause.kind == "limit"
+    speed, value = (cause.speed, cause.value) if cause is not None and known else (None, None)
+    limit = None if value is None else Quantity(value, "m/s")
+    return {"no_faster": known, "limit": limit, "speed": speed_told(speed, context)}
+
+
 def plan_signal(answer: SignalReason, context: SpeechContext) -> Plan:
     """Plan what an indicator means."""
     came = answer.came
@@ -72,7 +85,7 @@ def plan_signal(answer: SignalReason, context: SpeechContext) -> Plan:
         aims=tuple(doing(action) for action in answer.aims),
         came=None if came is None else _it(episode_clause(came, context.now)),
         chance=None if chance is None else Chance(chance),
-        low=chance is not None and chance < EVEN,
+        low=chance is not None and chance < FORESEEN,
     )
     return Plan((core,), (), (), (), about_vehicle(answer.vehicle))
 

@@ -7,6 +7,7 @@ import msgspec
 
 from xavi_dialogue.domain.answers import Counted, Identified
 from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure
+from xavi_dialogue.domain.rewriting import with_wanted
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
@@ -20,12 +21,17 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.nlg.content.clauses import episode_clause, event_clause, relative_clause
+from xavi_dialogue.nlg.content.clauses import (
+    denied,
+    episode_clause,
+    event_clause,
+    relative_clause,
+)
 from xavi_dialogue.nlg.content.facts import fact_message
 from xavi_dialogue.nlg.content.measures import STANDING
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.propositions import clause_of, eventful
-from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import clock, number
@@ -44,12 +50,14 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
     """Plan who or what it is; or that there is nobody of whom it holds."""
     answer = msgspec.structs.replace(answer, facts=_telling(answer.facts))
     facts = tuple(fact_message(f, context) for f in answer.facts)
+    if not answer.none and not answer.looks and facts:
+        return Plan(facts[:1], facts[1:])  # it is of us alone that it holds
     if answer.none or not answer.looks:
         did = _nobody(answer.such, context.now) if answer.such else None
         return Plan((message("NOBODY", did=did),), facts)
     if answer.such is not None and len(answer.looks) > 1:
         them = Vehicles(tuple(look.vehicle for look in answer.looks))
-        clause = clause_of(substituted(answer.such, them), context.now)
+        clause = clause_of(with_wanted(answer.such, them), context.now)
         told = () if all(isinstance(f, Measure | Episode) for f in answer.facts) else facts
         return Plan((message("PLAIN", it=clause),), told)
     if len(answer.looks) == 1:
@@ -84,11 +92,13 @@ def _one(
         event = eventful(answer.such) if answer.such is not None else None
         for fact, deed in zip(answer.facts, facts, strict=True):
             if event is not None and isinstance(fact, Episode) and fact.action == event.action:
-                return Plan((deed,), _besides(fact, answer.facts, facts))
+                return Plan((deed,), _besides(fact.object, answer.facts, facts))
         conduct = {} if event is not None else conduct_slots(answer.facts, look, context)
         if conduct:
             return Plan((message("DID_CONDUCT", it=did, **conduct),))
         told = () if isinstance(answer.such, Has) else facts
+        if event is not None and event.action in TOWARDS:  # it is told for whom it waits
+            told = _besides(Vehicle(look.vehicle), answer.facts, facts)
         return Plan((message("PLAIN", it=did),), told)
     lost = Moment(look.seen) if not look.in_view and look.seen is not None else None
     conduct = {} if lost is not None else conduct_slots(answer.facts, look, context)
@@ -109,14 +119,14 @@ def _one(
 
 
 def _besides(
-    told: Episode, facts: tuple[Fact, ...], said: tuple[Message, ...]
+    told: Thing | None, facts: tuple[Fact, ...], said: tuple[Message, ...]
 ) -> tuple[Message, ...]:
     """Tell of the other facts those that concern somebody else."""
-    whom = {told.object}
+    whom = {told}
     kept: list[Message] = []
     for fact, one in zip(facts, said, strict=True):
         target = fact.object if isinstance(fact, Episode) else None
-        if fact is told or (isinstance(fact, Episode) and target in whom):
+        if isinstance(fact, Episode) and target in whom:
             continue
         whom.add(target)
         kept.append(one)
@@ -149,46 +159,22 @@ def _who(look: Look, context: SpeechContext) -> Who:
 
 
 def _past(look: Look, context: SpeechContext) -> bool:
-    return context.now - look.time > PRESENT
+    return context.now - look.time > since(context)
 
 
 def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
     """The condition that was asked for, with the vehicle in the place of "who"."""
     if such is None:
         return None
-    return clause_of(substituted(such, Vehicle(look.vehicle)), context.now)
+    return clause_of(with_wanted(such, Vehicle(look.vehicle)), context.now)
 
 
 def _nobody(such: Proposition, now: float) -> Clause:
     """A clause that the condition holds of nobody: "I did not wait for anybody"."""
-    clause = clause_of(substituted(such, Nobody()), now)
+    clause = clause_of(with_wanted(such, Nobody()), now)
     if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
         return clause
-    rest = tuple(
-        "anybody" if isinstance(part, Who) and isinstance(part.thing, Nobody) else part
-        for part in clause.rest
-    )
-    return replace(clause, rest=rest, negated=not clause.negated)
-
-
-def substituted(that: Proposition, thing: Thing) -> Proposition:
-    """A proposition with a thing in the place of what was asked for."""
-
-    def put(value: object) -> object:
-        if isinstance(value, Wanted):
-            return thing
-        if isinstance(value, msgspec.Struct):
-            names = value.__struct_fields__
-            changed = {n: put(getattr(value, n)) for n in names}
-            if all(changed[n] is getattr(value, n) for n in names):
-                return value
-            return msgspec.structs.replace(value, **changed)
-        if isinstance(value, tuple):
-            parts = tuple(put(v) for v in value)
-            return parts if any(a is not b for a, b in zip(parts, value, strict=True)) else value
-        return value
-
-    return put(that)  # type: ignore[return-value]
+    return replace(clause, rest=tuple(map(denied, clause.rest)), negated=not clause.negated)
 
 
 def clocks(moments: Sequence[float]) -> str:
@@ -205,7 +191,11 @@ def times(count: int) -> str:
 
 
 def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
-    """Plan how many there are, or how often it happened."""
+    """Plan how many there are, or how often it happened; whether it is as many as was said."""
+    if answer.said is not None:
+        plan = plan_counted(msgspec.structs.replace(answer, said=None), context)
+        rule = "YES" if answer.said else "NO"
+        return replace(plan, core=(message(rule, it=plan.core[0]), *plan.core[1:]))
     facts = tuple(fact_message(f, context) for f in answer.facts)
     span = _span(answer, context)
     if isinstance(answer.of, Event):
@@ -221,7 +211,8 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     such = answer.such if isinstance(answer.such, Described) else None
     amount = Number(answer.count, _noun(such or answer.of))
     if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
-        rows = tuple(Who(Vehicle(f.vehicle)) for f in answer.facts[:MANY] if isinstance(f, Look))
+        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look)]
+        rows = tuple(Who(Vehicle(v), placed=len(seen) < FEW) for v in seen)
         did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
         doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
                         unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip

@@ -5,6 +5,7 @@ from typing import Literal
 from xavi_dialogue.domain.answers import ChoiceReason, Contrast
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.nlg.content.contrasts import (
+    RISK,
     cause_message,
     consequence_slots,
     kind_of,
@@ -17,11 +18,13 @@ from xavi_dialogue.nlg.content.manoeuvres import deed_clause, own_verbs, planned
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.suspects import suspected
+from xavi_dialogue.nlg.content.tenses import dated, goes_on
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
 CREEPING = 5.0  # [m/s] up to which one creeps
+DECIDED = 0.95  # [s] after a decision, from which another one is in force
 GAIN = 0.5  # [s] from which something was worth it
 Need = Literal["forced", "needed", "not-strictly", "close", "no-choice", "way"]
 #: How a vehicle makes the foil worse only where it is done: no reason to be told before it.
@@ -32,11 +35,12 @@ OF_FOIL = ("right-of-way", "collision", None)
 
 def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     """Plan why we did something or not, whether we had to, or whether it was worth it."""
-    contrast, past = answer.contrast, answer.past
+    contrast = answer.contrast
+    past = answer.past or _superseded(contrast, context)
     slots = {
         **consequence_slots(contrast, context, past=past, that=answer.form == "why-not"),
         "deed": _deed(answer, context),
-        "denied": _denied(contrast, past=past),
+        "denied": _denied(contrast, past=answer.past),
         "need": _need(contrast),
         "worth": _worth(contrast),
         "cause": cause_of(contrast, context, past=past),
@@ -65,6 +69,12 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     return Plan(core, (), more, (), about_cause(answer))
 
 
+def _superseded(contrast: Contrast, context: SpeechContext) -> bool:
+    """Whether chances are to be told that are of an earlier decision than the one in force."""
+    risky = max(contrast.collision, contrast.fact_collision) >= RISK
+    return (risky or told_cause(contrast) is not None) and context.now - contrast.decided > DECIDED
+
+
 def _without_cause(said: Message) -> Message:
     return Message(said.rule, {**said.slots, "cause": None, "ahead": None, "lead": False})
 
@@ -75,13 +85,14 @@ def _deed(answer: ChoiceReason, context: SpeechContext) -> Clause:
     if answer.deed is None:
         steps = answer.contrast.fact[: max(len(against), 1)]
         return planned_clause(steps, past=answer.past, against=against)
-    return deed_clause(answer.deed, context.now, past=_told_past(answer, context), against=against)
+    past = _told_past(answer, context)
+    clause = deed_clause(answer.deed, context.now, past=past, against=against)
+    return dated(clause, answer.deed, context)
 
 
 def _told_past(answer: ChoiceReason, context: SpeechContext) -> bool:
     deed: Episode | None = answer.deed
-    ended = deed is not None and deed.end is not None and context.now - deed.end > 1.0
-    return answer.past or ended
+    return answer.past or (deed is not None and not goes_on(deed, context.now))
 
 
 def _weak(answer: ChoiceReason) -> bool:
@@ -108,6 +119,8 @@ def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
     cause = told_cause(answer.contrast)
     if answer.ahead is not None and _weak(answer):
         return answer.ahead.vehicle == vehicle
+    if kind_of(answer.contrast) in ("collision", "risk"):
+        return vehicle is not None and answer.contrast.collided_with == vehicle
     return cause is not None and cause.vehicle == vehicle
 
 

@@ -40,8 +40,14 @@ def proposed(context: SpeechContext) -> tuple[tuple[Message, ...], tuple[str, ..
 def plan_not_understood(answer: NotUnderstood, context: SpeechContext) -> Plan:
     """Plan that nothing was understood, and which words are to blame."""
     words = tuple(f'"{word}"' for word in answer.words)
-    first = message("NOT_UNDERSTOOD", words=words or None, many=len(words) > 1, rest=answer.rest)
-    if answer.rest:
+    first = message(
+        "NOT_UNDERSTOOD",
+        words=words or None,
+        many=len(words) > 1,
+        rest=answer.rest,
+        quote=f'"{answer.quote}"' if answer.quote else None,
+    )
+    if answer.rest or answer.quote:
         return Plan((first,))
     shown, found = proposed(context)
     return Plan((first,), shown, (), (), found)

@@ -12,7 +12,7 @@ from xavi_dialogue.nlg.content.measures import SOON
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Clause, Quantity
+from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
 
 STAYING = frozenset(("follow", "continue", "keep-lane", "move"))
 HOW = frozenset(("hard", "suddenly", "close", "fast", "slowly", "late", "early"))
@@ -27,8 +27,12 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     kept = event.object if event.action not in BARE else None
     told = replace(event, manner=(), object=kept, then=None)
     clause = event_clause(told, context.now, tense="present")
+    if event.action == "keep-distance":
+        whom = () if event.object is None else ("from", Who(event.object))
+        clause = Clause(clause.subject, "keep", ("more distance", *whom))
     slots: dict[str, object] = {
         "verb": Clause(clause.subject, clause.verb, clause.rest),
+        "braking": event.action in ("brake", "slow-down"),
         "negated": negated,
         "open": event.action in ("do", "happen"),
         "unable": not answer.able or event.action in BEYOND,

@@ -20,6 +20,7 @@ URGENT = 1.5  # [s] time to collision below which it was tight
 MANY = 3  # vehicles from which they are not named one by one
 _COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
 RISKY = 0.05  # risk of a collision from which it is called one
+FAR = 40.0  # [m] from which nobody came close
 
 
 def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
@@ -35,6 +36,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
     first = message(
         "RULE",
         rule=answer.rule,
+        ring=answer.ring,
         all=_COUNTS.get(len(many)) if len(many) >= MANY else None,
         who=who,
         kept=_kept(answer),
@@ -44,7 +46,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
         **words,
     )
     if not answer.blame:
-        return Plan((first,))
+        return Plan((first, message("BY_THE_MAP")) if answer.grounds else (first,))
     return _blamed(answer, first, past, context)
 
 
@@ -64,6 +66,8 @@ def _blamed(answer: Priority, rule: Message, past: bool, context: SpeechContext)
 
 def _kept(answer: Priority) -> str | None:
     """Tell who of both went first, and whether the rule has it so."""
+    if answer.first is None and answer.rule == "give-way" and answer.stood:
+        return "it-stands"
     if answer.first is None or answer.vehicle is None:
         return None
     ours = isinstance(answer.first, Ego)
@@ -117,6 +121,9 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     """Plan how close a vehicle came, as the answer to whether it was safe."""
     closest = answer.closest if answer.closest and answer.closest.value is not None else None
     vehicle = answer.vehicle
+    judged = answer.asked in ("safe", "dangerous")
+    if closest is not None and (closest.value or 0.0) > FAR and judged and answer.past:
+        vehicle = None  # whoever was nearest had nothing to do with us
     at = closest.time if closest is not None and answer.past else None
     first = message(
         "CLOSENESS",
@@ -124,6 +131,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         who=Who(Vehicle(vehicle), at) if vehicle is not None else None,
         closest=Quantity(closest.value, "m") if closest and closest.value is not None else None,
         past=answer.past,
+        then=not answer.overall,
         peak_at=Moment(closest.time) if closest is not None and answer.past else None,
     )
     details: list[Message] = []
@@ -131,10 +139,9 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
         return Plan((risk,))
     left = answer.ttc.value if answer.ttc is not None else None
-    judged = answer.asked in ("safe", "dangerous")
     if judged and left is not None and left <= 2 * URGENT:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
-    elif judged and answer.risk is not None:
+    elif judged and answer.risk is not None and vehicle is not None:
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
     return Plan((first,), tuple(details))
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from xavi_dialogue.domain.answers import Altered, Decided, Summit
+from xavi_dialogue.domain.answers import Altered, Decided, Summit, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses import episode_clause
@@ -84,6 +84,28 @@ def plan_altered(answer: Altered, context: SpeechContext) -> Plan:
     if not others:
         others.append(message("ALTERED_NOTHING"))
     return Plan((first, *others[:1]), tuple(others[1:2]), tuple(others[2:]))
+
+
+def plan_wavered(answer: Wavered, context: SpeechContext) -> Plan:
+    """Plan why a plan was given up again and again."""
+    del context
+    told = tuple(
+        message(
+            "WAVERED_TURN",
+            when=Moment(turn.time),
+            risk=Chance(turn.risk),
+            who=None if turn.vehicle is None else Who(Vehicle(turn.vehicle), turn.time),
+        )
+        for turn in answer.turns[-NAMED:]
+    )
+    core = message(
+        "WAVERED",
+        plan=own_verbs((answer.plan,)),
+        turns=told,
+        several=len(answer.turns) > 1,
+        resumed=answer.resumed,
+    )
+    return Plan((core,))
 
 
 def _belief(old: Belief, new: Belief) -> Message:

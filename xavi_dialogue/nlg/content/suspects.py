@@ -1,18 +1,15 @@
 """Suspects: whether the vehicle that a question takes for the cause is one, with the reason."""
 
-from typing import Literal, TypeAlias
-
+from xavi_dialogue.domain.reasons import Suspected
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Who
-
-Part: TypeAlias = Literal["main", "part", "none"]
 
 
 def suspected(
     reason: Message,
     suspect: int | None,
-    part: Part | None,
+    part: Suspected | None,
     time: float,
     cleared: tuple[int, ...] = (),
     *,
@@ -31,6 +28,6 @@ def suspected(
     if suspect is None or part is None:
         return (reason,)
     slots = {"who": Who(Vehicle(suspect), time), "part": part, "cleared": suspect in cleared}
-    if told or part == "none":
+    if told or part in ("none", "neither"):
         return (message("VERDICT_ON", reason=reason, **slots),)
     return (message("SUSPECTED", **slots), reason)

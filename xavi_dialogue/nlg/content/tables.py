@@ -15,7 +15,7 @@ from xavi_dialogue.nlg.content import (
     whereabouts,
 )
 from xavi_dialogue.nlg.content.happenings import plan_happenings
-from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures
+from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures, plan_staying
 from xavi_dialogue.nlg.content.plan import Planner
 from xavi_dialogue.nlg.content.verdicts import plan_verdict
 
@@ -27,6 +27,7 @@ FACTS: dict[type, Planner] = {
     answers.Located: whereabouts.plan_located,
     answers.Happenings: plan_happenings,
     answers.Lasted: plan_lasted,
+    answers.Staying: plan_staying,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,
@@ -34,6 +35,7 @@ FACTS: dict[type, Planner] = {
     answers.Summit: summits.plan_summit,
     answers.Decided: summits.plan_decided,
     answers.Altered: summits.plan_altered,
+    answers.Wavered: summits.plan_wavered,
     answers.Beliefs: beliefs.plan_beliefs,
     answers.Options: beliefs.plan_options,
     answers.Compared: beliefs.plan_compared,

@@ -1,26 +1,55 @@
 """Tenses: in which tense something is told, from when it is and what is asked."""
 
 from xavi_dialogue.domain import terms
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import At, Between, Event, Next, Now, Time, WholeRide, Within
-from xavi_dialogue.nlg.surface.values import Tense
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense
 
-PRESENT = 1.0  # [s] what is so long past still counts as now
+PRESENT = 1.0  # [s] what is so long past still counts as now ...
+#: What is seen at once to be over.
+SEEN_OVER = frozenset(("brake", "slow-down", "speed-up", "stop", "stand", "wait", "give-way"))
+OLD = 6.0  # [s] since when something past is told with its time
+NAMED = 0.3  # [s] ... unless that time was named
 
 
-def tense_at(time: float, now: float) -> Tense:
+def since(context: SpeechContext) -> float:
+    """How long ago [s] something is to be past."""
+    return NAMED if context.then else PRESENT
+
+
+def goes_on(episode: Episode, now: float) -> bool:
+    """Tell whether an episode goes on, or was over only just now."""
+    just_over = episode.end is not None and now - episode.end <= PRESENT
+    return episode.end is None or (just_over and episode.action not in SEEN_OVER)
+
+
+def dated(clause: Clause, episode: Episode, context: SpeechContext) -> Clause:
+    """Add when it was to a clause of slowing or waiting that is past and not only just over."""
+    repeated = episode.action in SEEN_OVER
+    old = repeated and episode.end is not None and context.now - episode.end > OLD
+    if not old or context.then or clause.tense != "past":
+        return clause
+    rest = (*clause.rest, Moment(episode.begin))
+    return Clause(clause.subject, clause.verb, rest, "past", clause.progressive, clause.negated)
+
+
+def tense_at(time: float, now: float, present: float = PRESENT) -> Tense:
     """The tense in which a state at a time of the ride is told."""
     if time > now + PRESENT:
         return "future"
-    return "past" if now - time > PRESENT else "present"
+    return "past" if now - time > present else "present"
 
 
 def tense_of(tense: terms.Tense, time: Time, now: float) -> Tense:
     """The tense in which a proposition is told: that of the question, corrected by its time."""
     match time:
         case At(at=at):
-            return tense_at(at, now)
+            behind = tense in ("past", "perfect") and now - at > NAMED
+            return "past" if behind else tense_at(at, now)
         case Between(begin=begin, end=end):
-            return "future" if begin > now else "past" if now - end > PRESENT else tense
+            over = now - end > (NAMED if tense == "present" else PRESENT)
+            return "future" if begin > now else "past" if over else tense
         case Now():
             return "present"
         case Next() | Within():

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Everyone,
     Exists,
+    Is,
     Nobody,
     Not,
     Proposition,
@@ -22,8 +23,14 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlg.content.borne_out import bare, telling, tells_it, within_limit
-from xavi_dialogue.nlg.content.clauses import event_clause
-from xavi_dialogue.nlg.content.facts import episode_message, fact_message, look_message, verbs_of
+from xavi_dialogue.nlg.content.clauses import episode_clause, event_clause
+from xavi_dialogue.nlg.content.facts import (
+    besides_of,
+    episode_message,
+    fact_message,
+    look_message,
+    verbs_of,
+)
 from xavi_dialogue.nlg.content.joint_measures import measure_messages
 from xavi_dialogue.nlg.content.measures import UNITS, measure_message
 from xavi_dialogue.nlg.content.plan import Plan
@@ -35,6 +42,7 @@ from xavi_dialogue.nlg.surface.quantities import number
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Tense, Who
 
 ON = frozenset(("signal", "wait", "stand", "follow", "give-way", "let-go", "block"))
+LASTS = ON | {"move"}
 CERTAIN = 0.95  # probability from which what we plan is told as such
 LIKELY = 0.5  # probability from which it is told when something comes
 AT_ONCE = 1.0  # [s] within which it comes at once
@@ -65,7 +73,9 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
     limited = within_limit(answer)
     if limited is not None:
         it = Message("MEASURE_SPEED", {**measure_message(limited, context).slots, "told": True})
-        return Plan((message("YES" if answer.holds else "NO", it=it, **slots),), beliefs)
+        slowing = [_coming(f, context) for f in answer.facts if isinstance(f, Episode)]
+        core = (message("YES" if answer.holds else "NO", it=it, **slots), *slowing[:1])
+        return Plan(core, beliefs)
     seen = [f for f in answer.facts if isinstance(f, Look) and f.in_view]
     if seen and isinstance(bare(answer.that), Exists):
         return _there(answer, seen, said, slots)
@@ -122,6 +132,10 @@ def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
     if isinstance(fact, Look) and fact.in_view:
         placed = isinstance(answer.that, Related) and answer.that.relation in PLACES
         return look_message(fact, context, told=not placed)
+    if isinstance(fact, Episode) and fact.end is None and context.then and fact.action in LASTS:
+        told = fact_message(fact, context)  # it was so at the time that was named
+        clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="past")
+        return Message(told.rule, {**told.slots, "clause": clause})
     if isinstance(fact, Episode) and _since(fact, answer, context):
         told = fact_message(fact, context)
         clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="perfect")
@@ -134,6 +148,14 @@ def _since(fact: Episode, answer: Verdict, context: SpeechContext) -> bool:
     event = eventful(answer.that)
     past = event is not None and event.tense in ("past", "perfect")
     return past and fact.end is None and fact.action in ON and context.now - fact.begin > PRESENT
+
+
+def _coming(one: Episode, context: SpeechContext) -> Message:
+    """What is done now, or will be done in a moment."""
+    if one.begin <= context.now:
+        return episode_message(one, context, when=False)
+    clause = episode_clause(one, context.now, tense="future")
+    return message("WHEN_FUTURE", clause=clause, when=Moment(one.begin))
 
 
 def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
@@ -152,11 +174,18 @@ def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, obj
 
 
 def _unknown(answer: Verdict, context: SpeechContext) -> Plan:
-    clause = clause_of(answer.that, context.now)
-    facts = tuple(_told(f, answer, context) for f in answer.facts)
+    clause = clause_of(bare(answer.that), context.now)
+    facts = tuple(_told(f, answer, context) for f in answer.facts[:1])
     if answer.gap is None:
         return Plan((message("UNKNOWN_BARE", it=clause),), facts)
     past = clause.tense != "present"
+    mind = answer.that if isinstance(answer.that, Is) and answer.that.state == "upset" else None
+    if mind is not None:
+        who = Who(mind.thing) if isinstance(mind.thing, Vehicle) else None
+        return Plan((message("UNKNOWN_MIND", who=who, past=past),), facts)
+    event = eventful(answer.that)
+    if event is not None and event.action == "gesture":
+        return Plan((message("UNKNOWN_SIGN", it=clause),), facts)
     return Plan((message("UNKNOWN", it=clause, gap=answer.gap, past=past),), facts)
 
 
@@ -187,7 +216,9 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
     chance = Chance(answer.probability)
     slots = {"it": clause, "chance": chance, "either": answer.either, "claim": answer.claim,
              **_likelier(answer)}  # fmt: skip
-    if event is not None and isinstance(event.actor, Ego) and clause.tense == "future":
+    chanced = event is not None and event.action in ("collide", "nearly-collide")
+    ours = event is not None and isinstance(event.actor, Ego) and not chanced
+    if ours and clause.tense == "future":
         if answer.probability >= CERTAIN:
             return Plan((message("YES", **slots),), facts)
         if answer.probability <= 1.0 - CERTAIN:
@@ -198,11 +229,11 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
 def _likelier(answer: Verdict) -> dict[str, object]:
     """What is expected of a vehicle of which something unlikely was asked."""
     belief = next((b for b in answer.believed if b.expectations), None)
-    if belief is None or answer.probability is None or answer.probability >= LIKELY:
+    if belief is None or answer.probability is None:
         return {}
     first = belief.expectations[0]
     if first.probability < LIKELY:
-        return {}
+        return besides_of(belief.expectations, past=False)
     return {"instead": verbs_of(first.actions), "instead_chance": Chance(first.probability)}
 
 

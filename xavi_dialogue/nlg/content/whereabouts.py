@@ -5,7 +5,7 @@ from xavi_dialogue.domain.facts import Look, Measure
 from xavi_dialogue.domain.terms import Ego, Exit, Vehicle
 from xavi_dialogue.nlg.content.measures import AT_HAND, measure_message
 from xavi_dialogue.nlg.content.plan import Plan
-from xavi_dialogue.nlg.content.tenses import PRESENT, tense_at
+from xavi_dialogue.nlg.content.tenses import since, tense_at
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
@@ -38,7 +38,7 @@ def _where_we_are(measures: tuple[Measure, ...], context: SpeechContext) -> list
         return ([measure_message(lane, context)] if lane is not None else []) + others or [
             measure_message(m, context) for m in measures
         ]
-    past = context.now - goal.time > PRESENT
+    past = context.now - goal.time > since(context)
     first = message(
         "WHERE_US",
         when=Moment(goal.time) if past else None,
@@ -53,7 +53,7 @@ def _where_we_are(measures: tuple[Measure, ...], context: SpeechContext) -> list
 
 
 def _located(look: Look, context: SpeechContext) -> Message:
-    tense = tense_at(look.time, context.now)
+    tense = tense_at(look.time, context.now, since(context))
     place = word("vehicles", "place", look.bearing)
     who = Who(Vehicle(look.vehicle), look.time, placed=False)
     lost = not look.in_view

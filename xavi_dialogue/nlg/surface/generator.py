@@ -1,14 +1,15 @@
 """Generator: the expansion of an answer grammar into tokens.
 
-Expansion is deterministic: the first alternative whose guard holds is taken. Its product is not
-text but a row of tokens: words that stand in the grammar, and slots that carry a value and the
-form it is wanted in, which morphology puts into words. A slot that holds a message is expanded by
-the rule that the message names; several messages are joined as the form says.
+Expansion is deterministic: the first alternative is taken whose guard holds and whose slots have
+values. Its product is not text but a row of tokens: words that stand in the grammar, and slots
+that carry a value and the form it is wanted in, which morphology puts into words. A slot that
+holds a message is expanded by the rule that the message names; several messages are joined as the
+form says.
 
 Errors: see `rules`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -62,24 +63,29 @@ def expand(grammar: Grammar, start: str, *values: object) -> tuple[Token, ...]:
     """
     rule = grammar[start]
     scope = dict(zip(rule.parameters, values, strict=True))
-    tokens: list[Token] = []
-    for item in choose(rule, scope).items:
-        tokens += _fill(item, scope, grammar, start)
-    return tuple(tokens)
-
-
-def choose(rule: Rule, scope: Mapping[str, object]) -> Alternative:
-    """The first alternative of a rule whose guard holds for the values in its scope.
-
-    Raises:
-        ExpansionError: none fits.
-    """
-    for alternative in rule.alternatives:
-        if all(_holds(comparison, scope) for comparison in alternative.guard):
-            return alternative
-    raise ExpansionError(
+    lacking: ExpansionError | None = None
+    for alternative in fitting(rule, scope):
+        try:
+            return filled(alternative, scope, grammar, start)
+        except ExpansionError as error:
+            lacking = lacking or error
+    raise lacking or ExpansionError(
         f"rule {rule.name} has no alternative for {scope!r}; add one to the grammar"
     )
+
+
+def fitting(rule: Rule, scope: Mapping[str, object]) -> Iterator[Alternative]:
+    """The alternatives of a rule whose guards hold for the values in its scope, in order."""
+    for alternative in rule.alternatives:
+        if all(_holds(comparison, scope) for comparison in alternative.guard):
+            yield alternative
+
+
+def filled(
+    alternative: Alternative, scope: Mapping[str, object], grammar: Grammar, rule: str
+) -> tuple[Token, ...]:
+    """The tokens of an alternative of a rule, with the values in its scope."""
+    return tuple(token for item in alternative.items for token in _fill(item, scope, grammar, rule))
 
 
 def _fill(

@@ -93,10 +93,11 @@ class Speaker:
         now = self.context.now
         if not look.in_view:
             return "that I saw last " + word("vehicles", "place", look.bearing)
-        if who.time is None or now - who.time <= RECENT:
-            return word("vehicles", "place", look.bearing)
         today = self.context.look(look.vehicle)
-        if today is not None and today.in_view and today.bearing == look.bearing:
+        seen = today is not None and today.in_view
+        if who.time is None or now - who.time <= RECENT:
+            return word("vehicles", "place", today.bearing if today and seen else look.bearing)
+        if today is not None and seen and today.bearing == look.bearing:
             return word("vehicles", "place", look.bearing)
         return word("vehicles", "was", look.bearing)
 

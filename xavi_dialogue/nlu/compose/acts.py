@@ -1,11 +1,13 @@
 """Acts: the units of an utterance become questions, claims, requests, feelings, repairs."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     AskHelp,
+    Claim,
     Elliptic,
     HowKnow,
     Identify,
@@ -13,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Repair,
     Request,
     Social,
+    Summarise,
     WhatIf,
     Whether,
     Why,
@@ -21,33 +24,37 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Happens,
+    Passenger,
     Pronoun,
-    Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.compose.blames import blamed_for
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.existence import if_alone
+from xavi_dialogue.nlu.compose.expecting import as_expected
 from xavi_dialogue.nlu.compose.fragments import Fragments
-from xavi_dialogue.nlu.compose.nominal import asked_each
+from xavi_dialogue.nlu.compose.frames import is_short
+from xavi_dialogue.nlu.compose.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.orders import Orders
 from xavi_dialogue.nlu.compose.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
-from xavi_dialogue.nlu.compose.sem import Notes, as_thing
-from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements
-from xavi_dialogue.nlu.compose.talk import says, talk_act
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
-from xavi_dialogue.nlu.compose.whys import lacking
+from xavi_dialogue.nlu.compose.sem import Group, Notes, as_thing
+from xavi_dialogue.nlu.compose.severally import asked_each
+from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
+from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
+from xavi_dialogue.nlu.compose.talk import called, says, talk_act
+from xavi_dialogue.nlu.compose.tally import among
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, words_of
+from xavi_dialogue.nlu.compose.whys import RUN_ON, lacking, runs_on
 from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-_AUXILIARY = frozenset({"BE", "DO", "HAVE", "HAD", "MODAL"})
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
 NOTHING = 2.5  # cost of a unit of which nothing can be made
 SHORT = 0.5  # of "if you had" before an order
-#: What is asked rather than bidden where it ends with a question mark.
-_WAYS = frozenset({"exit-left", "exit-right", "exit-straight", "turn", "change-left",
-                   "change-right", "change-lane", "reverse", "continue", "leave",
-                   "go"})  # fmt: skip
+_COURTEOUS = frozenset({"PLEASE", "TAGWORD"})
+_PROPOSING = frozenset({("maybe",), ("perhaps",)})
 
 
 class Composer(Statements):
@@ -77,6 +84,8 @@ class Composer(Statements):
         return [((*talk, *acts), cost) for acts, cost in found]
 
     def _talk(self, unit: Node) -> Found:
+        if unit.parts and isinstance(unit.parts[0], Node) and unit.parts[0].name == "called":
+            return called(unit.parts[0])
         said = [p for p in unit.parts if isinstance(p, Leaf) and p.category in _TALKING]
         act = talk_act(said[0] if said else cast(Leaf, unit.parts[0])) if unit.parts else None
         asked = isinstance(act, Social) and act.kind == "how-are-you"
@@ -97,6 +106,11 @@ class Composer(Statements):
         wh_node, parts = self.split(unit)
         if wh_node is None:
             return []
+        if unit.name == "ask_in_place":  # "you did not stop, why not?"
+            at = unit.parts.index(wh_node)
+            parts = [p for p in parts if p not in unit.parts[at + 1 : at + 2] or not _is_not(p)]
+        if (also := node_of(unit, "also_wh")) is not None:
+            return self._ask_both(unit, wh_node, also)
         wh = self.questions.wh_of(wh_node)
         clause = Clause()
         found = self.questions.asked(wh, parts, clause)
@@ -111,67 +125,117 @@ class Composer(Statements):
             if wh.kind in ("who", "which"):
                 return [((Ask(Identify(Pronoun("that"))),), 0.0)]
             return [((Repair(kind),), 0.0)]
+        if wh.kind == "what" and _missed(clause):
+            return [((Ask(Summarise(time=clause.time)),), 0.0)]
         if wh.kind == "why" and unit.name == "ask_lacking" and clause.verb is None:
             return [((lacking(clause),), 0.0)]
         if wh.kind == "why" and leaf_of(unit, "THINKQ"):
             found = [(_grounds(question), cost) for question, cost in found]
         named = next((sem for sem, _ in clause.objects), clause.subject)
-        each = asked_each(named, clause.time, clause.tense) if wh.kind == "what" else ()
+        each = asked_each(named, clause, clause.tense) if wh.kind == "what" else ()
         if each and clause.verb is None:
             return [(tuple(Ask(question) for question in each), 0.0)]
         return [((Ask(question),), cost) for question, cost in found]
 
+    def _ask_both(self, unit: Node, wh: Node, also: Node) -> Found:
+        """Read "when and why did you brake" as two questions of one clause."""
+        second = cast(Node, also.parts[-1])
+        rest = [part for part in unit.parts if part is not also]
+        others = tuple(second if part is wh else part for part in rest)
+        found = self._ask(replace(unit, parts=others))
+        if leaf_of(also, "OR") is not None and {wh.name, second.name} <= {"wh_who", "wh_what"}:
+            return self._ask(replace(unit, parts=tuple(rest)))
+        return [
+            ((*acts, *more), cost + extra)
+            for acts, cost in self._ask(replace(unit, parts=tuple(rest)))
+            for more, extra in found[:1]
+        ]
+
     def _polar(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
-        if clause.feelings and _of_you(unit, clause):
-            return [((Social("are-you-human"),), 0.1)]
+        liked = clause.verb is not None and clause.verb.key in ("like", "love", "enjoy", "hate")
+        liked = liked or "do you like" in words_of(unit)
+        if (clause.feelings or (liked and clause.modal is None)) and _of_you(unit, clause):
+            return [((Social("feelings"),), 0.1)]
         if says(clause) and clause.question is None:
             return [((AskHelp(),), 0.1)]
-        order = self.orders.polite(clause)
+        order = self.orders.polite(clause, refrain=_refrains(unit), please=_pleads(unit))
         if order is not None:
             return [(order, 0.0)]
-        if _supposes(unit, clause) and (supposed := self.questions.supposed(clause)) is not None:
+        if goes_on(unit) or supposing(unit):
+            return []
+        if (why := blamed_for(clause)) is not None:
+            return [((Ask(why),), 0.0)]
+        special = as_expected(unit, clause) or if_alone(words_of(unit), clause)
+        if special is not None:
+            return [((Ask(special),), 0.0)]
+        if supposes(unit, clause) and (supposed := self.questions.supposed(clause)) is not None:
             return [((Ask(WhatIf(supposed)),), 0.0)]
         found = self.questions.whether(clause)
         if not found and unit.name == "polar_short":
             return self.fragments.short(clause)
-        return [((Ask(q),), cost) for q, cost in found]
+        return [((Ask(disputed(q, words_of(unit))),), cost) for q, cost in found]
 
     # --- the rest ----------------------------------------------------
 
     def _imperative(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
         leaf = clause.verb
-        if leaf is None or leaf.form != "base":
+        ceasing = any(isinstance(p, Node) and p.name == "ceasing" for p in unit.parts)
+        if leaf is None or (leaf.form != "base" and not ceasing):
             return []
+        if self.asks and leaf.words == ("speed",) and len(unit.parts) == 1:
+            return []  # "speed?"
         given = clause.condition
-        short = given is not None and given.verb is None and bool(given.aux)
+        short = given is not None and is_short(given)
+        if short and self.asks:
+            return []  # "if it had come out?"
+        negated = _forbids(unit) != ceasing
         found = [(acts, cost + SHORT * short)
-                 for acts, cost in self.orders.order(clause, negated=_forbids(unit))]  # fmt: skip
-        asks = self.asks and "PLEASE" not in {leaf.category for leaf in leaves_of(unit)}
-        if not asks or _forbids(unit):
+                 for acts, cost in self.orders.order(clause, negated=negated)]  # fmt: skip
+        courteous = any(
+            leaf.category in _COURTEOUS or leaf.words in _PROPOSING for leaf in leaves_of(unit)
+        ) or any(isinstance(part, Node) and part.name == "tail" for part in unit.parts)
+        if not self.asks or courteous or ceasing or _forbids(unit):
             return found
         return [(self._asks_back(acts), cost) for acts, cost in found]
 
     def _asks_back(self, acts: Acts) -> Acts:
-        """Take "back again?", "left here?" for the question whether we do so."""
+        """Take "back again?", "sit behind him all day?" for the question whether we do so."""
         first = acts[0] if acts else None
-        if not isinstance(first, Request) or first.event.action not in _WAYS:
+        if not isinstance(first, Request) or first.event.action == "keep-distance":
             return acts
         return (Ask(Whether(Happens(first.event))), *acts[1:])
 
     def _fragment(self, unit: Node) -> Found:
-        return self.fragments.fragment(unit)
+        found = self.fragments.fragment(unit)
+        if unit.name == "adverbial" and self.asks:
+            return [(tuple(map(as_when, acts)), cost) for acts, cost in found]
+        return found
 
     def _topic(self, unit: Node) -> Found:
         """Read what is named first and taken up by a pronoun of the next unit."""
-        named = [p for p in unit.parts if isinstance(p, Node) and p.name in ("np", "group")]
-        thing = as_thing(self.phrases.nouns.read(named[0]))
+        things = ("np", "group", "accusative", "accusative_group")
+        named = [p for p in unit.parts if isinstance(p, Node) and p.name in things]
+        sem = self.phrases.nouns.read(named[0])
+        if leaf_of(unit, "TALLY"):
+            counted = among(sem, named[0])
+            return [] if counted is None else [((Claim(counted),), 0.0)]
+        thing = as_thing(sem)
         told = isinstance(thing, Described | Vehicle)
+        if unit.name == "apposed" and isinstance(sem, Group):
+            return []
+        if unit.name == "apposed":
+            told = told or isinstance(thing, Ego)
+            told = told and getattr(thing, "definite", True)
         return [((Elliptic(thing),), 0.0)] if told else []
 
     def _ask_bare(self, unit: Node) -> Found:
-        return self.fragments.bare_question(unit)
+        tails = (part for part in unit.parts if isinstance(part, Node) and part.name == "tail")
+        if any(isinstance(p, Node) and p.name == "tag" for tail in tails for p in tail.parts):
+            return []  # "how close was it" is no "how close", with "was it?" behind it
+        extra = RUN_ON * runs_on(unit)
+        return [(acts, cost + extra) for acts, cost in self.fragments.bare_question(unit)]
 
     def _about(self, unit: Node) -> Found:
         return self.fragments.about(unit)
@@ -192,12 +256,14 @@ _RULES = {
     "ask_declarative": "_ask",
     "ask_in_place": "_ask",
     "ask_bare": "_ask_bare",
+    "ask_evidence": "_ask_bare",
     "polar": "_polar",
     "polar_short": "_polar",
     "declarative": "_declarative",
     "imperative": "_imperative",
     "fragment": "_fragment",
     "topic": "_topic",
+    "apposed": "_topic",
     "adverbial": "_fragment",
     "about": "_about",
     "supposed": "_supposed",
@@ -215,11 +281,10 @@ def _lead_act(part: Part) -> Act | None:
     return None
 
 
-def _supposes(unit: Node, clause: Clause) -> bool:
-    """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact."""
-    had = next((p for p in unit.parts if isinstance(p, Leaf) and p.category in _AUXILIARY), None)
-    timed = not isinstance(clause.time, Unsaid) or clause.focus or clause.manner
-    return had is not None and had.category == "HAD" and clause.verb is not None and not timed
+def _missed(clause: Clause) -> bool:
+    """Say whether it is asked what the passenger missed."""
+    missed = clause.verb is not None and clause.verb.key == "miss"
+    return missed and isinstance(clause.subject, Passenger)
 
 
 def _grounds(question: Question) -> Question:
@@ -234,5 +299,27 @@ def _of_you(unit: Node, clause: Clause) -> bool:
     return any(leaf.category == "YOU" for leaf in leaves_of(unit)) and not clause.complements
 
 
+def _pleads(unit: Node) -> bool:
+    """Say whether there is a "please" in a unit."""
+    return any("please" in leaf.words for leaf in leaves_of(unit))
+
+
+def _refrains(unit: Node) -> bool:
+    """Say whether "could you please not brake" asks not to do it; "couldn't you" does not."""
+    words = [word for leaf in leaves_of(unit) for word in leaf.words]
+    if "not" not in words:
+        return False
+    before, after = words[: words.index("not")], words[words.index("not") + 1 :]
+    if after[:1] in (["you"], ["we"]):  # "can't you go any faster"
+        return False
+    polite = not {"please", "perhaps", "maybe", "possibly", "rather"}.isdisjoint(before)
+    return polite or not {"any", "anymore", "so", "again", "too", "that"}.isdisjoint(words)
+
+
+def _is_not(part: Part) -> bool:
+    """Say whether a part is "not"."""
+    return isinstance(part, Leaf) and part.category == "NOT"
+
+
 def _forbids(unit: Node) -> bool:
-    return any(isinstance(p, Leaf) and p.category == "NOT" for p in unit.parts)
+    return any(_is_not(part) for part in unit.parts)

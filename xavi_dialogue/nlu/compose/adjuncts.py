@@ -2,9 +2,9 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Unsaid
-from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
-from xavi_dialogue.nlu.compose.sem import Notes, SideOf
+from xavi_dialogue.domain.terms import Ago, At, AtDecision, Back, Event, Now, Unsaid, WholeRide
+from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots, is_named
+from xavi_dialogue.nlu.compose.sem import Group, Notes, SideOf
 from xavi_dialogue.nlu.compose.things import Nouns
 from xavi_dialogue.nlu.compose.times import relative, time_of
 from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
@@ -16,6 +16,9 @@ CLAUSES = ("finite", "finite_short", "finite_topic", "inverted", "inverted_short
 NOUNS = ("np", "group", "accusative", "accusative_group")
 
 
+#: Times that another one in the same clause may say more exactly, and such.
+VAGUE = (Back(), Ago(), Now())
+EXACT = (At, AtDecision)
 SECOND = 0.4  # cost of another time in the same clause
 
 
@@ -32,8 +35,9 @@ class Adjuncts:
         raise NotImplementedError
 
     def _time(self, node: Node, clause: Clause) -> None:
-        if isinstance(clause.time, Unsaid):
-            clause.time = time_of(node)
+        time = time_of(node)
+        if isinstance(clause.time, Unsaid) or (clause.time in VAGUE and isinstance(time, EXACT)):
+            clause.time = time  # "back then, at 3 s"
         elif node.name == "time_adverb":
             self.notes.inner[id(node)] = SECOND
         leaf = leaf_of(node, "P")
@@ -44,6 +48,7 @@ class Adjuncts:
 
     _on_time_adverb = _on_time_clock = _on_time_amount = _on_time_ago = _time
     _on_time_span = _on_time_rank = _on_time_between = _on_time_since = _time
+    _on_time_to_now = _time
     _on_time_decision = _on_time_decisions = _on_time_bare = _time
 
     def _on_lead_time(self, node: Node, clause: Clause) -> None:
@@ -53,8 +58,15 @@ class Adjuncts:
 
     def _on_lead_clause(self, node: Node, clause: Clause) -> None:
         inner = cast(Node, node.parts[0])
+        if inner.name in ("hads", "if_clause"):
+            clause.led = True
         if inner.name == "hads":
             clause.condition = self.clause(inner)
+        elif inner.name == "pp" and cast(Leaf, inner.parts[0]).key == "about":
+            about = cast(Node, inner.parts[1])
+            named = self.nouns.read(about) if about.name in NOUNS else None
+            clause.topic = named if named is not None and is_named(named) else None
+            self.slots.fill(() if clause.topic else node.parts, clause)
         else:
             self.slots.fill(node.parts, clause)
 
@@ -67,12 +79,15 @@ class Adjuncts:
         leaf = cast(Leaf, node.parts[0])
         inner = cast(Node, node.parts[1])
         if inner.name in CLAUSES:
-            event = self.propositions.as_event(self.clause(inner, clause))
+            said = self.clause(inner, clause)
+            event, ended = self.propositions.as_event(said), self.propositions.ended(said)
         else:
-            event = self.nouns.read(inner)
-        anchor = self.propositions.anchor(event)
-        if anchor is not None and isinstance(clause.time, Unsaid):
-            clause.time = relative(leaf.key, anchor)
+            event, ended = self.nouns.read(inner), None
+        anchor = ended or self.propositions.anchor(event)
+        if leaf.key == "since" and anchor == Event("go"):
+            clause.time = WholeRide()  # "since we set off"
+        elif anchor is not None and isinstance(clause.time, Unsaid):
+            clause.time = relative("after" if ended else leaf.key, anchor)
 
     def _on_when_np(self, node: Node, clause: Clause) -> None:
         self._on_when(node, clause)
@@ -96,7 +111,11 @@ class Adjuncts:
         if inner.name in CLAUSES:
             clause.because = self.clause(inner, clause)
         else:
-            clause.because = self.nouns.read(inner)
+            named = self.nouns.read(inner)
+            first = clause.because
+            if first is not None and not isinstance(first, Clause | Group):
+                named = Group((first, named), "or")
+            clause.because = named
 
     def _on_without(self, node: Node, clause: Clause) -> None:
         inner = cast(Node, node.parts[-1])

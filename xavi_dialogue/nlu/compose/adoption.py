@@ -3,13 +3,18 @@
 from dataclasses import replace
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.terms import (
     Believed,
     Both,
     Compares,
     Described,
+    Destination,
     Ego,
     Event,
+    Exit,
+    Feature,
     Happens,
     Is,
     Junction,
@@ -20,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     Related,
     Relative,
+    Road,
     Thing,
     Time,
     Unsaid,
@@ -42,8 +48,11 @@ def adopt(match: Match) -> None:
         if phrase.sem is None:
             continue
         taken = None if _of_measure(phrase) else adopted(match.object, phrase)
+        second = adopted(match.second, phrase) if isinstance(match.second, Measure) else None
         if taken is not None:
             match.object = taken
+        elif second is not None:
+            match.second = second
         elif not _of_measure(phrase):
             continue
         match.left.remove(phrase)
@@ -70,6 +79,9 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
         return _measured(sem, phrase.key, other)
     if isinstance(sem, Described) and sem.such is None and phrase.key in ("on", "in", "at"):
         thing = as_thing(other)
+        if isinstance(thing, Described) and sem.kind == "vehicle" and phrase.key != "at":
+            colour, size = sem.colour or thing.colour, sem.size or thing.size
+            return cast(Sem, with_fields(sem, kind=thing.kind, colour=colour, size=size))
         if thing is not None and not isinstance(thing, Described):
             return cast(Sem, with_fields(sem, such=Related("on", Wanted(), thing)))
     if isinstance(sem, Event) and phrase.key in ("for", "with", "of") and sem.object is None:
@@ -94,7 +106,8 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
     if isinstance(other, Event) and key in ("of", "for", "in", "on", "about"):
         return replace(sem, of=with_fields(measured, event=other))
     thing = as_thing(other)
-    if thing is None or key not in _OF or isinstance(other, Group):
+    several = isinstance(other, Group) and not isinstance(other.members[-1], Measure)
+    if thing is None or key not in _OF or several:
         return None
     if key == "of" or (measured.attribute == "probability" and isinstance(measured.thing, Ego)):
         return replace(sem, of=with_fields(measured, thing=thing))
@@ -103,8 +116,7 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
 
 def with_fields(value: Any, **fields: Any) -> Any:
     """Copy a term with other values for some fields."""
-    old = {name: getattr(value, name) for name in value.__struct_fields__}
-    return type(value)(**{**old, **fields})
+    return structs.replace(value, **fields)
 
 
 _AMOUNTS = {"high": "more", "low": "less", "fast": "more", "slow": "less"}
@@ -129,22 +141,50 @@ def exceeding(clause: Clause, event: Event) -> Proposition | None:
 def _paced(clause: Clause, event: Event) -> Proposition | None:
     """Read "we are going too fast" as a state: how fast it is, not what is done."""
     state = "fast" if "fast" in event.manner else "slow" if "slowly" in event.manner else None
-    whole = event.object is None and event.where is None and event.side is None
-    plain = event.action in ("go", "move") and not clause.comparisons and event.modal is None
-    if state is None or not plain or not whole or clause.subject is None:
+    if state is None or clause.subject is None or clause.comparisons or event.modal is not None:
         return None
-    return Is(cast(Any, state), event.actor, too="too" in clause.focus, time=event.time,
+    time = event.time
+    whole = event.object is None and event.where is None and event.side is None
+    if _takes_place(event):  # "aren't we coming up to that crossing rather fast?"
+        deed = cast(Event, with_fields(event, manner=()))
+        past = event.tense in ("past", "perfect") and isinstance(time, Unsaid)
+        time = Relative("during", deed) if past else time
+    elif event.action not in ("go", "move") or not whole:
+        return None
+    return Is(cast(Any, state), event.actor, too="too" in clause.focus, time=time,
               tense=event.tense)  # fmt: skip
+
+
+def _takes_place(event: Event) -> bool:
+    """Say whether somebody drives up to a place, or through it."""
+    placed = isinstance(event.object, Junction | Feature | Road | Exit | Destination)
+    coming = event.action in ("approach", "come") and event.tense == "present"
+    return (event.action in _REACHING and placed) or (coming and event.actor != Ego())
+
+
+_REACHING = frozenset({"enter", "approach", "come", "head", "go", "move", "cross", "turn"})
+
+
+def _nears(event: Event) -> Proposition | None:
+    """Read "did he come close" as a state: how near it is, not what is done."""
+    other = event.actor if not isinstance(event.actor, Ego) else event.object
+    near = "close" in event.manner and event.action in ("come", "approach", "go")
+    if not near or other is None or event.modal is not None or event.tense == "future":
+        return None
+    return Is("close", other, time=event.time, tense=event.tense)
 
 
 def compared(clause: Clause, event: Event) -> Proposition | None:
     """Read "he goes faster than us" as a comparison."""
-    paced = _paced(clause, event)
+    paced = _paced(clause, event) or _nears(event)
     if paced is not None or not clause.comparisons:
         return paced
     key = clause.comparisons[0][0]
     if key in _COMPARED and not isinstance(clause.than_time, Unsaid):
         return compared_times(clause, *_COMPARED[key], event.actor)
+    if isinstance(clause.than, Clause) and key == "fast" and _is_allowed(clause.than):
+        speed = Measured("speed", event.actor, time=event.time, tense=event.tense)
+        return Compares(speed, "more", Measured("limit"))
     if clause.than is None or isinstance(clause.than, Clause):
         return None
     if key in ("close", "far") and isinstance(clause.than, Quantity) and clause.than.unit == "m":
@@ -163,6 +203,12 @@ def compared(clause: Clause, event: Event) -> Proposition | None:
         Measured(cast(Any, attribute), event.actor, time=event.time, tense=event.tense),
         cast(Any, direction), Measured(cast(Any, attribute), right, tense=event.tense),
     )  # fmt: skip
+
+
+def _is_allowed(than: Clause) -> bool:
+    """Say whether it is compared with what is allowed: "faster than you are allowed to"."""
+    allowed = any(key == "allowed" for key, _ in than.adjectives) or "semi-allowed" in than.aux
+    return allowed or (than.verb is not None and than.verb.key in ("allow", "permit"))
 
 
 def compared_times(clause: Clause, attribute: str, direction: str, thing: Thing) -> Proposition:

@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
@@ -14,6 +16,8 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Is,
+    Junction,
     Measured,
     Pronoun,
     Related,
@@ -56,6 +60,8 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
         isinstance(sem, Noun) and sem.key == "time"
     ):
         return _stretch(clause, value, actor, event)
+    if isinstance(sem, Moment) and isinstance(value, Is) and value.state == "lost":
+        return measured("delay", clause, actor)  # "how many seconds have we lost?"
     if isinstance(sem, Moment):
         return _lengths(sem, clause, value, actor, event)
     if isinstance(sem, Measure) and sem.of.attribute == "speed" and _changes(clause, event):
@@ -72,6 +78,10 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
     if people and isinstance(aboard, Described | Vehicle | Pronoun):
         return measured("occupant", clause, aboard)  # "how many people are on the bus?"
     question = counted(sem)
+    driven = clause.tense in ("past", "perfect") and not _to_come(clause, value, ())
+    if isinstance(question, HowMany) and isinstance(question.of, Junction) and driven:
+        ring = question.of.form == "roundabout"  # "how many roundabouts was that?"
+        return HowMany(Event("enter" if ring else "cross", object=question.of))
     if isinstance(question, HowMany):
         return HowMany(_restricted(question.of, value))
     return question or measured("count", clause, actor)
@@ -137,12 +147,10 @@ def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
     """Say of what is counted what it does: "how many cars can you see"."""
     if not isinstance(of, Described):
         return of
-    fields: dict[str, Any] = {k: getattr(of, k) for k in of.__struct_fields__}
     if isinstance(value, Special):
         value = proposition_of(value)
     if isinstance(value, Happens):
-        fields["doing"] = value.event
+        of = structs.replace(of, doing=value.event)
     elif value is not None and not isinstance(value, That):
-        fields["such"] = value
-    fields.update(plural=True, definite=False)
-    return Described(**fields)
+        of = structs.replace(of, such=value)
+    return structs.replace(of, plural=True, definite=False)

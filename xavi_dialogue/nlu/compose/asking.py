@@ -20,12 +20,14 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Believed,
+    Compares,
     Ego,
     Event,
     Exists,
     Happens,
     Is,
     Measured,
+    Not,
     Passenger,
     Pronoun,
     Proposition,
@@ -42,6 +44,7 @@ from xavi_dialogue.nlu.compose.lasting import measured, since
 from xavi_dialogue.nlu.compose.nominal import propose
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.trends import believed
 from xavi_dialogue.nlu.compose.wh import Wh, content_of, deed_of, fact, is_that, time_of
 from xavi_dialogue.nlu.compose.what import What
 from xavi_dialogue.nlu.compose.which import WhichOne
@@ -61,8 +64,18 @@ class Asking(What, WhichOne):
             deed = propose(clause.subject)
             return Why(That() if deed is None else timed(as_of(deed, clause.tense), clause.time))
         if isinstance(value, Special) and value.name == "change":
+            if clause.negated and isinstance(clause.subject, Ego):  # "why did you not change?"
+                change = Event("change-lane", time=clause.time, tense=cast(Any, clause.tense))
+                return Why(Not(Happens(change)))
             return HowSure(None, clause.time, changed=True)
         of = fact(value)
+        match of:
+            case Compares(left=Measured(attribute="probability") as left, right=Measured()):
+                return HowSure(believed(left), changed=True)
+            case Compares(left=Measured(attribute="probability") as left):
+                return HowKnow(believed(left))
+            case Is(state="sure", thing=Ego()) if clause.that is not None:
+                return HowKnow(self.propositions.plain(clause.that))
         if isinstance(of, Happens) and of.event.action == "do" and is_that(of.event.object):
             of = Happens(of.event)
         if isinstance(of, Happens) and is_that(of.event.actor) and not clause.aux:
@@ -125,7 +138,12 @@ class Asking(What, WhichOne):
         if isinstance(of, Is) and of.state == "sure" and clause.that is not None:
             content = self.propositions.plain(clause.that)
             return When(of if content is None else Believed(content, tense=of.tense))
+        if isinstance(of, Compares) and of.left.attribute == "delay":
+            return HowMuch(of.left)  # "what time did the roundabout cost us?"
         ours = isinstance(of, Happens) and isinstance(of.event.actor, Ego)
+        getting_in = isinstance(of, Happens) and of == Happens(Event("enter", tense=of.event.tense))
+        if ours and getting_in:
+            of = Happens(Event("arrive", tense="future"))  # "when do we get in?"
         if isinstance(of, Happens) and ours and of.event.tense == "present":  # "when do we turn?"
             of = Happens(with_fields(of.event, tense="future"))
         return When(of)
@@ -156,6 +174,8 @@ class Asking(What, WhichOne):
             return HowAvoid(self._avoided(clause, of.event))
         if isinstance(of, Happens) and of.event.action == "happen":
             return Why(That())
+        if isinstance(of, Compares) and of.left == Measured("value", of.left.thing):
+            return Why(That())  # "how is that any better?"
         return HowDecide(of)
 
     def _avoided(self, clause: Clause, event: Event) -> Proposition | None:
@@ -201,7 +221,11 @@ class Asking(What, WhichOne):
             case "why":
                 return self.why(clause, value)
             case "evidence":
-                return HowKnow(content_of(clause, value))
+                of = content_of(clause, value)
+                match of:
+                    case Not(content=Happens(event=Event(actor=Ego()))):
+                        return Why(of)  # "on what basis are you not stopping?"
+                return HowKnow(of)
             case "what" | "who" | "whose":
                 return self.what(wh, clause, value)
             case "where":

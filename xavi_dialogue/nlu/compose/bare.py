@@ -8,7 +8,9 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     Elliptic,
     HowLong,
+    HowMany,
     HowMuch,
+    Question,
     Repair,
     Whither,
     Why,
@@ -23,11 +25,13 @@ from xavi_dialogue.domain.terms import (
     Not,
     Pronoun,
     Proposition,
+    Relative,
     That,
     Thing,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.suppositions import Suppositions
 from xavi_dialogue.nlu.compose.tree import leaves_of
@@ -39,6 +43,7 @@ Found = list[tuple[tuple[Act, ...], float]]
 _FORMS = {"why": "why", "which": "which", "when": "when", "where": "where", "how": "how",
           "what": "same", "who": "which"}  # fmt: skip
 _BARE = 0.3
+_YET = frozenset({"still", "yet"})
 _ONWARD = frozenset({"now", "next", "then", "after-that"})
 
 
@@ -78,13 +83,21 @@ class BareQuestions(Suppositions):
         if event is not None:
             found = self.composer.questions.of(wh, clause)
             return [((Ask(q),), cost + _BARE) for q, cost in found]
-        return [((Elliptic(thing, event, clause.time, clause.negated, form),), 0.0)]
+        past = 0.0 if clause.that is None else PASSED_OVER
+        return [((Elliptic(thing, event, clause.time, clause.negated, form),), past)]
 
     def _bare_why(self, clause: Clause, parts: list[Part]) -> Found:
         pace = pace_asked(self.composer, clause)
         if pace is not None:
             return pace
+        told = None if clause.that is None else self.composer.propositions.plain(clause.that)
+        if told is not None:
+            return [((Ask(Why(told)),), _BARE)]  # "now you tuck in behind him, what for?"
         thing, event = self._contents(clause)
+        if clause.contrast is not None and thing == Pronoun("that") and event is None:
+            other = self.composer.questions.contrast(clause, That())
+            if other is not None:  # "why that and not continue?"
+                return [((Ask(Why(That(), other)),), 0.0)]
         negated = clause.negated or (event is not None and _denied(parts))
         if (
             thing is None
@@ -121,15 +134,18 @@ class BareQuestions(Suppositions):
             clause.objects = clause.objects[1:] if clause.subject is not None else clause.objects
         if clause.bare is not None or clause.gerund is not None:
             clause = clause.bare or clause.gerund or clause
+        if wh.key == "long" and _empty(clause) and _still(wh, clause):
+            return [((Ask(HowMuch(Measured("time-to-go"))),), 0.05)]
         if wh.key == "long" and _empty(clause):
             return [((Ask(HowLong(That())),), 0.05)]
-        onward = {"further", "farther"} & {*wh.words}
+        onward = not {"further", "farther"}.isdisjoint(wh.words)
+        onward |= wh.key == "far" and _still(wh, clause)
         if wh.key in ("far", "close") and _empty(clause) and not onward:
             return [((Ask(HowMuch(Measured("distance", Pronoun("it")))),), 0.05)]
         if wh.key == "fast" and _empty(clause):
             return [((Ask(HowMuch(Measured("speed", Pronoun("one")))),), 0.05)]
         found = self.composer.questions.of(wh, clause)
-        return [((Ask(q),), cost + 0.1) for q, cost in found]
+        return [((Ask(_still_to_come(q, clause)),), cost + 0.1) for q, cost in found]
 
     def _bare_which(self, wh: Wh, clause: Clause, thing: Thing | None) -> Found:
         sem = wh.sem
@@ -160,6 +176,11 @@ class BareQuestions(Suppositions):
         return as_thing(sem), None
 
 
+def _still(wh: Wh, clause: Clause) -> bool:
+    """Say whether it is asked what is left: "how long still?", "how far yet?"."""
+    return clause.still or not _YET.isdisjoint((*clause.focus, *wh.words))
+
+
 def _onward(unit: Node, clause: Clause) -> bool:
     """Say whether it is asked what comes: "what now?", "what next?", "and then what?"."""
     words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
@@ -182,6 +203,15 @@ def _denied(parts: list[Part]) -> bool:
 
 def _empty(clause: Clause) -> bool:
     """Say whether nothing stands behind a question word but a preposition: "how long for?"."""
-    said = clause.subject or clause.objects or clause.bearings or clause.side or clause.verb
+    said = (clause.subject, clause.objects, clause.bearings, clause.side, clause.verb,
+            clause.infinitive, clause.condition)  # fmt: skip
     stranded = all(phrase.sem is None for phrase in clause.complements)
-    return not said and stranded and isinstance(clause.time, Unsaid)
+    return not any(said) and stranded and isinstance(clause.time, Unsaid)
+
+
+def _still_to_come(question: Question, clause: Clause) -> Question:
+    """Ask "how many turns till we're there" of what is to come."""
+    match question, clause.time:
+        case HowMany(of=Event() as event), Relative(relation="until" | "before"):
+            return HowMany(with_fields(event, tense="future", time=Unsaid()))
+    return question

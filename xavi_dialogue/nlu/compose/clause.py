@@ -3,11 +3,29 @@
 from dataclasses import dataclass, field
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Event, Pronoun, Time, Unsaid
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Pronoun,
+    Quantity,
+    Relative,
+    Time,
+    Unsaid,
+    Vehicle,
+)
 from xavi_dialogue.domain.vocabulary import Manner
-from xavi_dialogue.nlu.compose.sem import Sem
+from xavi_dialogue.nlu.compose.sem import Sem, as_thing
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+PASSED_OVER = 0.6  # cost of a clause within a clause that nothing is made of
+RELATIONS = frozenset(("before", "after", "since", "until", "during"))  # to an event
+
+
+#: Verbs of which a share of chances is an argument: "you put it at 91 percent".
+RATING = frozenset(("rate", "put", "give", "have", "estimate", "assign", "set", "see", "score"))
 
 
 @dataclass(slots=True)
@@ -44,6 +62,7 @@ class Clause:
     time: Time = field(default_factory=Unsaid)
     contrast: "Sem | Clause | str | None" = None
     condition: "Clause | None" = None
+    led: bool = False  # the condition stands first
     because: "Sem | Clause | None" = None
     without: Sem | None = None
     infinitive: "Clause | None" = None
@@ -51,6 +70,7 @@ class Clause:
     bare: "Clause | None" = None
     that: "Clause | None" = None
     question: Any = None  # an embedded question, composed
+    also: list[Any] = field(default_factory=list)  # other questions of the same clause
     chained: list[tuple[str, "Clause"]] = field(default_factory=list)
     gap: Sem | None = None  # what a question word or relative pronoun stands for
     instead: bool = False
@@ -59,6 +79,10 @@ class Clause:
     focus: set[str] = field(default_factory=set)
     skipped: list[Leaf] = field(default_factory=list)
     inner: Event | None = None  # what the infinitive or gerund is of
+    times: int | None = None  # how often: "three times"
+    share: Quantity | None = None  # how likely it was thought: "at 91 percent"
+    topic: Sem | None = None  # named first: "as for the bus"
+    comma: int = -1  # where the words behind the last comma begin
     pairs: list[Sem] = field(default_factory=list)  # between these
 
     def has(self, kind: str) -> bool:
@@ -130,12 +154,45 @@ _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "
 
 
 #: Verbs that are written alike in the past, and say what is over in a moment: "you cut in".
-_UNCHANGED = frozenset({"hit", "cut", "let"})
+_UNCHANGED = frozenset({"hit", "cut", "let", "set"})
 #: Verbs whose participle after "be" tells a state of the subject: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
     ("allow", "permit", "stick", "sit", "stand", "head", "park", "stop", "go", "finish", "come",
-     "get", "turn", "end")
+     "get", "turn", "end", "arrive")
 )  # fmt: skip
+
+
+def timed_by(clause: Clause) -> None:
+    """Take "after the stop" for the time of a clause, where none is said."""
+    for phrase in clause.complements if isinstance(clause.time, Unsaid) else ():
+        if phrase.key in RELATIONS and isinstance(phrase.sem, Event):
+            clause.time = Relative(cast(Any, phrase.key), phrase.sem)
+            clause.complements.remove(phrase)
+            return
+
+
+def _be_back(clause: Clause) -> None:
+    """Take "back" behind "be" for where one is: "we are back in our lane"."""
+    verb = clause.verb
+    if verb is not None and verb.words == ("back",) and clause.aux_last() == "be":
+        clause.particles.append(verb)
+        clause.verb = None
+
+
+def _deed_made(clause: Clause) -> None:
+    """Put what stands behind a deed into it: "made us turn left", "made it overtake the bus"."""
+    if clause.verb is None or clause.verb.key != "make" or len(clause.objects) < 2:
+        return
+    deed, part = clause.objects[1]
+    if not isinstance(deed, Event):
+        return
+    if deed.action == "turn" and deed.side is None and clause.side is not None:
+        deed, clause.side = replace(deed, action=cast(Any, f"exit-{clause.side}")), None
+    more = as_thing(clause.objects[2][0]) if clause.objects[2:] and deed.object is None else None
+    if more is not None:
+        deed = replace(deed, object=more)
+        del clause.objects[2]
+    clause.objects[1] = deed, part
 
 
 class Slots:
@@ -152,6 +209,10 @@ class Slots:
                 self._leaf(part, clause)
             else:
                 self._phrase(part, clause)
+        _be_back(clause)
+        _deed_made(clause)
+        if clause.verb is None:
+            timed_by(clause)
         return clause
 
     def _leaf(self, leaf: Leaf, clause: Clause) -> None:
@@ -163,6 +224,10 @@ class Slots:
                     clause.aux.append("semi-past")
             case "NOT":
                 clause.negated = not clause.negated
+            case "MAKE":
+                clause.verb = Leaf(
+                    "V", "make", leaf.key, leaf.words, leaf.tokens, leaf.start, leaf.end, leaf.cost
+                )
             case "V" | "VPAST" | "VED" | "VING" | "GOING":
                 clause.verb = leaf
             case "PART":
@@ -218,3 +283,21 @@ class Slots:
 def wanted_pronoun(sem: Sem | None) -> bool:
     """Say whether a subject is a pronoun that may stand for nothing: "it is ..."."""
     return isinstance(sem, Pronoun) and sem.form in ("it", "that", "this")
+
+
+def is_share(key: str, sem: Sem | None, clause: Clause) -> bool:
+    """Say whether a phrase tells how likely what a clause says was thought: "at 91 percent"."""
+    said = isinstance(sem, Quantity) and sem.unit == "%" and key in ("at", "with", "by")
+    return said and clause.verb is not None and clause.verb.key not in RATING
+
+
+def is_named(sem: Sem) -> bool:
+    """Say whether a meaning is one vehicle that is pointed at: "the bus", "vehicle 7"."""
+    one = isinstance(sem, Described) and sem.definite and not sem.plural
+    return isinstance(sem, Vehicle) or one
+
+
+def takes_name(clause: Clause) -> bool:
+    """Say whether the subject is a pronoun that a name behind the clause explains."""
+    subject = clause.subject
+    return isinstance(subject, Pronoun) and subject.form in ("it", "he", "she")

@@ -5,6 +5,7 @@ from typing import Any, cast
 from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
+    Described,
     Ego,
     Event,
     Happens,
@@ -14,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Quantity,
     Thing,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -58,7 +60,11 @@ _HALTS = frozenset({"wait", "stop", "stand", "give-way"})
 
 def made(special: Special, effect: Proposition) -> Proposition:
     """Read "we made the bus wait": the bus waits for us; else that we are why it does so."""
+    agent = next((p.sem for p in special.clause.complements if p.key == "by"), None)
+    named = as_thing(agent) if special.clause.passive and agent is not None else None
     match effect:
+        case Happens(event=event) if named is not None:
+            return Caused(named, Happens(with_fields(event, tense=tense_of(special))))
         case Happens(event=event) if not isinstance(event.actor, Ego):
             other = cast(Event, with_fields(event, tense=tense_of(special)))
             if isinstance(special.subject, Ego) and event.action in ("wait", "stand"):
@@ -67,8 +73,6 @@ def made(special: Special, effect: Proposition) -> Proposition:
             return Caused(special.subject, Happens(other))
         case Happens(event=event) if event.action in _HALTS and tense_of(special) == "future":
             return Happens(Event("give-way", Ego(), special.subject, tense="future"))
-    agent = next((p.sem for p in special.clause.complements if p.key == "by"), None)
-    named = as_thing(agent) if special.clause.passive and agent is not None else None
     return Caused(named or special.subject, effect)
 
 
@@ -77,6 +81,10 @@ def happen(special: Special) -> Proposition:
     about = next((as_thing(s) for s in special.match.phrases.values()), None)
     if special.content is not None:
         return special.content
+    match special.subject:
+        case Described(such=Is(state=state, thing=Wanted())):  # "did anything dangerous happen"
+            return Is(state, Described(definite=False), time=time_of(special),
+                      tense=tense_of(special))  # fmt: skip
     return Happens(Event("happen", about or special.subject, time=time_of(special),
                          tense=tense_of(special)))  # fmt: skip
 
@@ -114,6 +122,9 @@ def begun(special: Special) -> Proposition:
     if isinstance(sem, Event):
         event = event_of(special, sem.action, sem.object)
         return Happens(cast(Event, with_fields(event, side=sem.side)))
+    thing = as_thing(sem)
+    if isinstance(thing, Pronoun):  # "when you started it"
+        return Happens(event_of(special, "do", thing))
     return Happens(event_of(special, "go", None))
 
 

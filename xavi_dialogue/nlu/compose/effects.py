@@ -11,7 +11,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Pronoun, Proposition
 from xavi_dialogue.nlu.compose.adoption import as_of, timed
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.polar import Polar
@@ -83,6 +83,20 @@ class Effects(Polar):
         if inner.infinitive is not None:
             return WhatWouldChange(self._pivot(inner, inner.infinitive))
         return None
+
+    def weighed(self, wh: Wh, clause: Clause) -> Question | None:
+        """Ask "how much worse would stopping have been than going on"."""
+        if not isinstance(clause.subject, Event | Pronoun):
+            return None
+        clause.comparisons.append(("better" if wh.key == "worse" else "fast", " ".join(wh.words)))
+        return self.comparison(clause)
+
+    def needing(self, clause: Clause) -> Question | None:
+        """Ask "how far would it need to be for you to go", "how big a gap would you need to go"."""
+        needs = "semi-must" in clause.aux or (clause.verb is not None and clause.verb.key == "need")
+        if clause.modal != "would" or not needs or clause.infinitive is None:
+            return None
+        return WhatWouldChange(self._pivot(clause, clause.infinitive))
 
     def _pivot(self, clause: Clause, governed: Clause) -> Proposition | None:
         """Read "for you to turn left": what hangs on it."""

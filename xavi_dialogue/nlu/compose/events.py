@@ -21,10 +21,11 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, SideOf, as_thing
 from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
-from xavi_dialogue.nlu.compose.things import relation_of
 from xavi_dialogue.nlu.compose.times import place_time
+from xavi_dialogue.nlu.compose.tree import words_of
 
 _SIDED: dict[tuple[str, str], str] = {
     ("turn", "left"): "exit-left",
@@ -58,6 +59,30 @@ def actor_of(clause: Clause) -> Thing:
     return actor
 
 
+def _shown(action: str, clause: Clause, match: Match) -> str:
+    """Read "its brake lights came on" as braking, and "use that gap" as going."""
+    if action != "signal":
+        return action
+    if isinstance(clause.subject, Measure) and clause.subject.of.attribute == "brake-lights":
+        return "brake"
+    used = match.object
+    return "go" if isinstance(used, Measure) and used.of.attribute not in _LIGHTS else action
+
+
+def _named(action: str, thing: Thing | None, clause: Clause) -> str:
+    """Give what an action is called where it nearly was one, or is of who speaks."""
+    struck = isinstance(thing, Ego | Described | Pronoun | Vehicle)
+    struck = struck or (action == "collide" and thing is None)
+    if action in ("collide", "head") and struck and clause.focus & _ALMOST:
+        action = "nearly-collide"
+    out = thing is None and isinstance(clause.subject, Passenger) and clause.verb is not None
+    if out and clause.verb.key == "get" and action in ("pull-out", "leave"):  # type: ignore[union-attr]
+        action = "arrive"  # "when can I get out?"
+    if action == "stop" and clause.focus & _ALMOST:
+        action = "slow-down"
+    return action
+
+
 def event_of(clause: Clause, match: Match) -> Event:
     """Build the event that a sense says the clause is of."""
     action = match.sense.head
@@ -66,7 +91,9 @@ def event_of(clause: Clause, match: Match) -> Event:
     noun = isinstance(match.object, (Noun, Measure, Event))
     thing = None if noun else as_thing(match.object)
     side = clause.side
-    if action in ("change-left", "change-right", "change-lane", "exit-left") and not match.sided:
+    if action in ("change-left", "change-right", "change-lane", "exit-left") and not (
+        match.sided or _is_named(action, clause)
+    ):
         action, thing, side = _lane_move(action, thing, side)
     if isinstance(thing, Lane) and thing.which in ("any", "own") and action.startswith("change"):
         thing = None
@@ -85,33 +112,74 @@ def event_of(clause: Clause, match: Match) -> Event:
         whom = match.phrases.get("for")
         action = "give-way" if whom is None else "let-go"
         thing = as_thing(whom or match.phrases.get("into"))
-    action = _paced(action, clause)
-    struck = isinstance(thing, Ego | Described | Pronoun | Vehicle)
-    struck = struck or (action == "collide" and thing is None)
-    if action in ("collide", "head") and struck and clause.focus & _ALMOST:
-        action = "nearly-collide"
-    out = thing is None and isinstance(clause.subject, Passenger) and clause.verb is not None
-    if out and clause.verb.key == "get" and action in ("pull-out", "leave"):  # type: ignore[union-attr]
-        action = "arrive"  # "when can I get out?"
-    if action == "stop" and clause.focus & _ALMOST:
-        action = "slow-down"
+    thing = thing or _kept_from(action, match)
+    action = _paced(action, clause, match.object)
+    action = _shown(action, clause, match)
+    action = _named(action, thing, clause)
     time = when(clause, match)
     place = where(clause, match)
     if action in _AT_EXITS and thing is None and place is not None:
         thing, place = _exit_meant(place)
     if action == "leave" and "at" in match.phrases and not isinstance(thing, Exit | Junction):
         thing = Exit(thing.rank if isinstance(thing, Described) else None)
+    manner = _manner(action, clause)
+    if _before_us(action, clause):
+        manner, thing = [*manner, "first"], thing or Ego()
+    if match.sense.manner:
+        manner.append(cast(Manner, match.sense.manner))
+    actor = actor_of(clause)
+    modal = _modal(clause, actor)
+    if modal == "might" and isinstance(time, Relative) and not isinstance(time.anchor, Event):
+        time = Unsaid()  # "could it be tucking in after the lorry?"
+    if action == "change-plan" and actor == Described(definite=False) and clause.passive:
+        actor, thing = Ego(), None  # "why was it dropped?"
+    if action == "go" and thing is None and place is None and _thither(actor, clause):
+        action = "head"
+    return Event(
+        cast(ActionName, action), actor, thing, cast(Any, side),
+        tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
+        cast(Any, modal), None, place,
+    )  # fmt: skip
+
+
+def _modal(clause: Clause, actor: Thing) -> str | None:
+    """Take "could he be turning?" for whether he might be."""
+    ongoing = clause.verb is not None and clause.verb.category in ("VING", "GOING")
+    guessed = ongoing and clause.modal == "could" and clause.tense == "present"
+    return "might" if guessed and not isinstance(actor, Ego) else clause.modal
+
+
+def _thither(actor: Thing, clause: Clause) -> bool:
+    """Say whether it is told where we are going: "that is where we are going", "down there"."""
+    there = any(key == "there" for key, _ in clause.bearings)
+    to_come = clause.tense in ("present", "future") and clause.modal is None
+    return isinstance(actor, Ego) and to_come and (there or "where" in clause.focus)
+
+
+def _manner(action: str, clause: Clause) -> list[Manner]:
+    """Collect how something is done."""
     manner = list(clause.manner)
     manner += [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
     if clause.than is None and not action.startswith(("speed", "slow")):  # "had come faster"
         manner += [_PACES[key] for key, _ in clause.comparisons if key in _PACES]
-    if match.sense.manner:
-        manner.append(cast(Manner, match.sense.manner))
-    return Event(
-        cast(ActionName, action), actor_of(clause), thing, cast(Any, side),
-        tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
-        cast(Any, clause.modal), None, place,
-    )  # fmt: skip
+    return manner
+
+
+def _is_named(action: str, clause: Clause) -> bool:
+    """Say whether an action is called by its name: "exit-left"."""
+    return clause.verb is not None and clause.verb.key == action
+
+
+def _kept_from(action: str, match: Match) -> Thing | None:
+    """Find from whom a distance is kept: "keep more distance from the bus"."""
+    if action != "keep-distance":
+        return None
+    return next((t for sem in match.phrases.values() if (t := as_thing(sem))), None)
+
+
+def _before_us(action: str, clause: Clause) -> bool:
+    """Say whether somebody is said to go before us: first, and not in front."""
+    return action == "go" and any(words_of(node) == "before us" for _, node in clause.bearings)
 
 
 _AT_EXITS = frozenset({"leave", "exit-left", "exit-right", "turn"})
@@ -134,8 +202,10 @@ _MANNERS: dict[str, Manner] = {
 }  # fmt: skip
 
 
-def _paced(action: str, clause: Clause) -> str:
-    """Read "go slower" as slowing down."""
+def _paced(action: str, clause: Clause, kept: Sem | None) -> str:
+    """Read "go slower" as slowing down, and "kept his speed" as going on."""
+    if action == "keep-distance" and isinstance(kept, Measure) and kept.of.attribute == "speed":
+        return "continue"
     if action not in ("go", "move", "continue", "approach") or not clause.comparisons:
         return action
     if clause.than is not None:

@@ -2,12 +2,14 @@
 
 from typing import Any
 
+from xavi_dialogue.domain.meaning import Listing, Question
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
     Exists,
     Feature,
+    Happens,
     Has,
     Is,
     Junction,
@@ -17,17 +19,20 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
+    Relative,
     Thing,
     Unknown,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.predicates import tense_of
 from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.tree import words_of
 
+#: What we would be who are alone.
+_ONLY = ("only car", "only one", "only vehicle", "only people", "only driver", "only traffic")
 _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 Found = tuple[Proposition, float]
 
@@ -41,6 +46,8 @@ def existing(clause: Clause) -> list[Found]:
     if isinstance(sem, Event) and sem.action in _TURNS:
         turn = Exists(Junction(), clause.time, tense_of(clause))
         return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
+    if isinstance(sem, Event) and tense_of(clause) == "future":
+        return [(Happens(with_fields(sem, tense="future", time=clause.time)), 0.0)]
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
         if sem.key == "problem":
@@ -68,7 +75,15 @@ def existing(clause: Clause) -> list[Found]:
         ]
     there: Proposition = Exists(thing, clause.time, tense_of(clause))
     denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
-    return [(Not(there) if denied else there, 0.0)]
+    past = 0.0 if clause.that is None else PASSED_OVER
+    return [(Not(there) if denied else there, past)]
+
+
+def if_alone(words: str, clause: Clause) -> Question | None:
+    """Ask "are we the only car here?", "are we alone?": whom we can see."""
+    ours = isinstance(clause.subject, Ego | Passenger) and clause.verb is None
+    alone = any(phrase in words for phrase in _ONLY) or "alone" in words.split()
+    return Listing("vehicles", time=clause.time) if ours and alone else None
 
 
 def _where(thing: Thing, clause: Clause) -> Thing:
@@ -82,13 +97,17 @@ def _where(thing: Thing, clause: Clause) -> Thing:
         if phrase.key.startswith("bearing-") and bearing is None:
             bearing = phrase.key.removeprefix("bearing-")
             of = as_thing(phrase.sem)
+        elif phrase.key == "after" and described.doing is not None:
+            after = as_thing(phrase.sem)  # "after the red one, is anyone else coming?"
+            if after is not None:
+                doing = with_fields(described.doing, time=Relative("after", after))
+                described = with_fields(described, doing=doing)
         elif phrase.key in ("in", "on", "at") and described.such is None:
             place = as_thing(phrase.sem)
             if place is not None:
                 described = with_fields(described, such=Related("on", Wanted(), place))
     if bearing is None or described.bearing is not None:
         return Nobody(described) if isinstance(thing, Nobody) else described
-    fields: dict[str, Any] = {k: getattr(described, k) for k in described.__struct_fields__}
-    fields.update(bearing=bearing, of=None if isinstance(of, (Ego, Passenger)) else of)
-    described = Described(**fields)
+    of = None if isinstance(of, (Ego, Passenger)) else of
+    described = with_fields(described, bearing=bearing, of=of)
     return Nobody(described) if isinstance(thing, Nobody) else described

@@ -1,5 +1,6 @@
 """Flags: what a sense of a verb asks of a clause beside objects and phrases."""
 
+from xavi_dialogue.domain.terms import WholeRide
 from xavi_dialogue.nlu.compose.clause import Clause
 
 
@@ -30,7 +31,9 @@ def flag(kind: str, wanted: str, clause: Clause) -> bool:
         case "go":
             inner = clause.bare.verb if clause.bare is not None else None
             return inner is not None and inner.key == "go"
-        case "close" | "long":
+        case "close" | "long" | "again":
             return kind in clause.manner
+        case "whole":
+            return isinstance(clause.time, WholeRide)
         case _:
             return False

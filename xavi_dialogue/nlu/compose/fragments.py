@@ -1,6 +1,5 @@
 """Fragments: what takes its frame from the turn before: "and the bus?", "why not?"."""
 
-from dataclasses import replace
 from typing import Any, cast
 
 from msgspec import structs
@@ -33,12 +32,15 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import adopted
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import asked_each, asked_of
+from xavi_dialogue.nlu.compose.nominal import asked_of
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.severally import asked_each, towards
 from xavi_dialogue.nlu.compose.states import state_of
 from xavi_dialogue.nlu.compose.suppositions import suppose
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.talk import bodily
+from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.whys import reason_for, sided
+from xavi_dialogue.nlu.compose.wishes import bare_wish
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -69,6 +71,13 @@ class Fragments(BareQuestions):
             return [((Repair(cast(Any, style)),), 0.0)]
         if any(key == "rude" for key, _ in clause.adjectives) and not clause.objects:
             return [((Social("insult"),), 0.1)]
+        felt = bodily(clause)
+        if felt is not None:
+            return [((felt,), 0.0)]
+        polite = any("please" in leaf.words for leaf in leaves_of(unit))
+        wish = bare_wish(clause, polite=polite)
+        if wish is not None:
+            return [((wish,), 0.0)]
         if clause.comparisons and not clause.objects:
             return self._compared(clause)
         if clause.feelings:
@@ -86,11 +95,12 @@ class Fragments(BareQuestions):
         if clause.side is not None and clause.chained and clause.chained[0][1].side is not None:
             self.composer.notes.taken.update(id(other) for _, other in clause.chained)
             return [((Ask(HowMuch(Measured("turn", time=clause.time))),), 0.0)]
-        judged = self._judged(sem, clause)
+        judged = self._judged(sem, clause) or self._past(unit, clause)
         if judged is not None:
             return judged
-        asked = self.noun_asked(sem, clause)
-        found = asked if asked is not None else self.elliptic(unit, clause)
+        found = self.noun_asked(sem, clause)
+        if found is None:  # what is told behind a name or a time has no place in what is elliptic
+            found = self.elliptic(unit, clause) if clause.that is None else []
         return [(acts, cost + _unused(clause)) for acts, cost in found]
 
     def _compared(self, clause: Clause) -> Found:
@@ -106,13 +116,24 @@ class Fragments(BareQuestions):
         states = state_of(Clause(subject=sem, adjectives=clause.adjectives, time=clause.time))
         return [((Ask(Whether(found)),), cost + 0.2) for found, cost in states[:1]] or None
 
+    def _past(self, unit: Node, clause: Clause) -> Found | None:
+        """Read "straight past the bus from here, yes?" as whether we overtake it."""
+        asks = self.composer.asks or any(leaf.category == "TAGWORD" for leaf in leaves_of(unit))
+        for phrase in clause.complements if asks and clause.subject is None else ():
+            words = set(words_of(phrase.node).split()[:2])
+            thing = as_thing(phrase.sem)
+            if words & {"past", "round", "around"} and isinstance(thing, Described | Vehicle):
+                event = Event("overtake", object=thing, tense="future")
+                return [((Ask(Whether(Happens(event))),), 0.1)]
+        return None
+
     def _embedded(self, clause: Clause) -> Found:
         acts = self.composer.orders.embedded(clause)
         return [(acts, 0.4)] if acts else []
 
     def noun_asked(self, sem: Sem | None, clause: Clause) -> Found | None:
         """Read "speed?", "the reason for that?" as a question for it."""
-        each = asked_each(sem, clause.time)
+        each = asked_each(sem, clause)
         if each:
             return [(tuple(Ask(question) for question in each), 0.1)]
         if isinstance(sem, Noun) and sem.key == "time" and isinstance(sem.of, Measure):
@@ -125,7 +146,7 @@ class Fragments(BareQuestions):
             reason = reason_for(sem, clause)
             if reason is not None:
                 return [((Ask(reason),), 0.1)]
-            question = asked_of(_towards(sem, clause), clause.time)
+            question = asked_of(towards(sem, clause.complements), clause.time)
             if question is None:
                 return None
             return [((Ask(self.composer.questions.framed(question, clause, None)),), 0.1)]
@@ -148,6 +169,8 @@ class Fragments(BareQuestions):
             thing = _at(clause.bearings[0][0])
         if thing is None and event is None and clause.origin is not None:
             thing = Described(origin=cast(Any, clause.origin), definite=False)
+        if thing is None and event is None and _there_yet(clause):
+            return [((Ask(Whether(Happens(Event("arrive", tense="perfect")))),), 0.0)]
         supposed = self.composer.questions.supposition(clause)
         if supposed is not None and thing is None and event is None:
             return [((suppose(supposed),), 0.0)]
@@ -191,13 +214,10 @@ def _unused(clause: Clause) -> float:
     return that + 0.9 * max(0, len(clause.objects) - 1) + 0.4 * len(clause.adjectives)
 
 
-def _towards(sem: Measure | Noun, clause: Clause) -> Measure | Noun:
-    """Add to a measure the thing that it is to: "minimum gap to vehicle 2"."""
-    if not isinstance(sem, Measure) or sem.of.to is not None:
-        return sem
-    things = [as_thing(c.sem) for c in clause.complements if c.key in ("into", "with", "from")]
-    to = next((thing for thing in things if thing is not None), None)
-    return sem if to is None else replace(sem, of=structs.replace(sem.of, to=to))
+def _there_yet(clause: Clause) -> bool:
+    """Say whether a fragment asks if we have arrived: "nearly there?", "there yet?"."""
+    there = [bearing for bearing, _ in clause.bearings] == ["there"]
+    return there and bool(clause.focus & {"nearly", "almost", "yet", "already", "finally"})
 
 
 def _at(bearing: str) -> Thing | None:

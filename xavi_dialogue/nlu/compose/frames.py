@@ -1,35 +1,38 @@
 """Frames: the condition a question stands under, and the contrast beside it."""
 
-from typing import Any
+from typing import Any, cast
+
+from msgspec import structs
 
 from xavi_dialogue.domain.meaning import (
     HowSure,
     Question,
     WhatIf,
+    Whether,
     Why,
 )
 from xavi_dialogue.domain.terms import (
     Both,
+    Compares,
     Described,
     Ego,
     Event,
     Exists,
     Happens,
     Is,
+    Measured,
     Not,
     Passenger,
     Pronoun,
     Proposition,
+    That,
     Thing,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.adoption import as_of, timed, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.propositions import Propositions
-from xavi_dialogue.nlu.compose.sem import (
-    as_thing,
-    is_thing,
-)
+from xavi_dialogue.nlu.compose.sem import alternative, as_thing, is_thing
 
 
 class Frames:
@@ -42,16 +45,22 @@ class Frames:
         inner = next((c for c in (clause.gerund, clause.infinitive, clause.that) if c), None)
         if clause.contrast is None and inner is not None and inner.contrast is not None:
             clause = inner
+        if isinstance(question, Why):
+            question = preferred(question) or _outdone(clause) or question
         if isinstance(question, Why) and clause.contrast is not None:
             instead = self.contrast(clause, question.of)
             if instead is not None:
-                question = Why(question.of, instead, question.suspect)
+                question = structs.replace(question, instead=instead)
+        if isinstance(question, Why):
+            question = structs.replace(question, rival=alternative(clause.because))
+            if clause.condition is not None and not _contrary(question):
+                return question  # "why did you brake if nobody was there": it is taken for granted
         if isinstance(question, HowSure) and clause.contrast is not None:
             return question
         supposed = self.supposition(clause)
         if supposed is None:
             return question
-        return WhatIf(supposed, question)
+        return WhatIf(supposed, None if _of_difference(question) else question)
 
     def supposition(self, clause: Clause) -> Proposition | None:
         """Read what is supposed: "if he had stopped", "without the lorry"."""
@@ -81,6 +90,8 @@ class Frames:
         if condition.instead:
             return found
         match found:
+            case Is(state="wrong", thing=Ego()) if (about := _about(condition)) is not None:
+                return cast(Proposition, with_fields(found, thing=about))
             case Is(state="present", thing=thing) if thing is not None:
                 found = Exists(thing)
             case Not(content=Is(state="present", thing=thing)) if thing is not None:
@@ -102,6 +113,52 @@ class Frames:
         if isinstance(other, Event):
             return Happens(other)
         return _with_object(of, as_thing(other))
+
+
+def _contrary(question: Why) -> bool:
+    """Say whether it is asked why something would have come about that did not."""
+    event = _inner_event(question.of)
+    return event is not None and event.modal == "would"
+
+
+def preferred(question: Why) -> Why | None:
+    """Take why one deed was valued more than another for why it was done and not the other."""
+    match question.of:
+        case Compares(
+            left=Measured(attribute="value", event=first, time=time),
+            comparator="more",
+            right=Measured(attribute="value", event=Event() as second),
+        ):
+            done = That() if first is None else timed(Happens(first), time)
+            return Why(done, Happens(second), question.suspect)
+    return None
+
+
+def _outdone(clause: Clause) -> Why | None:
+    """Read "why did stopping score higher than going on", "why was it worse than ..."."""
+    other = clause.than
+    if not (isinstance(clause.subject, Event) and isinstance(other, Event) and clause.comparisons):
+        return None
+    less = not _LESS.isdisjoint(clause.comparisons[0][1].split())
+    one, two = (other, clause.subject) if less else (clause.subject, other)
+    return Why(timed(as_of(Happens(one), clause.tense), clause.time), Happens(two))
+
+
+_LESS = frozenset({"worse", "lower", "less"})
+
+
+def _of_difference(question: Question) -> bool:
+    """Say whether it is only asked if that would have made a difference."""
+    match question:
+        case Whether(that=Happens(event=Event(action=action, actor=Pronoun(), object=what))):
+            return action in ("change-plan", "do") and (what is None or isinstance(what, Pronoun))
+    return False
+
+
+def _about(condition: Clause) -> Thing | None:
+    """Tell of whom it is supposed that we are wrong."""
+    sems = (phrase.sem for phrase in condition.complements if phrase.key in ("about", "with", "on"))
+    return next((thing for sem in sems if (thing := as_thing(sem)) is not None), None)
 
 
 def is_short(condition: Clause) -> bool:
@@ -140,28 +197,21 @@ def _with_object(of: Proposition, thing: Thing | None) -> Proposition | None:
     event = _inner_event(of)
     if event is None or thing is None:
         return None
-    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
     if isinstance(thing, (Ego, Passenger, Pronoun)) and event.object is None:
-        return Happens(Event(**{**fields, "actor": thing}))
-    if isinstance(thing, Described) and thing.rank and event.object is not None:
-        rank: dict[str, Any] = {k: getattr(event.object, k) for k in event.object.__struct_fields__}
-        if "rank" in rank:
-            return Happens(
-                Event(**{**fields, "object": type(event.object)(**{**rank, "rank": thing.rank})})
-            )
-    return Happens(Event(**{**fields, "object": thing}))
+        return Happens(structs.replace(event, actor=thing))
+    if isinstance(thing, Described) and thing.rank and hasattr(event.object, "rank"):
+        thing = with_fields(event.object, rank=thing.rank)
+    return Happens(structs.replace(event, object=thing))
 
 
 def _with_side(of: Proposition, side: str) -> Proposition | None:
     event = _inner_event(of)
     if event is None:
         return None
-    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
     stem = event.action.split("-")[0]
     if stem in ("exit", "change") and event.action.split("-")[-1] in ("left", "right", "straight"):
-        fields["action"] = f"{stem}-{side}" if stem == "exit" or side != "straight" else "continue"
-    elif event.action in ("turn", "go"):
-        fields["action"] = f"exit-{side}"
-    else:
-        fields["side"] = side
-    return Happens(Event(**fields))
+        way = f"{stem}-{side}" if stem == "exit" or side != "straight" else "continue"
+        return Happens(structs.replace(event, action=way))
+    if event.action in ("turn", "go"):
+        return Happens(structs.replace(event, action=f"exit-{side}"))
+    return Happens(structs.replace(event, side=side))

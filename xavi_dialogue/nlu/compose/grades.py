@@ -5,6 +5,7 @@ from typing import Any, cast
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
+    HowLong,
     HowMany,
     HowMuch,
     HowSure,
@@ -23,13 +24,16 @@ from xavi_dialogue.domain.terms import (
     Is,
     Junction,
     Measured,
+    Next,
     Not,
     Passenger,
     Pronoun,
     Proposition,
     Related,
     Relative,
+    Road,
     Thing,
+    Unsaid,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
@@ -38,6 +42,7 @@ from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.lasting import long_lasting, meanwhile, measured
 from xavi_dialogue.nlu.compose.predicates import tense_of
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing
+from xavi_dialogue.nlu.compose.times import is_moment
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
@@ -65,11 +70,12 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             on = {"further", "farther"} & set(words) and not isinstance(actor, Described)
             if on and reference(clause) is None and not isinstance(actor, (Exit, Junction)):
                 return measured("distance-to-go", clause, Ego())
-            return far_to(clause, event, value, actor)
+            return far_to(clause, event, value, actor, words)
         case "close":
             return _close(clause, event, value, actor)
         case "long":
-            return long_lasting(clause, event, value, actor)
+            asked = long_lasting(clause, event, value, actor)
+            return _from_now(asked) if {"longer", "more"} & {*words} else asked
         case "big" if isinstance(actor, Feature) and (to := reference(clause)) is not None:
             return measured("distance", clause, Ego(), to=to)  # "the space to the lorry"
         case "big" if isinstance(clause.subject, Measure):
@@ -100,6 +106,13 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return _much(clause, value, actor)
         case _:
             return _quality(clause, words, value, actor)
+
+
+def _from_now(asked: Question) -> Question:
+    """Ask how long something goes on: "how much longer do we sit here"."""
+    if not isinstance(asked, HowLong) or getattr(asked.of, "tense", "") != "present":
+        return asked
+    return HowLong(with_fields(asked.of, tense="future"))
 
 
 def _permitted(clause: Clause) -> bool:
@@ -143,7 +156,10 @@ def _met(clause: Clause, deed: Event) -> Event:
     return replace(deed, object=whom, tense=tense_of(clause))
 
 
-def far_to(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
+def far_to(
+    clause: Clause, event: Event | None, value: Any, actor: Thing | None,
+    words: tuple[str, ...] = (),
+) -> Question:  # fmt: skip
     """Ask how far it is to something; what is left is to the destination."""
     if clause.side == "left" and not clause.objects:
         return HowMuch(Measured("distance-to-go"))
@@ -162,6 +178,10 @@ def far_to(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
         return measured("distance-to-go", clause, Ego())
     if event is not None and isinstance(actor, Ego) and to is None and event.tense != "present":
         return measured("distance-driven", clause, Ego())
+    if isinstance(actor, Pronoun | None) and to is None and _onward(clause, words):
+        off = {"off", "away"} & {*words} and isinstance(actor, Pronoun)  # of it, if it is known
+        whose = actor if off and actor is not None else Ego()
+        return measured("distance-to-go", clause, whose, time=Unsaid())
     if isinstance(actor, Pronoun) and actor.form == "it" and event is None:
         return measured("distance", clause, actor if to is None else Ego(), to=to)
     if isinstance(actor, Destination):
@@ -169,12 +189,26 @@ def far_to(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
     return measured("distance", clause, actor, to=to)
 
 
+def _onward(clause: Clause, words: tuple[str, ...]) -> bool:
+    """Say whether it is asked how far it is still: "how far is it still", "how far to go"."""
+    if {"ahead", "behind", "back", "front"} & {*words}:
+        return False
+    still = clause.still or bool(clause.focus & {"yet", "still"}) or isinstance(clause.time, Next)
+    inner = clause.infinitive
+    going = inner is not None and inner.verb is not None and inner.verb.key in ("go", "drive")
+    return (still or going) and not clause.bearings
+
+
 def _next_turn(clause: Clause) -> Event | None:
     """Find the turn of ours to which it is asked how far it is."""
     named = [clause.subject, *(p.sem for p in clause.complements), *(s for s, _ in clause.objects)]
+    if isinstance(clause.time, Relative) and clause.time.relation in ("until", "before"):
+        named.append(clause.time.anchor)  # "how far is it till the turn"
     turns = (sem for sem in named if isinstance(sem, Event) and sem.action in WAYS)
     found = next(turns, None)
-    return found if clause.tense in ("present", "future") else None
+    if found is None or clause.tense not in ("present", "future"):
+        return None
+    return cast(Event, with_fields(found, tense="future"))
 
 
 def remaining(clause: Clause, actor: Thing | None) -> bool:
@@ -195,7 +229,8 @@ def reference(clause: Clause) -> Thing | None:
     """Find the thing up to which it is measured."""
     for phrase in clause.complements:
         thing = _reached(phrase.sem)
-        if thing is not None and phrase.key not in ("at", "by"):
+        inside = phrase.key in ("in", "on") and isinstance(thing, Feature | Junction | Road)
+        if thing is not None and phrase.key not in ("at", "by") and not inside:
             return thing
     for sem, _ in clause.objects:
         thing = _reached(sem)
@@ -227,7 +262,8 @@ def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
             return HowMuch(Measured("distance", to=anchor.actor))
     owned = clause.verb is not None and clause.verb.words == ("got",)  # "have we got"
     past = clause.tense in ("past", "perfect") and not owned
-    extreme = "lowest" if past or event is not None else None
+    at_once = clause.verb is None and is_moment(clause.time)  # "how close was it when we set off"
+    extreme = "lowest" if (past and not at_once) or event is not None else None
     return measured("distance", clause, actor, to=to, extreme=extreme)
 
 

@@ -2,7 +2,10 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.terms import (
+    Believed,
     Described,
     Destination,
     Ego,
@@ -10,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Exit,
     Feature,
+    Happens,
     Is,
     Junction,
     Lane,
@@ -24,8 +28,8 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
     Vehicle,
-    Wanted,
 )
+from xavi_dialogue.nlu.compose.extents import SLOWING, extent_of
 from xavi_dialogue.nlu.compose.peaks import quality_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
@@ -38,9 +42,7 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.traits import Traits, described
-from xavi_dialogue.nlu.compose.tree import (
-    words_of,
-)
+from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -91,28 +93,7 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
     return Unknown(" ".join([*traits.unknown, *head.words]))
 
 
-_EXTENTS: dict[str, tuple[str, str]] = {
-    "fastest": ("speed", "highest"), "slowest": ("speed", "lowest"),
-    "nearest": ("distance", "lowest"), "farthest": ("distance", "highest"),
-    "highest": ("deceleration", "highest"), "lowest": ("deceleration", "lowest"),
-}  # fmt: skip
-_SLOWING = frozenset({"brake", "slow-down", "stop"})
-
-
-def _extent(traits: Traits) -> Measure | None:
-    """Read "the fastest we went", "the closest it came to us" as the extreme of a measure."""
-    event, extreme = traits.event, traits.extreme or ""
-    if event is None or isinstance(event.actor, Wanted) or extreme not in _EXTENTS:
-        return None
-    attribute, which = _EXTENTS[extreme]
-    if (attribute == "deceleration") != (event.action in _SLOWING):
-        return None
-    other = event.object if isinstance(event.object, (Ego, Described, Vehicle, Pronoun)) else None
-    if other is None and not isinstance(event.actor, Ego):
-        other = Ego()
-    of = Measured(cast(Any, attribute), event.actor, other if attribute == "distance" else None,
-                  time=event.time, tense=event.tense)  # fmt: skip
-    return Measure(of, cast(Any, which))
+_MET = (Vehicle, Described, Pronoun)
 
 
 def _is_rank(traits: Traits) -> bool:
@@ -121,7 +102,7 @@ def _is_rank(traits: Traits) -> bool:
 
 
 def _without_head(traits: Traits) -> Sem:
-    extent = _extent(traits)
+    extent = extent_of(traits)
     if extent is not None:
         return extent
     if traits.extreme in ("highest", "lowest", "mean", "total", "best") and not traits.fields:
@@ -185,10 +166,12 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     beside = traits.fields.get("bearing") or traits.side
     if head.key == "space" and beside in ("left", "right"):
         return Measure(Measured("gap", to=Lane(cast(Any, beside))))  # "room on the left"
+    if head.key == "space" and beside in ("ahead", "behind") and "gap" in head.words:
+        back = Described(bearing="behind", extreme="nearest") if beside == "behind" else None
+        return Measure(Measured("gap", to=back))
     if head.key == "queue" and isinstance(traits.of, Described) and traits.of.plural:
         said = {k: v for k, v in traits.fields.items() if k in ("bearing", "of", "doing", "such")}
-        fields = {k: getattr(traits.of, k) for k in Described.__struct_fields__}
-        return Described(**{**fields, **said})
+        return structs.replace(traits.of, **said)
     apart = next((as_thing(s) for k, s in traits.about if k in ("into", "with", "from")), None)
     if head.key == "space" and isinstance(apart, Described | Vehicle | Pronoun):
         return Measure(Measured("distance", to=apart))  # "the space to the lorry"
@@ -223,11 +206,17 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         return described("vehicle", traits)  # "a fifty zone"
     things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
     to = next((t for t in things if t is not None), None)
+    if head.key == "probability" and isinstance(traits.clause, Believed):
+        return Measure(Measured("probability", about=traits.clause.content))  # "you gave it"
+    if head.key == "probability" and isinstance(traits.clause, Happens):
+        return Unknown(head.words[-1])  # nobody does anything to a chance
     if head.key == "probability" and of is None:
         of = next((s for k, s in traits.about if k in ("for", "about", "in")), None)
     beside = traits.fields.get("bearing") or traits.side
     if to is None and head.key in ("gap", "distance") and beside in ("left", "right"):
         to = Lane(cast(Any, beside))  # "a gap on the left"
+    elif to is None and head.key in ("gap", "distance", "headway") and beside == "behind":
+        to = Described(bearing="behind", extreme="nearest")  # "the gap behind"
     members = of.members if isinstance(of, Group) else ()
     if len(members) == 2:
         of, to = members[0], as_thing(members[1])
@@ -244,6 +233,13 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         key = "limit"  # "the speed that is permitted"
     if traits.deed is not None and key in ("duration", "delay") and event is None:
         event = of = Event(cast(Any, traits.deed), tense="past")
+    if key == "risk":  # of a collision, where nothing else is said
+        named = (to, None if isinstance(of, Event) else as_thing(thing))
+        whom = next((t for t in named if isinstance(t, _MET)), None)
+        event = event or Event("collide")
+        if event.action == "collide" and event.object is None:
+            event = Event("collide", object=whom)
+        return Measure(Measured("probability", event=event))
     if key == "speed-difference":
         other = thing is not None and not isinstance(thing, Ego)
         key, to = "speed", to or (Ego() if other else Pronoun("it"))
@@ -259,7 +255,7 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     extreme = extreme if extreme in ("highest", "lowest", "mean", "total") else closest
     if "peak" in head.words:
         extreme = "highest"
-    return Measure(measured, cast(Any, extreme), plural)
+    return Measure(measured, cast(Any, extreme), plural, isinstance(traits.owner, Ego))
 
 
 def _deed(head: Leaf, traits: Traits) -> Sem:
@@ -273,7 +269,7 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
     side = cast(Any, traits.side)
     action = head.key
-    if traits.kind and action in _SLOWING | {"wait", "stand"}:
+    if traits.kind and action in SLOWING | {"wait", "stand"}:
         actor = described(traits.kind, traits)  # "made the bus wait"
     if action == "brake" and traits.extreme in ("highest", "lowest"):
         return Measure(Measured("deceleration", actor), cast(Any, traits.extreme))
@@ -295,6 +291,10 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
 def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     if head.key == "side" and traits.side:
         return SideOf(traits.side)
+    if head.key == "option" and traits.deed is not None and not plural:
+        return Event(cast(Any, traits.deed))  # "the stop branch"
+    if head.key == "event" and traits.place is not None:
+        return traits.place  # "the roundabout business"
     quality = quality_of(traits.extreme, traits.adjectives)
     if quality and (head.key in ("peak", "event") or "call" in head.words):
         return Noun("peak", word=" ".join(head.words), quality=quality)
@@ -302,9 +302,7 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
     owner = traits.owner
     if owner is None and head.key == "fault" and traits.kind is not None:
-        fault = described(traits.kind, traits)
-        fields = {k: getattr(fault, k) for k in fault.__struct_fields__}
-        owner = Described(**{**fields, "doing": None, "such": None})
+        owner = structs.replace(described(traits.kind, traits), doing=None, such=None)
     return Noun(
         "event" if head.key == "peak" else head.key, traits.of, owner, about, plural, traits.other,
         traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),

@@ -2,7 +2,7 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import HowLong, HowMuch, Question, When
+from xavi_dialogue.domain.meaning import HowLong, HowMuch, Peak, Question, When
 from xavi_dialogue.domain.terms import (
     Compares,
     Described,
@@ -28,7 +28,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.clause import Clause, timed_by
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.specials import proposition_of
 from xavi_dialogue.nlu.compose.tree import words_of
@@ -44,18 +44,28 @@ _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -> HowMuch:
     """Ask for an attribute of a thing at the time of the clause."""
     extreme = more.pop("extreme", None)
+    timed_by(clause)
     time = more.pop("time", clause.time)
-    actor = Ego() if thing is None or isinstance(thing, Passenger) else thing
+    time = clause.time if isinstance(time, Unsaid) else time
+    if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
+        thing = _postponed(clause)
+    actor: Thing = Ego() if thing is None or isinstance(thing, Passenger) else thing
     if attribute == "delay" and isinstance(actor, Unknown):
         actor = Ego()  # "all that stopping"
     if attribute == "delay" and isinstance(clause.subject, Event) and more.get("event") is None:
         more["event"], actor = with_fields(clause.subject, tense=clause.tense), Ego()
-    if actor == more.get("to") == Ego():
-        actor = Pronoun("it")  # "how much room was there between us"
+    if actor == more.get("to") == Ego():  # "how much room was there between us"
+        actor = _postponed(clause) or Pronoun("it")
     return HowMuch(
         Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, clause.tense),
                  **more), extreme,
     )  # fmt: skip
+
+
+def _postponed(clause: Clause) -> Thing | None:
+    """Find the subject behind the verb: "how many metres is from us the yellow one"."""
+    things = (as_thing(sem) for sem, _ in clause.objects)
+    return next((t for t in things if isinstance(t, Described | Vehicle | Pronoun)), None)
 
 
 def meanwhile(clause: Clause, event: Event | None) -> Any:
@@ -84,8 +94,11 @@ def _round(clause: Clause) -> bool:
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
-    if isinstance(clause.time, Relative) and clause.time.relation == "until":
+    if isinstance(clause.time, Relative) and _is_awaited(clause.time):
         return until(clause.time.anchor)
+    behind = [c.sem for c in clause.complements if c.key == "bearing-behind"]
+    if clause.verb is None and actor is None and behind and as_thing(behind[0]) is not None:
+        return HowLong(Event("follow", Ego(), as_thing(behind[0]), tense="future"))
     for phrase in clause.complements:
         if phrase.key == "until" and phrase.sem is not None:
             return until(as_thing(phrase.sem))
@@ -104,15 +117,25 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
             return HowMuch(Measured("time-to-go"))  # "how long have we got left"
         return HowLong(event)
     subject = clause.subject
+    if isinstance(subject, Event) and subject.action == "exit-left" and clause.verb is None:
+        return HowMuch(Measured("time-to-go"))  # "how long is left"
     if isinstance(subject, Event):
         return HowLong(subject)
     if isinstance(value, _STATES) and (isinstance(actor, Ego) or clause.tense != "present"):
         return HowLong(value)
+    if isinstance(subject, Noun) and subject.quality == "waiting":
+        return Peak("waiting", clause.time)  # "how long was the longest stop?"
     if isinstance(subject, Noun) and subject.key == "ride":
         return HowMuch(Measured("time" if clause.tense == "past" else "time-to-go"))
     if isinstance(actor, Pronoun) or (isinstance(actor, Ego) and clause.bearings):
         return measured("duration", clause, actor)
     return measured("size", clause, actor) if actor is not None else HowMuch(Measured("time-to-go"))
+
+
+def _is_awaited(time: Relative) -> bool:
+    """Say whether it is asked how long it is until something: "how long before we move"."""
+    coming = getattr(time.anchor, "tense", "present") in ("present", "future")
+    return time.relation == "until" or (time.relation == "before" and coming)
 
 
 def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:

@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.meaning import (
     Doing,
     Fault,
@@ -47,6 +49,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unknown,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import as_of
@@ -66,9 +69,20 @@ def event_in(sem: Sem | None) -> Event | None:
     inner = sem.doing
     if not isinstance(inner.actor, Wanted):
         return None
-    fields = {k: getattr(inner, k) for k in inner.__struct_fields__}
-    bare = {k: getattr(sem, k) for k in sem.__struct_fields__}
-    return Event(**{**fields, "actor": Described(**{**bare, "doing": None})})
+    return structs.replace(inner, actor=structs.replace(sem, doing=None))
+
+
+def done_by(event: Event, *named: Sem | None) -> Event:
+    """Give a deed to the vehicle that it is said of: "vehicle 1 at 90 percent for turning"."""
+    things = (as_thing(sem) for sem in named)
+    whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
+    if whom is None or not isinstance(event.actor, Ego):
+        return event
+    return structs.replace(event, actor=whom)
+
+
+#: What it is of which a measure is spoken: "the deceleration" is a slowing down.
+_CHANGES: dict[str, Any] = {"deceleration": "slow-down", "acceleration": "speed-up"}
 
 
 def propose(sem: Sem | None) -> Proposition | None:
@@ -77,6 +91,10 @@ def propose(sem: Sem | None) -> Proposition | None:
         return Happens(sem)
     if isinstance(sem, Pronoun):
         return That()
+    if isinstance(sem, Measure) and sem.of.attribute in _CHANGES:
+        whose = sem.of.thing
+        actor = Ego() if isinstance(whose, Unknown) else whose
+        return Happens(Event(_CHANGES[sem.of.attribute], actor, time=sem.of.time))
     return None
 
 
@@ -114,19 +132,10 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             return Identify(thing) if thing is not None else None
 
 
-def asked_each(sem: Sem | None, time: Time, tense: str = "present") -> tuple[Question, ...]:
-    """Ask for each of several measures: "the speed and the gap to him"; () for all else."""
-    if not isinstance(sem, Group) or not all(isinstance(m, Measure) for m in sem.members):
-        return ()
-    found = (asked_of(member, time, tense) for member in sem.members)
-    return tuple(question for question in found if question is not None)
-
-
 def _measure(sem: Measure, time: Time, tense: str) -> Question:
     measured = sem.of
     if not isinstance(time, Unsaid) or tense != "present":
-        fields: dict[str, Any] = {k: getattr(measured, k) for k in measured.__struct_fields__}
-        measured = Measured(**{**fields, "time": time, "tense": tense})
+        measured = structs.replace(measured, time=time, tense=tense)
     if measured.attribute == "heading":
         return Whither(measured.thing, time)
     held = measured.about or measured.event

@@ -7,21 +7,29 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     Quizzing,
     Repair,
-    Request,
     Summarise,
+    Whether,
+    Why,
 )
 from xavi_dialogue.domain.terms import (
+    Compares,
     Ego,
     Event,
     Happens,
     Is,
+    Measured,
     Not,
     Passenger,
+    Proposition,
+    Related,
 )
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.others import is_other
+from xavi_dialogue.nlu.compose.sem import as_thing
 from xavi_dialogue.nlu.compose.telling import Telling
 from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.wishes import paced, request
 
 _TELLING = frozenset(
     {
@@ -44,8 +52,6 @@ _TELLING = frozenset(
         "show",
     }
 )
-_PACED = frozenset({"go", "move", "continue", "speed-up", "slow-down", "stop"})
-_CONTRARY = {"fast": "slow-down", "slowly": "speed-up"}  # "don't go so fast"
 _STYLES = {"simple": "simpler", "short": "shorter", "long": "longer"}
 Found = list[tuple[tuple[Act, ...], float]]
 
@@ -58,7 +64,9 @@ class Orders(Telling):
 
     # --- what is asked politely --------------------------------------
 
-    def polite(self, clause: Clause) -> tuple[Act, ...] | None:
+    def polite(
+        self, clause: Clause, *, refrain: bool = False, please: bool = False
+    ) -> tuple[Act, ...] | None:
         """Read "can you tell me why", "could you slow down", "do you know how far"."""
         if not isinstance(clause.subject, (Ego, Passenger)):
             return None
@@ -72,6 +80,9 @@ class Orders(Telling):
         if isinstance(value, Special) and value.name in _TELLING:
             if clause.question is not None:
                 return self.embedded(clause) or None
+            if value.name == "know" and clause.condition is not None and not clause.led:
+                asked = self.asked_if(clause)  # "do you know if it is turning"
+                return None if asked is None else (Ask(asked),)
             modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
             if (
                 value.name
@@ -91,15 +102,22 @@ class Orders(Telling):
             ):
                 return self.told(clause, value) or None
             return None
-        return self._requested(clause, value)
+        return self._requested(clause, value, refrain, please)
 
-    def _requested(self, clause: Clause, value: Any) -> tuple[Act, ...] | None:
+    def _requested(
+        self, clause: Clause, value: Any, refrain: bool, please: bool
+    ) -> tuple[Act, ...] | None:
         modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
         if not modal or clause.has("have") or not isinstance(clause.subject, Ego):
             return None
-        if clause.still or clause.condition is not None or clause.without is not None:
+        supposing = clause.condition is not None or clause.without is not None
+        if clause.still or "semi-can" in clause.aux or supposing:
             return None
         of = fact(value) if value is not None else None
+        plain = of is None or isinstance(of, Is) or (isinstance(of, Compares) and not please)
+        speed = None if plain or of is None else paced(of)
+        if speed is not None:
+            return (speed,)
         event = of.event if isinstance(of, Happens) else None
         if isinstance(of, Not) and isinstance(of.content, Happens):
             event = of.content.event
@@ -116,7 +134,7 @@ class Orders(Telling):
             return None
         if clause.than is not None:
             return None
-        return (Request(_bidden(event)),)
+        return (request(event, clause, negated=refrain and isinstance(of, Not)),)
 
     def _best(self, clause: Clause) -> Any:
         found = self.composer.propositions.readings(clause)
@@ -142,6 +160,15 @@ class Orders(Telling):
             return self.embedded(clause.condition) or None
         if inner is not None and inner.question is not None:
             return self.embedded(inner) or None
+        if inner is not None and inner.verb is not None and inner.verb.key in ("know", "tell"):
+            asked = self.asked_if(inner)  # "I would like to know if you can see it"
+            if asked is not None:
+                return (Ask(asked),)
+        wants = "semi-must" in clause.aux or clause.modal == "want"
+        if wants and clause.verb is not None and clause.verb.key == "know":
+            asked = self.asked_if(clause)  # "I need to know if you can see it"
+            if asked is not None:
+                return (Ask(asked),)
         return self._wished(clause)
 
     def _wished(self, clause: Clause) -> tuple[Act, ...] | None:
@@ -163,7 +190,7 @@ class Orders(Telling):
         if not isinstance(value, Special) or clause.negated:
             return None
         if isinstance(value.content, Happens) and isinstance(value.object, Ego):
-            return (Request(_bidden(value.content.event)),)
+            return (request(value.content.event, clause),)
         if value.name in ("tell", "know", "understand", "ask") and clause.modal == "want":
             return self.told(clause, value) or None
         return None
@@ -196,6 +223,13 @@ class Orders(Telling):
                 return (Repair("repeat"),)
             if value.name == "quiz":
                 return (Quizzing(),)
+            thing = as_thing(value.object)
+            if value.name == "heed" and thing is not None and is_other(thing):
+                return (Ask(Whether(Related("can-see", Ego(), thing))),)
+            if value.name == "obey":
+                return (Ask(Whether(within_limit())),)
+            if _wavers(value):
+                return (Ask(Why(Happens(Event("change-plan", tense="perfect")))),)
             if value.name == "quiet" or (value.name == "end" and clause.gerund is not None):
                 return (Repair("cancel"),)
             told = self.told(clause, value)
@@ -206,22 +240,11 @@ class Orders(Telling):
         of = fact(value)
         match of:
             case Happens(event=event):
-                return (self._request(event),)
+                return (request(event, clause, negated=negated),)
             case Not(content=Happens(event=event)):
-                return (self._request(event, negated=True),)
-            case Is(state="fast" | "slow" as pace) | Not(content=Is(state="fast" | "slow" as pace)):
-                quicker = (pace == "fast") != isinstance(of, Not)
-                return (Request(Event("speed-up" if quicker else "slow-down", tense="present")),)
-        return ()
-
-    def _request(self, event: Event, *, negated: bool = False) -> Act:
-        bidden = _bidden(event)
-        if not negated:
-            return Request(bidden)
-        paced = [m for m in bidden.manner if m in _CONTRARY]
-        if paced and bidden.action in _PACED:
-            return Request(Event(cast(Any, _CONTRARY[paced[0]]), tense="present"))
-        return Request(bidden, negated=True)
+                return (request(event, clause, negated=True),)
+        speed = paced(Not(of) if negated and not isinstance(of, Not) else of)
+        return () if speed is None else (speed,)
 
     def _style(self, clause: Clause) -> str | None:
         words = " ".join(w for _, w in clause.comparisons) + " " + " ".join(clause.focus)
@@ -231,6 +254,17 @@ class Orders(Telling):
         return "repeat" if "again" in clause.manner else None
 
 
-def _bidden(event: Event) -> Event:
-    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
-    return Event(**{**fields, "tense": "present", "modal": None})
+def within_limit() -> Proposition:
+    """Say that we keep to the speed limit."""
+    return Compares(Measured("speed"), "at-most", Measured("limit"))
+
+
+def _wavers(value: Any) -> bool:
+    """Say whether it is about making up one's mind."""
+    verb = value.clause.verb if isinstance(value, Special) else None
+    return verb is not None and verb.key == "make up one's mind"
+
+
+def wavers(clause: Clause, value: Any) -> bool:
+    """Say whether we are told that we cannot make up our mind."""
+    return _wavers(value) and clause.negated and isinstance(clause.subject, Ego)

@@ -8,11 +8,13 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Lane,
     Passenger,
     Pronoun,
     Related,
     Thing,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -54,6 +56,12 @@ def with_whom(clause: Clause) -> Thing | None:
     return next((thing for thing in found if thing is not None and is_vehicle(thing)), None)
 
 
+def with_lane(clause: Clause) -> Lane | None:
+    """Find which lane is meant by "what is wrong with this lane"."""
+    found = (as_thing(p.sem) for p in clause.complements if p.key == "with")
+    return next((thing for thing in found if isinstance(thing, Lane)), None)
+
+
 def is_vehicle(thing: Thing) -> bool:
     """Say whether a thing is or stands for a road user other than us."""
     return isinstance(thing, Described | Vehicle | Pronoun)
@@ -89,3 +97,17 @@ def nearest(value: Related, wanted: Thing) -> Thing:
     """Describe whoever is nearest to us, in the direction that is said."""
     kind = getattr(wanted, "kind", "vehicle")
     return placed(value.relation, Described(cast(Any, kind), extreme="nearest"), value.to)
+
+
+def pointed_out(clause: Clause, event: Event) -> Thing | None:
+    """Describe whom "who is that waiting on the right" points at; None of anybody else."""
+    that = isinstance(event.actor, Pronoun) and event.actor.form in ("that", "this")
+    stranded = any(phrase.sem is None for phrase in clause.complements)
+    if not that or stranded or not isinstance(event.object, Wanted):
+        return None
+    where = event.where.relation if event.where is not None else None
+    place = next((b for b, _ in clause.bearings), event.side)
+    place = {"left-of": "left", "right-of": "right", "behind": "behind"}.get(where or "", place)
+    deed = with_fields(event, actor=Wanted(), object=None, side=None, where=None)
+    bearing = None if place in ("there", "here", "straight") else place
+    return Described(doing=deed, bearing=cast(Any, bearing))

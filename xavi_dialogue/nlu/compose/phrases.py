@@ -1,11 +1,30 @@
 """Phrases of a clause: what each does to the slots."""
 
+from dataclasses import replace
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Ago, Back, Event, Proposition, Quantity, Unsaid, Wanted
+from xavi_dialogue.domain.terms import (
+    Ago,
+    AtDecision,
+    Back,
+    Ego,
+    Event,
+    Proposition,
+    Quantity,
+    Unsaid,
+    Wanted,
+)
 from xavi_dialogue.nlu.compose.adjuncts import CLAUSES, Adjuncts
-from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots
+from xavi_dialogue.nlu.compose.clause import (
+    Clause,
+    Complement,
+    Slots,
+    is_named,
+    is_share,
+    takes_name,
+)
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
+from xavi_dialogue.nlu.compose.tally import often
 from xavi_dialogue.nlu.compose.things import Nouns
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
@@ -13,6 +32,9 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 EARLIER = 5.0  # [s] that "than before" reaches back
 _SEEMING = frozenset({"feel", "look", "seem", "sound", "appear"})
+
+_COMPARING = frozenset({"comparison", "than"})
+_REFLEXIVE = frozenset({"itself", "himself", "herself", "themselves"})
 
 
 class Phrases(Adjuncts):
@@ -75,17 +97,23 @@ class Phrases(Adjuncts):
         elif inner.name == "side_subject":
             side = cast(Leaf, inner.parts[0]).key
             clause.subject = Event(cast(Any, f"exit-{side}"), tense="present")
+        elif inner.name == "decision":  # what it does, we do then
+            clause.subject = Ego()
+            clause.time = AtDecision(int(number_of(cast(Node, node_of(inner, "num")))))
         elif inner.name == "dative":
             clause.subject = self.nouns.read(cast(Node, inner.parts[0]))
         elif inner.name == "gerund":
             last = inner.parts[-1]
-            if isinstance(last, Node) and last.name == "comparison" and len(inner.parts) > 1:
+            if isinstance(last, Node) and last.name in _COMPARING and len(inner.parts) > 1:
                 inner = Node("gerund", inner.parts[:-1], inner.start, inner.end, inner.cost)
-                self._on_comparison(last, clause)  # "was stopping better than turning"
+                handle = self._on_than if last.name == "than" else self._on_comparison
+                handle(last, clause)  # "was stopping better than turning"
             clause.subject = self.inner(inner)
         else:
             clause.subject = self.nouns.read(inner)
             clause.the_car = words_of(inner) in ("the car", "the vehicle", "this car")
+        if clause.topic is not None and takes_name(clause):
+            clause.subject, clause.topic = clause.topic, None
 
     def _on_vp(self, node: Node, clause: Clause) -> None:
         self.slots.fill(node.parts, clause)
@@ -100,12 +128,26 @@ class Phrases(Adjuncts):
     _on_finite_short = _on_vp
     _on_inverted = _on_vp
     _on_pre_to = _on_vp
+    _on_aside = _on_vp
+    _on_asked_whether = _on_vp
 
     def _on_unknown_verb(self, node: Node, clause: Clause) -> None:
         clause.verb = cast(Leaf, node.parts[0])
 
     def _on_object(self, node: Node, clause: Clause) -> None:
-        clause.objects.append((self.nouns.read(cast(Node, node.parts[0])), node))
+        if clause.verb is not None and words_of(node) in _REFLEXIVE:
+            return  # "it has tucked itself in"
+        named = self.nouns.read(cast(Node, node.parts[0]))
+        if clause.comma == node.start and is_named(named) and takes_name(clause):
+            clause.subject = named  # "is it fast, that bus?"
+            return
+        clause.objects.append((named, node))
+
+    def _on_comma(self, node: Node, clause: Clause) -> None:
+        clause.comma = node.end
+
+    def _on_frequency(self, node: Node, clause: Clause) -> None:
+        clause.times = often(node)
 
     def _on_lone_number(self, node: Node, clause: Clause) -> None:
         clause.objects.append((Quantity(number_of(node)), node))
@@ -119,6 +161,15 @@ class Phrases(Adjuncts):
         sem = self.inner(last)
         if isinstance(sem, SideOf):
             self._sided(leaf.key, sem.side, node, clause)
+            return
+        if is_share(leaf.key, sem, clause):
+            clause.share = cast(Quantity, sem)
+            return
+        if leaf.words == ("up", "to") and clause.verb is not None and clause.verb.key == "come":
+            clause.particles.append(replace(leaf, category="PART", key="up"))
+        forced = "semi-must" in clause.aux and clause.verb is not None and not clause.passive
+        if leaf.key == "by" and forced and is_named(sem):
+            clause.because = sem  # "were you forced to stop by the bus"
             return
         clause.complements.append(Complement(leaf.key, sem, node))
 
@@ -162,6 +213,7 @@ class Phrases(Adjuncts):
         degree = "too" if any(leaf.key == "too" for leaf in words) else ""
         if any(leaf.key == "enough" for leaf in words):
             degree = "enough"
+        clause.still |= any("still" in leaf.words for leaf in words)
         leaf = leaf_of(node, "ADJ")
         if leaf is not None:
             clause.adjectives.append((leaf.key, degree))
@@ -221,7 +273,10 @@ class Phrases(Adjuncts):
     # --- complement clauses ------------------------------------------
 
     def _on_infinitive(self, node: Node, clause: Clause) -> None:
-        clause.infinitive = self.clause(node, clause)
+        inner = clause.infinitive = self.clause(node, clause)
+        if clause.passive:  # "was it made to brake by us": by whom is said of the whole
+            clause.complements += [c for c in inner.complements if c.key == "by"]
+            inner.complements = [c for c in inner.complements if c.key != "by"]
 
     def _on_gerund(self, node: Node, clause: Clause) -> None:
         clause.gerund = self.clause(node, clause)
@@ -238,6 +293,8 @@ class Phrases(Adjuncts):
         inner = node_of(node, "finite")
         clause.that = None if inner is None else self.clause(inner)
         clause.focus.add("where")  # "is this where we get off"
+        if clause.that is not None:
+            clause.that.focus.add("where")
 
     def _on_tagged_state(self, node: Node, clause: Clause) -> None:
         self.slots.fill(node.parts, clause)  # "nearly there, aren't we?"
@@ -253,8 +310,9 @@ class Phrases(Adjuncts):
         inner = cast(Node, node.parts[-1])
         chained = self.clause(inner, clause)
         chained.negated ^= leaf_of(node, "NOT") is not None
-        if not chained.aux:
-            chained.aux = [a for a in clause.aux if not a.startswith("semi")]
+        plain = chained.verb is not None and chained.verb.form == "base"
+        if not chained.aux:  # "going to stop or come out", but "going to stop, and went on"
+            chained.aux = [a for a in clause.aux if plain or not a.startswith("semi")]
         clause.chained.append((join, chained))
         self.notes.chained.append(chained)
 

@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
+    Caused,
     Described,
     Ego,
     Event,
@@ -21,11 +22,12 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, passed
 from xavi_dialogue.nlu.compose.predicates import against, arrived, beyond, tense_of
 from xavi_dialogue.nlu.compose.sem import Measure, as_thing
-from xavi_dialogue.nlu.compose.things import relation_of
 from xavi_dialogue.nlu.compose.tree import words_of
 
 LOOSE = 0.25  # cost of a particle beside "be"
@@ -35,7 +37,7 @@ Found = tuple[Proposition, float]
 
 def placed(clause: Clause) -> list[Found]:
     """Compose "it is behind us", "he is in our lane"."""
-    thing = as_thing(clause.subject) or Pronoun("it")
+    thing = _still_there(clause) or as_thing(clause.subject) or Pronoun("it")
     time, tense = clause.time, tense_of(clause)
     for phrase in clause.complements:
         if (found := _by_phrase(clause, thing, phrase)) is not None:
@@ -60,11 +62,30 @@ def placed(clause: Clause) -> list[Found]:
     return []
 
 
+def _still_there(clause: Clause) -> Thing | None:
+    """Take "behind us" for what tells whom is meant: "is that fellow behind us still there?"."""
+    sem = clause.subject
+    phrase = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
+    if phrase is None or not isinstance(sem, Described) or sem.bearing is not None:
+        return None
+    if "there" not in [bearing for bearing, _ in clause.bearings]:
+        return None
+    of = as_thing(phrase.sem)
+    clause.complements.remove(phrase)
+    bearing: Any = phrase.key.removeprefix("bearing-")
+    return cast(Thing, with_fields(sem, bearing=bearing, of=None if of == Ego() else of))
+
+
 def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None:
     """Compose what a phrase of place says of a thing; None where it names no place."""
     time, tense = clause.time, tense_of(clause)
+    if isinstance(phrase.sem, Event) and phrase.key in ("on", "in", "at"):
+        deed = with_fields(phrase.sem, actor=thing, time=time, tense=tense)
+        return Happens(deed), 0.0  # "are you on the brakes"
     to = as_thing(phrase.sem)
-    if phrase.key == "bearing-beside" and words_of(phrase.node).startswith("close to"):
+    if to is not None and words_of(phrase.node).startswith("down to"):
+        return Caused(to), 0.0  # "is that down to us?"
+    if phrase.key.startswith("bearing-") and words_of(phrase.node).startswith("close "):
         other = to if isinstance(thing, Ego | Passenger) and to is not None else thing
         return Is("close", other, None, "too" in clause.focus, time, tense), 0.0
     if phrase.key.startswith("bearing-"):
@@ -102,9 +123,11 @@ def _by_bearing(clause: Clause, thing: Thing) -> Found:
     """Compose "it is ahead", "are we there", "is he still around"."""
     time, tense = clause.time, tense_of(clause)
     bearing, part = clause.bearings[0]
-    if bearing == "beside" and words_of(part).startswith("close"):
+    if words_of(part).startswith("close"):
         return Is("close", thing, None, "too" in clause.focus, time, tense), 0.0
     if bearing in ("there", "here"):
+        if isinstance(thing, Ego) and "still" in (*clause.focus, *clause.manner):
+            return Happens(Event("keep-lane", thing, time=time, tense=tense)), 0.0
         if isinstance(thing, Ego):
             return arrived(clause), 0.0
         return Is("present", thing, time=time, tense=tense), 0.05

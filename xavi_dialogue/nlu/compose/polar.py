@@ -6,10 +6,12 @@ from typing import Any, cast
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import (
+    Doing,
     Fault,
     HowAvoid,
     HowKnow,
     HowSure,
+    Listing,
     Question,
     WhatIf,
     WhatWouldChange,
@@ -37,15 +39,19 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import as_of
+from xavi_dialogue.nlu.compose.blames import blamed, cleft_cause, rival
 from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.comparing import Comparing
 from xavi_dialogue.nlu.compose.nominal import asked_of
 from xavi_dialogue.nlu.compose.sem import (
+    Group,
+    Measure,
     Noun,
     as_thing,
     is_thing,
 )
+from xavi_dialogue.nlu.compose.tally import counts, tallied
 from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.wh import fact, prevented
 from xavi_dialogue.nlu.compose.which import way_at
@@ -56,13 +62,20 @@ _WAYS = frozenset(
 )  # fmt: skip
 
 
+_OTHERS = (Described, Pronoun, Vehicle)
+
+
 def way_asked(of: Proposition) -> Question | None:
     """Take "do we turn left or go straight on" for the question which way we go."""
     if not isinstance(of, Both) or of.join != "or":
         return None
     found = [one.event for one in of.contents if isinstance(one, Happens)]
     if len(found) < len(of.contents) or not all(
-        event.action in _WAYS and isinstance(event.actor, Ego) and event.modal is None
+        event.action in _WAYS
+        and isinstance(event.actor, Ego)
+        and event.modal is None
+        and event.where is None
+        and not isinstance(event.object, _OTHERS)
         for event in found
     ):
         return None
@@ -100,19 +113,24 @@ def _foreseen(clause: Clause) -> Proposition | None:
     return Is(cast(Any, state), who, time=clause.time, tense="past")
 
 
-def _blamed(clause: Clause) -> Thing | None:
-    """Read "was it for the bus", "was that braking because of him": whom it was for."""
-    plain = clause.verb is None and not (clause.complements or clause.objects)
-    if isinstance(clause.subject, Event) and plain and not isinstance(clause.because, Clause):
-        return as_thing(clause.because)
-    it = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that", "this")
-    if not it or clause.verb is not None or len(clause.complements) != 1 or clause.objects:
-        return None
-    thing = as_thing(clause.complements[0].sem)
-    vehicle = isinstance(thing, (Described, Vehicle)) or (
-        isinstance(thing, Pronoun) and thing.form in ("he", "she", "they", "them-all")
-    )
-    return thing if clause.complements[0].key == "for" and vehicle else None
+def _is_all(clause: Clause) -> bool:
+    """Say whether it is asked whether "that is it": whether anything is still to come."""
+    it = [sem for sem, _ in clause.objects] == [Pronoun("it")]
+    plain = clause.verb is None and not clause.complements and not clause.adjectives
+    return clause.subject == Pronoun("that") and it and plain
+
+
+def _is_option(clause: Clause) -> bool:
+    """Say whether options are spoken of, or anything else."""
+    named = [clause.subject] if clause.passive else [sem for sem, _ in clause.objects]
+    options = any(isinstance(sem, Noun) and sem.key == "option" for sem in named)
+    return options or any(isinstance(sem, Described) and sem.other for sem in named)
+
+
+def _permits(clause: Clause, event: Event) -> bool:
+    """Say whether it is asked if somebody is allowed to do what he does: "may he do that?"."""
+    allowed = "semi-allowed" in clause.aux or event.modal in ("might", "can")
+    return allowed and not isinstance(event.actor, Ego)
 
 
 class Polar(Comparing):
@@ -120,16 +138,25 @@ class Polar(Comparing):
 
     def whether(self, clause: Clause, *, tag: bool = False) -> list[tuple[Question, float]]:
         """Build the yes or no questions of a clause."""
-        if any(key == "opinion" for key, _ in clause.adjectives):
-            return [(Fault(That(), judged(clause)), 0.0)]
+        inner = clause.that if clause.that is not None and not clause.adjectives else clause
+        if any(key in ("opinion", "kind") for key, _ in inner.adjectives):
+            deems = clause.verb is not None and clause.verb.key in ("consider", "call", "find")
+            return [(Fault(That(), None if deems else judged(inner)), 0.0)]
+        if _is_all(clause):
+            return [(Doing(tense="future"), 0.0)]
         foreseen = _foreseen(clause)
         if foreseen is not None:
             return [(Whether(foreseen, tag), 0.0)]
-        blamed = _blamed(clause)
-        if blamed is not None:
+        cleft = cleft_cause(clause)
+        if cleft is not None:
+            cause, told = cleft
+            caused = self.propositions.plain(told) if isinstance(told, Clause) else told
+            return [(Why(caused or That(), suspect=cause), 0.0)]
+        suspect = blamed(clause)
+        if suspect is not None:
             deed = clause.subject
             of = Happens(deed) if isinstance(deed, Event) else That()
-            return [(Why(of, suspect=blamed), 0.0)]
+            return [(Why(of, suspect=suspect, rival=rival(clause)), 0.0)]
         compare = self.comparison(clause) or self._existing(clause)
         if compare is not None:
             return [(self.framed(compare, clause, None), 0.0)]
@@ -147,32 +174,73 @@ class Polar(Comparing):
         if way is not None or clause.negated:
             return way
         sem = clause.objects[0][0]
+        if isinstance(sem, Measure) and sem.of.attribute == "probability":
+            return self._chance(clause, sem)
         if not isinstance(sem, Noun) or sem.key in ("problem", "sight", "side", "truth"):
             return None
-        if clause.that is not None and sem.clause is None:
-            sem = replace(sem, clause=self.propositions.plain(clause.that))
+        governed = clause.that or clause.infinitive
+        if governed is not None and sem.clause is None:
+            governed.subject = governed.subject or Ego()
+            sem = replace(sem, clause=self.propositions.plain(governed))
         return asked_of(sem, clause.time, clause.tense)
+
+    def _chance(self, clause: Clause, sem: Measure) -> Question | None:
+        """Ask "is there a risk that he hits us", "is there any risk with the lorry"."""
+        if clause.that is not None:
+            return HowSure(self.propositions.plain(clause.that), clause.time)
+        event = sem.of.event
+        whom = next((t for p in clause.complements if (t := as_thing(p.sem)) is not None), None)
+        if event is not None and event.action == "collide" and event.object is None:
+            event = structs.replace(event, object=whom)
+        return None if event is None else HowSure(Happens(event), clause.time)
 
     def polar(self, clause: Clause, value: Any, *, tag: bool) -> Question:
         if isinstance(value, Special):
             special = self._whether_special(clause, value)
             if special is not None:
                 return special
-        of = self.propositions.joined(clause, fact(value))
+        of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
         avoidable = self._avoidable(clause, of)
         if avoidable is not None:
             return avoidable
-        way = way_asked(of)
+        way = way_asked(of) or self._either_way(clause, of)
         if way is not None:
             return way
         about = about_whom(clause)
         match of:
             case Is(state="wrong" | "right", thing=Ego()) if about is not None:
                 return Whether(structs.replace(of, thing=about), tag)
+            case Happens(
+                event=Event(
+                    action="do", actor=actor, object=Described(such=Is(state="wrong"), doing=None)
+                )
+            ):  # "did we do something wrong?"
+                return Fault(That(), actor)
             case Is(state="at-fault", thing=thing, event=event):
                 return Fault(Happens(event) if event is not None else None, thing)
-            case Is(state="sure", thing=Ego()):
+            case Happens(
+                event=Event(action="do", object=Pronoun(form="this" | "that")) as done
+            ) if _permits(clause, done):
+                return Fault(That(), done.actor, legal=True)
+            case Is(state="sure", thing=Ego() | Pronoun(form="it" | "that")):
                 return HowSure(self._sure_of(clause), clause.time)
+            case Caused(
+                cause=Described(doing=Event(action="leave", actor=Ego()) as event, rank=rank)
+            ):  # "is it the next one that we get off at?"
+                deed = structs.replace(event, object=Exit(rank), tense="present")
+                return Whether(Happens(deed), tag)
+            case Caused(cause=Described(doing=Event(action="do", object=Wanted(), actor=doer))):
+                return Why(That(), suspect=doer)  # "was that something we did?"
+            case Caused(
+                cause=Described(doing=Event(actor=Wanted()) as event) as who, effect=None
+            ) if wanted_pronoun(clause.subject):  # "was it the bus that braked?"
+                whole = structs.replace(who, doing=None)
+                return Whether(Happens(structs.replace(event, actor=whole)), tag)
+            case Caused(
+                cause=Described(doing=Event(object=Wanted()) as event) as who, effect=None
+            ) if wanted_pronoun(clause.subject) and event.action != "do":  # "... you braked for?"
+                whole = structs.replace(who, doing=None)
+                return Whether(Happens(structs.replace(event, object=whole)), tag)
             case Caused(cause=cause, effect=effect) if is_thing(cause):
                 return Why(effect or That(), suspect=cast(Thing, cause))
         if clause.because is not None:
@@ -181,6 +249,14 @@ class Polar(Comparing):
                 return Whether(Caused(cause_fact, of), tag) if cause_fact else Whether(of, tag)
             return Why(of, suspect=as_thing(clause.because))
         return Whether(of, tag)
+
+    def _either_way(self, clause: Clause, of: Proposition) -> Question | None:
+        """Ask "do we come off at this one or the next": which way we go."""
+        sems = [phrase.sem for phrase in clause.complements]
+        other = any(isinstance(sem, Group) and sem.join == "or" for sem in sems)
+        if not other or not isinstance(of, Happens) or of.event.action != "leave":
+            return None
+        return way_asked(Both((of, of), "or"))
 
     def _avoidable(self, clause: Clause, of: Proposition) -> Question | None:
         """Ask "could the crash have been avoided", "was there anything you could have done"."""
@@ -235,6 +311,11 @@ class Polar(Comparing):
             return Why(Not(denied))
         if clause.verb is not None and clause.verb.key == "guess" and value.name == "believe":
             return HowKnow(value.content)  # "did you just guess?"
+        if value.name == "startle" and isinstance(as_thing(value.object), Ego):
+            return Why(That(), suspect=value.subject)  # "did he scare you?"
         if value.name == "matter":
             return WhatWouldChange(None)
+        ours = isinstance(value.content, Happens) and isinstance(value.content.event.actor, Ego)
+        if value.name == "consider" and (ours or (value.content is None and _is_option(clause))):
+            return Listing("options", time=clause.time)  # "did you consider alternatives?"
         return None

@@ -36,6 +36,8 @@ def by_particle(clause: Clause) -> Proposition | None:
     action = next((_MOVED[word] for word in _MOVED if word in words), None)
     if action is None:
         return None
+    if action == "leave" and thing == Ego() and tense == "present":
+        return Happens(Event("go", time=clause.time, tense=tense))  # "are we off now?"
     moved: Any = "perfect" if tense == "present" else tense
     return Happens(Event(action, thing, time=clause.time, tense=moved))
 

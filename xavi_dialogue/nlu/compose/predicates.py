@@ -34,6 +34,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.events import when
+from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -43,8 +44,8 @@ from xavi_dialogue.nlu.compose.sem import (
     Specified,
     as_thing,
 )
-from xavi_dialogue.nlu.compose.things import relation_of
-from xavi_dialogue.nlu.compose.tree import words_of
+from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
+from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
@@ -63,6 +64,9 @@ def lights(clause: Clause, subject: Measure) -> list[Found]:
     return [(Has(lights.attribute, value, lights.thing, clause.time, tense_of(clause)), 0.0)]
 
 
+_MOTIONS = frozenset({"stationary", "moving", "stuck", "move", "park", "fast", "slow", "close"})
+
+
 def nominal(clause: Clause, sem: Sem) -> list[Found]:
     """Compose "it is a truck", "it was the bus", "is it blue"."""
     subject = as_thing(clause.subject) or Pronoun("it")
@@ -70,6 +74,9 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     cleft = _cleft(sem) if isinstance(subject, Pronoun) else None
     if cleft is not None:
         return [(cleft, 0.0)]
+    if isinstance(sem, Measure) and isinstance(clause.subject, Quantity):  # "40 is the limit"
+        measured = cast(Measured, with_fields(sem.of, time=time, tense=tense))
+        return [(Compares(measured, "same", clause.subject), 0.0)]
     if isinstance(sem, Described) and isinstance(subject, Ego) and sem.extreme in _PACES:
         speed = Measured("speed", subject, time=time, tense=tense)
         others = Measured("speed", Everyone(), time=time, tense=tense)
@@ -148,15 +155,25 @@ def _described(clause: Clause, sem: Described, subject: Thing, time: Time) -> li
         return [(Compares(limit, "same", Quantity(round(shown / 3.6, 6), "m/s")), 0.0)]
     sort = not sem.definite and sem.kind != "vehicle" and sem.bearing is None
     if sort and isinstance(subject, (Pronoun, Described)):
-        return [(Has("kind", sem.kind, subject, time, tense), 0.0)]
+        finer = _finer(clause.objects[0][1])
+        kind = f"{finer} {sem.kind}" if finer else sem.kind
+        return [(Has("kind", kind, subject, time, tense), 0.0)]
     if sem == Described(bearing=sem.bearing, of=sem.of) and isinstance(subject, Described):
         relation: Any = relation_of(sem.bearing or "near")  # "the red one is the one ahead"
         return [(Related(relation, subject, sem.of or Ego(), time, tense), 0.0)]
+    if not sem.definite and sem.bearing is not None and isinstance(subject, Pronoun):
+        return [(Exists(sem, time, tense), 0.0)]  # "is that a bus over on the left?"
     same: Proposition = Related("same-as", subject, sem, time, tense)
     alike = "same" in words_of(clause.objects[0][1]).split()
     if isinstance(subject, Pronoun) and subject.form in ("it", "that", "this") and not alike:
         return [(Caused(sem), 0.0), (same, 0.1)]
     return [(same, 0.0)]
+
+
+def _finer(node: Part) -> str:
+    """Give what is said of a sort before its noun: "racing" of "a racing car"."""
+    named = [leaf for leaf in leaves_of(node) if leaf.category in ("ADJ", "VING", "UNK")]
+    return " ".join(word for leaf in named if leaf.key not in _MOTIONS for word in leaf.words)
 
 
 def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition | None:
@@ -170,6 +187,8 @@ def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition
             return Happens(Event("leave", Ego(), thing, time=time, tense=tense))
         case Destination():
             return Happens(Event("arrive", Ego(), time=time, tense=tense))
+        case Junction(form="junction") if tense == "present":
+            return Related("same-as", thing, Junction(rank=1), time, tense)  # "our turning"
         case Junction() | Feature():
             return Exists(thing, time, tense)
     return None
@@ -193,7 +212,7 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
         thing = as_thing(sem.owner) or as_thing(sem.of) or subject
         return Is("at-fault", thing, event, time=time, tense=tense_of(clause))
-    if sem.key == "problem" and isinstance(subject, Described | Vehicle):
+    if sem.key == "problem" and isinstance(subject, Described | Vehicle | Wanted):
         return Is("dangerous", subject, time=time, tense=tense_of(clause))
     if sem.key == "problem":
         return Is("wrong", subject, time=time, tense=tense_of(clause))

@@ -3,6 +3,8 @@
 from dataclasses import replace
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.terms import (
     Both,
     Described,
@@ -22,11 +24,12 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.adoption import adopt, as_of, compared, with_fields
 from xavi_dialogue.nlu.compose.candidates import Candidate, Special
-from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
+from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.events import event_of, when
+from xavi_dialogue.nlu.compose.patterns import senses
 from xavi_dialogue.nlu.compose.positions import by_event
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.senses import Match, match, senses
+from xavi_dialogue.nlu.compose.senses import Match, match, offered
 from xavi_dialogue.nlu.compose.specials import proposition_of
 from xavi_dialogue.nlu.compose.states import state_of
 from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
@@ -83,6 +86,7 @@ class Propositions:
         """Read "it is not true that he turned": what is said to be so, or not."""
         key = clause.adjectives[0][0] if clause.adjectives else ""
         bare = clause.verb is None and wanted_pronoun(clause.subject)
+        bare = bare and clause.subject != Pronoun("that")  # "that's not true, it was moving"
         if "where" in clause.focus and clause.verb is None and clause.that is not None:
             content = self.plain(clause.that)
             return Not(content) if content is not None and clause.negated else content
@@ -104,8 +108,12 @@ class Propositions:
     def _verbal(self, clause: Clause) -> list[Candidate]:
         lemma = cast(Any, clause.verb).key
         self.budget.spend(READING)
+        if clause.there and clause.objects and lemma in ("go", "come"):
+            clause.subject = clause.objects.pop(0)[0]  # "there goes the grey one"
+            clause.there = False
         found: list[Candidate] = []
-        matches = [m for sense in senses(lemma) if (m := match(sense, clause)) is not None]
+        words = offered(clause)
+        matches = [m for sense in senses(lemma) if (m := match(sense, clause, words)) is not None]
         if not matches:
             return [Candidate(self._bare(clause, lemma), 1.0, _objects(clause))]
         matches.sort(key=lambda m: m.cost)
@@ -121,7 +129,7 @@ class Propositions:
         if one.sense.head.startswith("@"):
             value: Proposition | Special = self._special(clause, one)
         else:
-            event = event_of(clause, one)
+            event = self._idling(clause, event_of(clause, one))
             event = self._chain(clause, event)
             value = compared(clause, event) or by_event(clause, event) or Happens(event)
             if "semi-allowed" in clause.aux:
@@ -130,7 +138,10 @@ class Propositions:
                 value = Not(value)
         left: list[Any] = [phrase.node for phrase in one.left if phrase.sem is not None]
         left += [node for sem, node in clause.objects if any(sem is o for o in one.left_objects)]
-        return Candidate(value, one.cost, tuple(left))
+        unused = clause.that is not None and not isinstance(value, Special)
+        if isinstance(value, Special) and value.name == "have":
+            unused = value.content is not None and isinstance(value.object, Measure)
+        return Candidate(value, one.cost + PASSED_OVER * unused, tuple(left))
 
     def _special(self, clause: Clause, one: Match) -> Special:
         clause.time = when(clause, one)
@@ -152,14 +163,26 @@ class Propositions:
                 content = as_of(content, clause.tense)
         return Special(one.sense.head[1:], clause, one, content)
 
+    def _idling(self, clause: Clause, event: Event) -> Event:
+        """Read "sit here looking at his back doors" as what is done meanwhile."""
+        if event.action != "stand" or clause.gerund is None:
+            return event
+        clause.gerund.subject = clause.gerund.subject or clause.subject
+        inner = self.as_event(clause.gerund)
+        if not isinstance(inner, Event) or inner.action not in _MEANWHILE:
+            return event
+        found: Event = with_fields(inner, tense=event.tense, modal=event.modal, time=event.time)
+        return found
+
     def _chain(self, clause: Clause, event: Event) -> Event:
         """Add what is done next: "change left and then turn right"."""
         for join, later in reversed(clause.chained):
             found = self._later(later)
-            if join == "and" and isinstance(found, Event):
+            if join == "and" and isinstance(found, Event) and later.negated:
+                self.notes.taken.add(id(later))  # "sat there and never moved"
+            elif join == "and" and isinstance(found, Event):
                 self.notes.taken.add(id(later))
-                fields = {k: getattr(event, k) for k in event.__struct_fields__}
-                event = Event(**{**fields, "then": found})
+                event = structs.replace(event, then=found)
         return event
 
     def _later(self, clause: Clause) -> Sem | None:
@@ -235,6 +258,11 @@ class Propositions:
                 named = getattr(found, "thing", None) or getattr(found, "to", None)
                 return cast("Sem | None", named)
 
+    def ended(self, clause: Clause) -> Event | None:
+        """Give the event that a clause says is over: "when you finished the lane change"."""
+        found = self.plain(clause)
+        return found.event if isinstance(found, Is) and found.state == "over" else None
+
     def as_deed(self, clause: Clause) -> Sem:
         """Read a gerund as an event of our own car unless it says whose."""
         if clause.subject is None:
@@ -260,6 +288,7 @@ def _for_subject(governed: Clause, one: Match) -> None:
             return
 
 
+_MEANWHILE = frozenset({"follow", "wait", "give-way", "let-go", "block"})
 _CAUSATIVE = frozenset({"make", "let", "help", "see", "force"})
 
 

@@ -3,7 +3,6 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
-    Compare,
     Fault,
     HowSure,
     Question,
@@ -15,23 +14,18 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
-    Next,
     Pronoun,
     Proposition,
     Quantity,
-    Related,
     That,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.asking import Asking
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.comparing import BY
-from xavi_dialogue.nlu.compose.effects import Effects
+from xavi_dialogue.nlu.compose.clause import Clause, Complement, wanted_pronoun
 from xavi_dialogue.nlu.compose.nominal import event_in, propose
+from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives
 from xavi_dialogue.nlu.compose.peaks import peak_of
 from xavi_dialogue.nlu.compose.sem import (
-    Group,
     Measure,
     Moment,
     Notes,
@@ -41,22 +35,17 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
 )
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
-from xavi_dialogue.nlu.compose.wh import Wh, fact
+from xavi_dialogue.nlu.compose.trends import believed
+from xavi_dialogue.nlu.compose.wh import Wh
 from xavi_dialogue.nlu.compose.what import purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-_YIELDS = frozenset({"give-way", "let-go", "wait"})
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
 EMPHATIC = 0.6  # cost of "who did stop"
-WEAK = 1.0  # cost of a clause of which nothing is said
 
 
-#: What tells nobody apart: "a man", "somebody".
-_SORTS = (Described(definite=False), Described(kind="pedestrian", definite=False))
-
-
-class Questions(Effects):
+class Questions(Options):
     """Builds questions from parses."""
 
     def __init__(self, notes: Notes) -> None:
@@ -141,7 +130,8 @@ class Questions(Effects):
     def embedded(self, node: Node, outer: Clause) -> tuple[Wh | None, list[Question]]:
         """Read "why you stopped" behind "tell me" or "I wonder"."""
         whs = [p for p in node.parts if isinstance(p, Node) and p.name.startswith("wh_")]
-        inner = [p for p in node.parts if isinstance(p, Node) and p not in whs]
+        also = node_of(node, "also_wh")
+        inner = [p for p in node.parts if isinstance(p, Node) and p not in (*whs, also)]
         if not whs:
             clause = self.phrases.clause(inner[0]) if inner else Clause()
             return None, [q for q, _ in self.whether(clause)]
@@ -150,6 +140,9 @@ class Questions(Effects):
             return wh, []
         clause = self.phrases.slots.fill((), Clause())
         found = self.asked(wh, inner, clause)
+        if also is not None and inner:
+            more = self.asked(self.wh_of(cast(Node, also.parts[-1])), inner, Clause())
+            outer.also += [question for question, _ in more[:1]]
         return wh, [q for q, _ in found]
 
     def asked(self, wh: Wh, parts: list[Any], clause: Clause) -> list[tuple[Question, float]]:
@@ -160,9 +153,13 @@ class Questions(Effects):
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
+        wh, clause = cleft(wh, clause)
         most = peak_of(clause)
         if most is not None and wh.kind in ("where", "when", "what", "who", "which", "count"):
             return [(most, 0.0)]
+        if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
+            # "what is he doing, braking like that?"
+            clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
         if wh.kind == "what" and (for_what or purpose(clause)):
             clause.gap, wh = None, Wh("why")
@@ -177,34 +174,35 @@ class Questions(Effects):
                 emphatic += WEAK  # "which exit"
         if clause.subject is None and wh.kind in ("which", "count"):
             clause.subject = wh.sem if is_thing(wh.sem) or wh.kind == "count" else None
-        options = _alternatives(clause) if wh.kind in ("who", "what", "which") else None
-        if options is not None and all(option in _SORTS for option in options):
-            options = None  # "a man or a lady?"
-        if wh.kind == "grade" and wh.key == "likely":
-            content = self._believed(clause)
+        options = alternatives(clause) if wh.kind in ("who", "what", "which") else None
+        held = clause.subject.of if isinstance(clause.subject, Measure) else None
+        chance = held is not None and held.attribute == "probability"
+        if wh.kind == "grade" and (wh.key == "likely" or chance):
+            content = self._believed(clause) or (believed(held) if held and chance else None)
             if content is not None:
                 return [(HowSure(content, clause.time), 0.0)]
+        if wh.kind == "grade" and (hangs := self.needing(clause)) is not None:
+            return [(hangs, 0.0)]
+        judged = wh.key == "worse" or (wh.key == "faster" and clause.than is not None)
+        if wh.kind == "grade" and judged:
+            weighed = self.weighed(wh, clause)
+            if weighed is not None:
+                return [(weighed, 0.0)]
         if wh.preposition and clause.gap is None and wh.kind in ("what", "who", "which"):
             clause.gap = Wanted()
+            if wh.preposition == "for":  # "for whom did you stop?"
+                stranded = Node("stranded", (), 0, 0, 0.0)
+                clause.complements.append(Complement("for", None, stranded))
         nominal = self.effect(wh, clause) or self._nominal(wh, clause)
         if nominal is not None:
             return [(self.framed(nominal, clause, None), 0.0)]
-        first = None if options is None else self._first_of(wh, clause, options)
-        if first is not None:
-            return [(first, 0.1)]
         if options is not None:
-            by = "time" if "first" in clause.manner else "best"
-            if clause.comparisons:
-                by = BY.get(clause.comparisons[0][0], "best")
-                if by == "time" and all(is_thing(option) for option in options):
-                    by = "speed"
-            things = by == "best" and all(is_thing(option) for option in options)
-            return [(Compare(options, cast(Any, by)), 0.1 + WEAK * things)]
+            return [self.one_of(wh, clause, options)]
         candidates = self.propositions.readings(clause)
         pairs: list[tuple[Any, float]] = [(c.value, c.cost) for c in candidates] or [(None, 0.0)]
         found: list[tuple[Question, float]] = []
         for value, cost in pairs:
-            compared = self._compared(wh, clause, value)
+            compared = self.compared(wh, clause, value)
             question = compared or self.asking.ask(wh, clause, value)
             why = wh.kind == "why" and clause.subject is not None
             governing = wh.kind in ("what", "who") and clause.that is not None
@@ -259,49 +257,6 @@ class Questions(Effects):
                 return Happens(Event("do", thing))
         return None
 
-    def _first_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> Question | None:
-        """Ask "who goes first, we or the bus": who of them has to let the other go."""
-        other = next((one for one in options if not isinstance(one, Ego)), None)
-        bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
-        if isinstance(clause.time, Next) and bare:
-            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
-            return Which(Wanted(), Happens(going))
-        found = self.propositions.readings(clause)
-        said = fact(found[0].value) if found and clause.verb is not None else None
-        others = all(is_thing(one) and not isinstance(one, Ego) for one in options)
-        if others and said is not None and not clause.comparisons:
-            return Which(Wanted(), said, options)
-        match fact(found[0].value) if found else None:
-            case Related(relation="has-priority-over" | "must-yield-to") as related:
-                return Which(Wanted(), with_fields(related, to=other))
-            case Happens(event=event) if event.action in _YIELDS or "first" in event.manner:
-                return Which(Wanted(), Happens(with_fields(event, object=other)))
-        if wh.kind == "who" and Ego() in options and other is not None and not clause.comparisons:
-            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
-            return Which(Wanted(), Happens(going))
-        return None
-
-    def _compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
-        """Ask "which is faster, left or right"."""
-        if wh.kind not in ("which", "what", "who") or not clause.comparisons:
-            return None
-        deeds = self.deeds(clause)
-        if deeds:
-            return Compare(deeds, cast(Any, BY.get(clause.comparisons[0][0], "best")))
-        options = [sem for sem, _ in clause.objects if isinstance(sem, Group)]
-        if options:
-            return Compare(tuple(_option(s) for s in options[0].members),
-                           cast(Any, BY.get(clause.comparisons[0][0], "best")))  # fmt: skip
-        among = [wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
-        spoken = any(isinstance(s, Pronoun) and s.form in ("they", "them-all") for s in among)
-        if spoken or {"them", "those", "these", "both"} & set(wh.words):
-            by = {"fast": "speed", "slow": "speed"}.get(clause.comparisons[0][0])
-            other = BY.get(clause.comparisons[0][0], "best")
-            return Compare((Pronoun("them-all"),), cast(Any, by or other))
-        return None
-
-    # --- what stands around a question -------------------------------
-
 
 def wanted_only(clause: Clause) -> bool:
     """Say whether nothing is there that a belief could be of."""
@@ -312,26 +267,6 @@ def _is_base(clause: Clause) -> bool:
     return clause.verb is not None and clause.verb.form == "base" and not clause.aux
 
 
-def _alternatives(clause: Clause) -> tuple[Any, ...] | None:
-    """Take "we or the blue one" out of a clause that asks which of them."""
-    for index, (sem, _) in enumerate(clause.objects):
-        if isinstance(sem, Group) and sem.join == "or":
-            del clause.objects[index]
-            return tuple(_option(member) for member in sem.members)
-    for index, (join, other) in enumerate(clause.chained):
-        if join == "or" and clause.objects and _is_option(other):
-            del clause.chained[index]
-            first, _ = clause.objects.pop()
-            return _option(first), _option(other.objects[0][0])
-    return None
-
-
-def _is_option(other: Clause) -> bool:
-    """Say whether nothing stands behind "or" but a thing."""
-    more = (other.complements, other.adjectives, other.bearings, other.manner, other.particles)
-    return len(other.objects) == 1 and is_thing(other.objects[0][0]) and not any(more)
-
-
 def _whose_turn(sem: Sem | None) -> Question | None:
     """Ask "whose turn is it": who goes first."""
     if not isinstance(sem, Event) or sem.action != "turn" or sem.side is not None:
@@ -340,7 +275,13 @@ def _whose_turn(sem: Sem | None) -> Question | None:
     return Which(Wanted(), Happens(going))
 
 
-def _option(sem: Sem) -> Any:
-    if isinstance(sem, Event):
-        return Happens(sem)
-    return as_thing(sem) or Pronoun("that")
+def cleft(wh: Wh, clause: Clause) -> tuple[Wh, Clause]:
+    """Read "when was it that he braked" as "when did he brake"."""
+    empty = wanted_pronoun(clause.subject) and clause.verb is None and clause.question is None
+    told = clause.that
+    if told is None or not empty or wh.kind not in _CLEFT or clause.adjectives or clause.objects:
+        return wh, clause
+    return Wh("why") if wh.kind == "how" else wh, told  # "how is it that he braked?"
+
+
+_CLEFT = frozenset({"when", "where", "why", "how"})

@@ -72,6 +72,7 @@ class Measure:
     of: Measured
     extreme: Extreme | None = None
     several: bool = False
+    ours: bool = False  # said to be: "our speed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +97,7 @@ THINGS = (
     Ego, Vehicle, Vehicles, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
     Exit, Lane, Road, Feature, Passenger, Record, Unknown,
 )  # fmt: skip
+ALTERNATIVES = 2  # things of which one is meant
 _NUMBERS = 20  # numbers of vehicles are below
 _OPEN = frozenset({"it", "that", "this", "they"})
 
@@ -155,6 +157,12 @@ def as_thing(sem: "Sem | None") -> Thing | None:
     if isinstance(sem, Quantity) and sem.unit == "count" and sem.value in range(1, _NUMBERS):
         return Vehicle(int(sem.value))  # "the gap to 2"
     return None
+
+
+def alternative(sem: object) -> Thing | None:
+    """Give the second of two things of which one is meant: "the bus or the lorry"."""
+    pair = isinstance(sem, Group) and sem.join == "or" and len(sem.members) == ALTERNATIVES
+    return as_thing(sem.members[1]) if pair and isinstance(sem, Group) else None
 
 
 NO_TIME: Time = Unsaid()

@@ -1,13 +1,12 @@
-"""Senses of verbs: patterns of what may stand with a verb, matched against a clause by type."""
+"""Senses of verbs: their patterns, matched against a clause by type."""
 
 from dataclasses import dataclass, field
-from functools import cache
 
 from xavi_dialogue.domain.terms import Ego, Pronoun, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.flags import flag
+from xavi_dialogue.nlu.compose.patterns import FLAGS, STRANDED, WORDED, Role, Sense
 from xavi_dialogue.nlu.compose.sem import Sem, is_thing, types
-from xavi_dialogue.nlu.text.tables import load
 
 _NO_BASE = frozenset({"be", "have"})  # auxiliaries that no base form follows
 VAGUE = 0.25  # cost of a pronoun as the subject that a sense asks for
@@ -21,45 +20,6 @@ _OWNERS: dict[str, Sem] = {
     "my": Ego(), "our": Ego(), "your": Ego(), "his": Pronoun("he"), "her": Pronoun("he"),
     "its": Pronoun("it"), "their": Pronoun("they"),
 }  # fmt: skip
-_FLAGS = frozenset(
-    {
-        "inf",
-        "ger",
-        "bare",
-        "that",
-        "wh",
-        "adj",
-        "ved",
-        "because",
-        "bearing",
-        "origin",
-        "until",
-        "go",
-        "q",
-        "close",
-        "long",
-        "out",
-    }
-)
-
-
-@dataclass(frozen=True, slots=True)
-class Role:
-    """One thing that stands with a verb: its kind, the types it takes, whether it may miss."""
-
-    kind: str  # "o", "o2", "s", "one", a preposition, "+up", "side", or a flag such as "inf"
-    types: str = "*"
-    optional: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Sense:
-    """One sense of a verb."""
-
-    head: str  # an action, or "@" and a predicate
-    roles: tuple[Role, ...] = ()
-    manner: str | None = None
-    cost: float = 0.0
 
 
 @dataclass(slots=True)
@@ -77,30 +37,13 @@ class Match:
     sided: bool = False
 
 
-@cache
-def senses(lemma: str) -> tuple[Sense, ...]:
-    """Read the senses of a verb."""
-    return tuple(_sense(text) for text in load("nlu_verbs.toml")["senses"][lemma])
-
-
-def _sense(text: str) -> Sense:
-    head, *rest = text.split()
-    roles: list[Role] = []
-    manner: str | None = None
-    cost = 0.0
-    for item in rest:
-        if "$" in item:
-            item, _, price = item.partition("$")
-            cost = float(price)
-            if not item:
-                continue
-        if item.startswith("="):
-            manner = item[1:] or None
-            continue
-        optional = item.endswith("?") or "?:" in item
-        kind, _, kinds = item.replace("?", "").partition(":")
-        roles.append(Role(kind, kinds or "*", optional))
-    return Sense(head, tuple(roles), manner, cost)
+def offered(clause: Clause) -> frozenset[str]:
+    """List the prepositions and particles of a clause as the kinds of roles that they may fill."""
+    found = [phrase.key for phrase in clause.complements]
+    found += [f"+{leaf.key}" for leaf in clause.particles]
+    for bearing, _ in clause.bearings:
+        found += (f"bearing-{bearing}", f"+{bearing}")
+    return frozenset(found)
 
 
 def fits(sem: Sem, wanted: str) -> float | None:
@@ -115,11 +58,15 @@ def fits(sem: Sem, wanted: str) -> float | None:
     return ALMOST if own == "u" and "v" in wanted else None
 
 
-def match(sense: Sense, clause: Clause) -> Match | None:
-    """Fit a sense to a clause; None where a role that must be filled cannot be."""
+def match(sense: Sense, clause: Clause, words: frozenset[str]) -> Match | None:
+    """Fit a sense to a clause that offers some words; None where a role cannot be filled."""
+    for one in sense.calls:
+        if words.isdisjoint(one):
+            return None
     found = Match(sense, sense.cost)
     objects = [sem for sem, _ in clause.objects]
-    phrases = list(clause.complements)
+    agent = "by" if clause.passive and sense.head == "@make-do" else None
+    phrases = [phrase for phrase in clause.complements if phrase.key != agent]
     particles = [leaf.key for leaf in clause.particles]
     filled = 0
     for role in sense.roles:
@@ -181,7 +128,7 @@ def _fill(
             return None
         found.sided = True
         return 0.0
-    if role.kind in _FLAGS:
+    if role.kind in FLAGS:
         return 0.0 if flag(role.kind, role.types, clause) else None
     return _fill_phrase(role, found, clause, phrases)
 
@@ -225,19 +172,17 @@ def _fill_particle(
     if word in particles:
         particles.remove(word)
         return 0.0
-    stranded = {"past": "over", "around": "bearing-around", "in": "in", "on": "on", "off": "from",
-                "through": "over", "over": "over", "out": "from", "up": "over", "by": "by",
-                "along": "over", "down": "over", "back": "bearing-behind"}  # fmt: skip
+    stranded = STRANDED.get(word)
     for index, phrase in enumerate(phrases):
-        if phrase.sem is None and phrase.key == stranded.get(word) and clause.gap is None:
+        if phrase.sem is None and phrase.key == stranded and clause.gap is None:
             del phrases[index]
             return 0.02
         takes = any(role.kind == "o" for role in found.sense.roles) and not objects
-        if phrase.sem is not None and takes and phrase.key == stranded.get(word):
+        if phrase.sem is not None and takes and phrase.key == stranded:
             objects.append(phrase.sem)
             del phrases[index]
             return 0.02
-    if word in ("first", "there", "still", "put", "going", "moving", "faster", "waiting"):
+    if word in WORDED:
         return 0.0 if _worded(word, clause) else None
     if word in ("back", "ahead", "around") and word in [bearing for bearing, _ in clause.bearings]:
         found.phrases[f"bearing-{word}"] = Ego()

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.terms import (
     Ago,
     Believed,
@@ -11,30 +13,27 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
-    Everyone,
     Exists,
     Feature,
     Happens,
     Has,
     Is,
     Measured,
-    Nobody,
     Not,
     Passenger,
     Pronoun,
     Proposition,
     Quantity,
     Related,
-    Road,
     That,
     Unknown,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.becoming import become
 from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.deeds import (
     begun,
     changed,
@@ -47,18 +46,20 @@ from xavi_dialogue.nlu.compose.deeds import (
     tense_of,
     time_of,
 )
-from xavi_dialogue.nlu.compose.nominal import event_in
+from xavi_dialogue.nlu.compose.having import had
+from xavi_dialogue.nlu.compose.nominal import event_in, propose
 from xavi_dialogue.nlu.compose.others import is_other
-from xavi_dialogue.nlu.compose.rooms import roomy
+from xavi_dialogue.nlu.compose.pacing import exceed
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.severally import each_seen
 from xavi_dialogue.nlu.compose.states import STATES
-from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.trends import SINCE
+from xavi_dialogue.nlu.compose.valuing import believed, given_up, preferred, rated, shifted
 
-_ABOVE = frozenset({"over", "above", "more", "beyond"})
-_BELOW = frozenset({"under", "below", "less"})
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
+_JUDGING = frozenset({"opinion", "rude", "kind", "dangerous"})
+_LIKING = frozenset({"like", "dislike", "mind"})
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
 
@@ -71,11 +72,21 @@ def proposition_of(special: Special) -> Proposition:
 def _positive(special: Special) -> Proposition:
     name = special.name
     if name == "assign":
-        return _rated(special)
+        return rated(special, special.content or _about(special))
+    thought = special.clause.that
+    if (
+        name in _BELIEF
+        and is_other(special.subject)
+        and thought is not None
+        and (thought.feelings or {key for key, _ in thought.adjectives} & _JUDGING)
+    ):  # "he will think that we are rude"
+        return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF and is_other(special.subject):
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))
+    if name in _LIKING and is_other(special.subject):
+        return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF:
-        return Believed(special.content or _about(special), time_of(special), tense_of(special))
+        return believed(special, special.content or _about(special))
     if name in _DECISION:
         return _decided(special)
     rule = _RULES.get(name)
@@ -86,21 +97,6 @@ def _positive(special: Special) -> Proposition:
     verb = cast(Any, special.clause.verb).key
     thing = as_thing(special.object)
     return Happens(event_of(special, "do", thing or Unknown(verb)))
-
-
-def _rated(special: Special) -> Proposition:
-    """Read "you rated the lorry turning right at 91 percent"."""
-    about = special.content or _about(special)
-    for sem in special.match.phrases.values():
-        if isinstance(sem, Quantity) and not isinstance(about, That):
-            measured = Measured(
-                "probability", about=about, time=time_of(special), tense=tense_of(special)
-            )
-            return Compares(measured, "same", sem)
-        event = event_in(sem)
-        if event is not None:
-            about = Happens(event)
-    return Believed(about, time_of(special), tense_of(special))
 
 
 def _about(special: Special) -> Proposition:
@@ -119,14 +115,11 @@ def _decided(special: Special) -> Proposition:
     content = special.content
     if isinstance(content, Happens):
         event = content.event
-        fields = {k: getattr(event, k) for k in event.__struct_fields__}
         if special.name in ("want", "plan"):
-            fields["modal"] = "want"
-        fields["actor"] = special.subject
-        fields["tense"] = tense_of(special)
-        if isinstance(fields["time"], Unsaid):
-            fields["time"] = time_of(special)
-        return Happens(Event(**fields))
+            event = structs.replace(event, modal="want")
+        if isinstance(event.time, Unsaid):
+            event = structs.replace(event, time=time_of(special))
+        return Happens(structs.replace(event, actor=special.subject, tense=tense_of(special)))
     if isinstance(content, Not):
         return content
     sem = special.object
@@ -145,59 +138,18 @@ def _see(special: Special) -> Proposition:
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))
     if special.content is not None and special.clause.that is not None:
         return Believed(special.content, time_of(special), tense_of(special))
+    seen = special.content.event.actor if isinstance(special.content, Happens) else None
+    if isinstance(seen, Described | Vehicle) and tense_of(special) in ("present", "perfect"):
+        return Related("can-see", special.subject, seen, time_of(special), tense_of(special))
     if special.content is not None and isinstance(special.content, Happens):
         return Believed(special.content, time_of(special), tense_of(special))
-    thing = as_thing(special.object) or as_thing(special.clause.gap) or Pronoun("it")
+    both = each_seen(special.subject, special.object, time_of(special), tense_of(special))
+    if both is not None:
+        return both
+    each = Pronoun("them-all" if "both" in special.clause.focus else "it")
+    unseen = Ego() if is_other(special.subject) else each
+    thing = as_thing(special.object) or as_thing(special.clause.gap) or unseen
     return Related("can-see", special.subject, thing, time_of(special), tense_of(special))
-
-
-def _have(special: Special) -> Proposition:
-    sem = special.object
-    over = next((as_thing(s) for k, s in special.match.phrases.items() if k in
-                 ("over", "bearing-ahead", "with")), None)  # fmt: skip
-    if over is None and not isinstance(special.clause.than, Clause):
-        over = as_thing(special.clause.than)
-    if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
-        other = over or sem.of.to or Everyone()
-        time = time_of(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
-        return Related("has-priority-over", special.subject, other, time, tense_of(special))
-    if isinstance(sem, Measure) and sem.of.attribute in ("indicator", "brake-lights"):
-        value = special.clause.side or "on"
-        return Has(sem.of.attribute, value, special.subject, time_of(special), tense_of(special))
-    if isinstance(sem, Measure):
-        return Compares(Measured(sem.of.attribute, special.subject), "same", None)
-    if isinstance(sem, Feature) and sem.kind == "space":
-        return roomy(special.clause, time_of(special))
-    if isinstance(sem, Road) and sem.which == "main":
-        return Related("has-priority-over", special.subject, over or Everyone(), time_of(special),
-                       tense_of(special))  # fmt: skip
-    if isinstance(sem, Feature):
-        return Exists(sem, time_of(special), tense_of(special))
-    if isinstance(sem, Noun):
-        return _have_noun(special, sem)
-    thing = as_thing(sem)
-    if thing is None and special.content is None and not isinstance(sem, Event):
-        return Happens(Event("do", special.subject, Unknown("have")))
-    thing = thing or Pronoun("that")
-    if isinstance(sem, Event):
-        return Happens(Event(sem.action, special.subject, sem.object, sem.side, sem.manner,
-                             time_of(special), tense_of(special)))  # fmt: skip
-    if special.content is not None:
-        return special.content
-    if isinstance(thing, Described | Nobody) and isinstance(special.subject, Ego | Passenger):
-        return Exists(thing, time_of(special), tense_of(special))  # "you've a lorry on the left"
-    return Related("with", special.subject, thing, time_of(special), tense_of(special))
-
-
-def _have_noun(special: Special, sem: Noun) -> Proposition:
-    if sem.key == "problem" and is_other(special.subject):
-        return Is("faulty", special.subject, time=time_of(special))
-    if sem.key == "problem":
-        return Is("wrong", special.subject, time=time_of(special), tense=tense_of(special))
-    if sem.key in ("option", "plan", "reason"):
-        found: Proposition = Is("possible", time=time_of(special), tense=tense_of(special))
-        return Not(found) if sem.negative else found
-    return Related("with", special.subject, Unknown(sem.word), time_of(special), tense_of(special))
 
 
 def _make_do(special: Special) -> Proposition:
@@ -210,6 +162,10 @@ def _make_do(special: Special) -> Proposition:
 
 def _cause(special: Special) -> Proposition:
     sem = special.object
+    by = special.match.phrases.get("by") if special.clause.passive else None
+    cause, done = as_thing(cast(Any, by)), propose(special.clause.subject)
+    if cause is not None and done is not None:
+        return Caused(cause, done)
     effect: Proposition | None = Happens(sem) if isinstance(sem, Event) else None
     return Caused(special.subject, effect)
 
@@ -242,6 +198,8 @@ def _is(
         event = special.object if isinstance(special.object, Event) else None
         if isinstance(special.content, Happens):
             event = special.content.event
+        if event is None and not of_object and isinstance(special.clause.subject, Event):
+            event = special.clause.subject  # "the lane change was over"
         thing = as_thing(special.object) if of_object else special.subject
         found: Proposition = Is(cast(Any, state), None if event else thing, event,
                                 time=time_of(special), tense=tense_of(special))  # fmt: skip
@@ -250,32 +208,31 @@ def _is(
     return rule
 
 
-def _exceed(special: Special) -> Proposition:
-    speed = Measured("speed", special.subject, time=time_of(special), tense=tense_of(special))
-    limit = Measured("limit", special.subject)
-    beside = special.match.phrases.get("over")
-    said = beside if isinstance(beside, Quantity) else special.object
-    if isinstance(said, Quantity):
-        if said.unit == "count":
-            said = Quantity(round(said.value / 3.6, 6), "m/s")  # nobody says "km/h"
-        nodes = [node for _, node in special.clause.objects]
-        nodes += [phrase.node for phrase in special.clause.complements if phrase.sem == beside]
-        words = {word for node in nodes for word in words_of(node).split()}
-        more = special.clause.verb is None or special.clause.verb.key not in ("do", "go", "drive")
-        more = more or bool(words & _ABOVE)
-        less: Any = "less" if words & _BELOW else "same"
-        return Compares(speed, "more" if more else less, said)
-    return Compares(speed, "more", limit)
-
-
 def _seem(special: Special) -> Proposition:
     if special.content is not None:
         return special.content
+    if special.clause.feelings and is_other(special.subject):
+        return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if special.clause.adjectives:
         key = special.clause.adjectives[0][0]
         state: Any = key if key in STATES else "right"
         return Is(state, special.subject, time=time_of(special))
     return Related("same-as", special.subject, as_thing(special.object) or Pronoun("that"))
+
+
+def _deem(special: Special) -> Proposition:
+    """Read "do you call that safe": whether it is."""
+    key = special.clause.adjectives[0][0] if special.clause.adjectives else ""
+    state: Any = key if key in STATES else "right"
+    return Is(state, as_thing(special.object) or Pronoun("that"), time=time_of(special))
+
+
+def _leave_space(special: Special) -> Proposition:
+    """Read "leave him more room", "leave more room for him": whom we keep a distance to."""
+    named = next((special.match.phrases[k] for k in ("into", "for") if k in special.match.phrases),
+                 special.object)  # fmt: skip
+    whom = None if isinstance(as_thing(named), Feature) else as_thing(named)
+    return Happens(event_of(special, "keep-distance", whom))
 
 
 def _priority(special: Special) -> Proposition:
@@ -310,21 +267,25 @@ def _signal(special: Special) -> Proposition:
 
 
 _RULES: dict[str, Callable[[Special], Proposition]] = {
-    "see": _see, "look": _see, "have": _have, "make-do": _make_do, "cause": _cause,
+    "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,
     "had-wrong": had_wrong, "happen-wrong": _is("wrong"),
     "exist": lambda s: Exists(s.subject, time_of(s), tense_of(s)),
     "break": _is("faulty"), "late": _is("late"), "obey": _is("allowed"),
-    "violate": _is("allowed", positive=False), "exceed": _exceed,
+    "violate": _is("allowed", positive=False), "exceed": exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
-    "free-up": _is("free"), "seem": _seem, "give-priority": _priority, "switch": _signal,
+    "free-up": _is("free"), "seem": _seem, "deem": _deem,
+    "give-priority": _priority, "switch": _signal,
     "become": lambda s: become(s, event_of),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
-    "leave-space": lambda s: Happens(event_of(s, "keep-distance", as_thing(s.object))),
+    "leave-space": _leave_space,
     "begin": begun, "change": changed,
-    "lose-sight": _lost,
+    "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
+    "refrain": given_up,
+    "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
+                              time_of(s), tense_of(s)),
     "recede": _recede, "with": _along,
     "load": lambda s: Has("load", "", s.subject, time_of(s), tense_of(s)),
     "driver": lambda s: Has("occupant", "", as_thing(s.object) or Pronoun("it"), time_of(s)),

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     Claim,
     Fault,
+    Feel,
     HowSure,
     Question,
     Repair,
@@ -39,16 +40,18 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.orders import Orders
+from xavi_dialogue.nlu.compose.orders import Orders, wavers
 from xavi_dialogue.nlu.compose.phrases import Phrases
 from xavi_dialogue.nlu.compose.polar import judged
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.states import ungoverned
-from xavi_dialogue.nlu.compose.talk import feeling_of
+from xavi_dialogue.nlu.compose.talk import bodily, feeling_of
+from xavi_dialogue.nlu.compose.tally import counts, tallied
 from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
 from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.wishes import wished
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -56,6 +59,8 @@ Acts = tuple[Act, ...]
 Found = list[tuple[Acts, float]]
 UNLIKE = 0.6  # cost of a subject and a verb of different number
 STATED = 0.15  # of a statement taken for a question
+#: What is felt of how something was done, and asks for nothing.
+_UPSET = ("happy", "annoyed", "angry", "sad", "impressed", "relieved")
 _GROUNDLESS = ("for no reason", "for no good reason", "for nothing", "without reason",
                "without any reason", "without a reason", "needlessly", "unnecessarily")  # fmt: skip
 
@@ -71,9 +76,13 @@ class Statements:
 
     def _declarative(self, unit: Node) -> Found:
         clause = self.phrases.slots.fill(unit.parts)
-        meant = self._meant(clause)
+        meant = self._meant(clause) or bodily(clause)
         if meant is not None:
             return [((meant,), 0.0)]
+        sore = clause.feelings[:1] if clause.verb is None and clause.question is not None else []
+        if sore and sore[0] in _UPSET and isinstance(clause.subject, Passenger):
+            felt = feeling_of(clause, None)
+            return [((felt,), 0.0)] if felt is not None else []
         order = self.orders.stated(clause)
         if order is not None:
             return [(order, 0.0)]
@@ -82,18 +91,24 @@ class Statements:
         ):
             return [((Social("insult"),), 0.0)]
         opinion = any(key == "opinion" for key, _ in clause.adjectives)
+        kind = any(key == "kind" for key, _ in clause.adjectives)
+        opinion = opinion or (kind and (clause.negated or self.asks or _tagged(unit)))
+        if any(key == "fun" for key, _ in clause.adjectives) and clause.verb is None:
+            return [((Feel("disliking" if clause.negated else "liking"),), 0.0)]
+        if kind and not opinion and clause.verb is None:
+            return [((Feel("liking"),), 0.0)]
         if opinion and not isinstance(clause.subject, Ego):
             return [((Ask(Fault(That(), judged(clause))),), 0.0)]
         candidates = self.propositions.readings(clause)
         asking = _asking(unit)
-        tagged = bool(asking) or _tagged(unit)
+        tagged = asking not in ("", "wishing") or _tagged(unit)
         if (tagged or self.asks or not candidates) and not clause.feelings:
             compared = self.questions.comparison(clause)
             if compared is not None:
                 return [((Ask(self.questions.framed(compared, clause, None)),), STATED)]
         found: Found = []
         for candidate in candidates:
-            acts = self._stated(clause, candidate.value, tagged, words_of(unit))
+            acts = self._stated(clause, candidate.value, tagged, unit)
             acts = tuple(_asked(act, asking) for act in acts)
             found.append((acts, candidate.cost + (UNLIKE if _disagrees(clause) else 0.0)))
         others = isinstance(clause.subject, Described) or clause.subject == Pronoun("he")
@@ -113,26 +128,34 @@ class Statements:
         thing = next((t for sem in sems if (t := as_thing(sem)) is not None), None)
         return Repair("meant", thing) if thing is not None and thing != Ego() else None
 
-    def _stated(self, clause: Clause, value: Any, tagged: bool, unit_words: str) -> Acts:
+    def _stated(self, clause: Clause, value: Any, tagged: bool, unit: Node) -> Acts:
+        unit_words, wishing = words_of(unit), _asking(unit) == "wishing"
         feeling = feeling_of(clause, value)
         if feeling is not None:
             return (feeling,)
         asked = self._embedded(clause, value)
         if asked:
             return asked
-        of = self.propositions.joined(clause, fact(value))
-        if (why := _groundless(unit_words, of)) is not None:
+        if wavers(clause, value):
+            return (Ask(Why(Happens(Event("change-plan", tense="perfect")))),)
+        counted = counts(clause)
+        of = counted or tallied(clause, self.propositions.joined(clause, fact(value)))
+        if (why := groundless(unit_words, of)) is not None:
             return (Ask(why),)
         if isinstance(value, Special) and isinstance(clause.subject, Passenger) and _thinks(value):
             of = Not(value.content) if value.content is not None else of
         of = _in_our_place(of, clause)
-        if clause.there and clause.inner is not None and isinstance(of, Not | Is):
+        wish = None if tagged or self.asks else wished(of, clause, wishing=wishing)
+        if wish is not None:
+            return (wish,)
+        if clause.there and clause.inner is not None and _is_needless(of):
             return (Ask(Why(Happens(replace(clause.inner, tense=cast(Any, clause.tense))))),)
         if isinstance(value, Special) and isinstance(clause.subject, Passenger):
             expected = self._expected(value)
             if expected is not None:
                 return (Ask(expected),)
-        if tagged or self.asks:
+        anybody = unit_words.startswith("any") and clause.modal is None  # "anyone else coming"
+        if tagged or self.asks or anybody:
             question = self.questions.polar(clause, value, tag=True)
             match question:
                 case Whether(that=Is(state="stationary") as still) if "not moving" in unit_words:
@@ -147,6 +170,8 @@ class Statements:
         supposed = self.questions.supposition(clause)
         if supposed is not None:
             return (Ask(self.questions.framed(Whether(of, True), clause, value)),)
+        if isinstance(of, Not) and isinstance(of.content, Is) and of.content.state == "comfortable":
+            return (Claim(replace(of.content, state="uncomfortable")),)
         return (Claim(of, _disputes(of, clause)),)
 
     def _expected(self, value: Special) -> Question | None:
@@ -175,7 +200,7 @@ def _disagrees(clause: Clause) -> bool:
     return named or isinstance(clause.subject, (Measure, Noun, Unknown))
 
 
-_ASKING = ("asking", "likely", "agreeing")
+_ASKING = ("asking", "likely", "agreeing", "wishing")
 
 
 def _asking(unit: Node) -> str:
@@ -204,7 +229,20 @@ def _tagged(unit: Node) -> bool:
     return False
 
 
-def _groundless(words: str, of: Proposition) -> Question | None:
+def _is_needless(of: Proposition) -> bool:
+    """Say whether it is told of a deed that there is no need or point, and not of room for it."""
+    inner = of.content if isinstance(of, Not) else of
+    return isinstance(of, Not | Is) and not (isinstance(inner, Is) and inner.state == "roomy")
+
+
+def disputed(question: Question, words: str) -> Question:
+    """Ask "are we stopping for no reason?" why we do."""
+    if not isinstance(question, Whether):
+        return question
+    return groundless(words, question.that) or question
+
+
+def groundless(words: str, of: Proposition) -> Question | None:
     """Take "you braked for nothing" for the question why: what it disputes is the reason."""
     if not any(phrase in words for phrase in _GROUNDLESS) or not isinstance(of, Happens):
         return None
@@ -223,6 +261,10 @@ def _in_our_place(of: Proposition, clause: Clause) -> Proposition:
     match of:
         case Not(content=content):
             return Not(_in_our_place(content, clause))
+        case Happens(event=Event(modal="would", tense="past") as event) if (
+            clause.subject == Passenger() and isinstance(event.actor, Ego | Passenger)
+        ):  # "I would not have gone there"
+            return Happens(replace(event, actor=Ego(), modal="should"))
         case Compares(left=Measured(attribute="speed", thing=driver), comparator=more) if (
             driver == Described(definite=False) and clause.modal == "would"
         ):

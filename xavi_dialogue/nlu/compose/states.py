@@ -1,5 +1,6 @@
 """States: clauses with "be" and no other verb."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
@@ -9,24 +10,30 @@ from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
+    Everyone,
     Feature,
     Happens,
     Is,
+    Lane,
     Measured,
+    Nobody,
     Not,
     Pronoun,
     Proposition,
     Quantity,
     Related,
+    Road,
     That,
     Thing,
     Unsaid,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.existence import existing
+from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.placing import LOOSE, placed
 from xavi_dialogue.nlu.compose.predicates import (
     UNITS,
@@ -37,10 +44,11 @@ from xavi_dialogue.nlu.compose.predicates import (
 from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import (
     Measure,
+    Sem,
     as_thing,
     is_thing,
 )
-from xavi_dialogue.nlu.compose.things import relation_of
+from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.trends import nearness
 
 _NEGATED = {"illegal": "allowed", "unnecessary": "necessary", "impossible": "possible",
@@ -95,6 +103,8 @@ _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 #: What is said of a deed by how it was done.
 _MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly"}
 BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" is a question
+FOR_WHOM = 0.7  # cost of "for the bus" in "that is, for the bus, the lorry"
+RUN_ON = 1.5  # cost of "did" and "was" in one clause
 _SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
 Found = tuple[Proposition, float]
 
@@ -107,6 +117,8 @@ def state_of(clause: Clause) -> list[Found]:
     if isinstance(spoken, Described) and spoken.bearing is None and said and bearing in _SIDES:
         clause.subject = with_fields(spoken, bearing=bearing)  # "is that car behind as fast?"
     extra = ungoverned(clause) - 0.12
+    if clause.has("do") and "be-past" in clause.aux:
+        extra += RUN_ON  # "why did that car brake was it for us"
     return [(Not(p) if clause.negated else p, cost + extra) for p, cost in _found(clause)]
 
 
@@ -122,11 +134,19 @@ def _found(clause: Clause) -> list[Found]:
     if clause.there:
         return existing(clause)
     subject = clause.subject
+    if clause.feelings and _feels(subject):
+        who = as_thing(subject)
+        return [(Is("upset", who, time=clause.time, tense=tense_of(clause)), -0.1)]
     for key, degree in clause.adjectives:
         if key in _MANNERS and isinstance(subject, Event):
             hard = (*subject.manner, _MANNERS[key])
             deed = with_fields(subject, manner=hard, time=clause.time, tense=tense_of(clause))
             return [(Happens(deed), 0.0)]  # "was that braking hard?"
+        if key == "over" and bearing_here(clause):
+            who = as_thing(subject) or Ego()
+            return [(Happens(Event("keep-lane", who, tense=tense_of(clause))), 0.0)]
+        if key in _MANNERS and isinstance(subject, Pronoun):
+            return [(_is(clause, "uncomfortable", degree == "too"), 0.0)]  # "that was sudden"
         if key in STATES or key in _NEGATED:
             beside = any(isinstance(sem, Pronoun) for sem, _ in clause.objects)
             return [(_is(clause, key, degree == "too"), BESIDE * beside)]
@@ -136,19 +156,29 @@ def _found(clause: Clause) -> list[Found]:
             return [(compared, 0.0)]
     if "first" in clause.manner and is_thing(subject):
         return [(Is("first", as_thing(subject), time=clause.time, tense=tense_of(clause)), 0.0)]
+    if any(words_of(c.node).startswith("close to") for c in clause.complements):
+        return placed(clause)  # "that was a bit close to the van"
     for manner, state in (("fast", "fast"), ("slowly", "slow"), ("safely", "safe"),
-                          ("close", "close"), ("late", "late"), ("early", "late"),
-                          ("far", "far")):  # fmt: skip
+                          ("gently", "comfortable"), ("hard", "uncomfortable"),
+                          ("suddenly", "uncomfortable"), ("close", "close"), ("late", "late"),
+                          ("early", "late"), ("far", "far")):  # fmt: skip
         if manner in clause.manner and not clause.objects and not isinstance(subject, Measure):
             return [(_is(clause, state, "too" in clause.focus), 0.05)]
     if isinstance(subject, Measure) and subject.of.attribute in ("brake-lights", "indicator"):
         return lights(clause, subject)
     if clause.objects:
-        return nominal(clause, clause.objects[0][0])
+        vague = isinstance(subject, Pronoun) and any(c.key == "for" for c in clause.complements)
+        found = nominal(clause, clause.objects[0][0])
+        return [(of, cost + FOR_WHOM) for of, cost in found] if vague else found
     if clause.because is not None and isinstance(subject, Pronoun):
         cause = None if isinstance(clause.because, Clause) else as_thing(clause.because)
         return [(Caused(cause) if cause is not None else That(), 0.0)]
     return placed(clause)
+
+
+def bearing_here(clause: Clause) -> bool:
+    """Say whether it is said of where one is: "over here", "out there"."""
+    return any(bearing in ("here", "there") for bearing, _ in clause.bearings)
 
 
 def subject_event(clause: Clause) -> Event | None:
@@ -156,6 +186,12 @@ def subject_event(clause: Clause) -> Event | None:
     if isinstance(clause.subject, Event):
         return clause.subject
     return None
+
+
+def _feels(sem: Sem | None) -> bool:
+    """Say whether somebody else is meant who may feel something."""
+    spoken = isinstance(sem, Pronoun) and sem.form in ("he", "she", "they", "who", "them-all")
+    return spoken or isinstance(sem, Described | Vehicle | Nobody | Everyone | Wanted)
 
 
 def _is(clause: Clause, key: str, too: bool) -> Proposition:
@@ -168,14 +204,19 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
         if state == "big" and clause.subject.of.attribute in ("gap", "distance"):
             return roomy(clause, clause.time)  # "was the gap big enough"
     spoken = isinstance(thing, Pronoun) and thing.form in ("that", "this", "it")
+    if spoken and state == "free":
+        thing = _free_place(clause) or thing
     if isinstance(thing, Pronoun) and (inner is not None or (spoken and state == "allowed")):
         thing = None
     bend = any(c.key == "for" and isinstance(c.sem, Feature) for c in clause.complements)
     if state in ("fast", "slow") and isinstance(thing, Pronoun) and bend:
         thing = Ego()  # "was it not too fast for this curve?"
-    if state in ("close", "far") and isinstance(thing, Pronoun):
+    if state in ("close", "far") and isinstance(thing, Pronoun | Ego):
         thing = _near_what(clause, thing)
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
+    beside = None if bearing is None else as_thing(bearing.sem)
+    if state in ("close", "far") and thing == Ego() and isinstance(beside, Described | Vehicle):
+        thing = beside  # "we are very close to that car"
     found: Proposition = Is(
         cast(Any, state), thing, event or inner, too, when(clause, None), tense_of(clause)
     )
@@ -189,17 +230,30 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     return Not(found, lexical=True) if key in _NEGATED else found
 
 
+def _free_place(clause: Clause) -> Thing | None:
+    """Tell what is free where "it is clear on the left", "is it clear ahead?" is said."""
+    for bearing, _ in clause.bearings:
+        if bearing in ("left", "right"):
+            return Lane(cast(Any, bearing))
+        if bearing == "ahead":
+            return Road()
+    return None
+
+
 def _near_what(clause: Clause, thing: Thing) -> Thing:
     """Tell what "that was close with the car" and "is it still far" are said of."""
     for phrase in clause.complements:
         other = as_thing(phrase.sem)
-        if phrase.key in ("with", "to") and isinstance(other, (Described, Vehicle)):
+        if phrase.key in ("with", "to", "into") and isinstance(other, (Described, Vehicle)):
             return other
     return Destination() if clause.still and not clause.bearings else thing
 
 
 def _compares(clause: Clause) -> Proposition | None:
     key, words = clause.comparisons[0]
+    if words.startswith("no "):
+        positive = _compares(replace(clause, comparisons=[(key, words.removeprefix("no "))]))
+        return None if positive is None else Not(positive)
     sem = clause.subject
     if key in _COMPARED and isinstance(sem, Measure) and isinstance(clause.than, Quantity):
         of = cast(Measured, with_fields(sem.of, time=clause.time, tense=tense_of(clause)))

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Not,
     Proposition,
+    Unsaid,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
@@ -22,6 +23,12 @@ from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+_AUXILIARY = frozenset({"BE", "DO", "HAVE", "HAD", "MODAL"})
+#: What "had you ...?" asks of us: whether we did, and not what would have been.
+_NOTICING = frozenset(
+    {"see", "notice", "spot", "account", "consider", "know", "expect", "realise", "predict",
+     "foresee", "anticipate", "detect", "register", "plan"}
+)  # fmt: skip
 Found = list[tuple[tuple[Act, ...], float]]
 
 
@@ -143,3 +150,23 @@ def at_once(of: Proposition) -> Proposition:
 def suppose(supposed: Proposition) -> Act:
     """Ask what follows from a supposition."""
     return Ask(WhatIf(supposed))
+
+
+def supposes(unit: Node, clause: Clause) -> bool:
+    """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact."""
+    had = next((p for p in unit.parts if isinstance(p, Leaf) and p.category in _AUXILIARY), None)
+    timed = not isinstance(clause.time, Unsaid) or clause.focus or clause.manner
+    if had is None or had.category != "HAD" or clause.verb is None or timed:
+        return False
+    return clause.verb.key not in _NOTICING or not isinstance(clause.subject, Ego)
+
+
+def goes_on(unit: Node) -> bool:
+    """Say whether "and" stands behind "had you seen it": then nothing is supposed."""
+    for part, later in zip(unit.parts, unit.parts[1:], strict=False):
+        led = isinstance(part, Node) and part.name == "lead_clause"
+        if led and isinstance(part, Node) and node_of(part, "hads") is not None:
+            rest = unit.parts[unit.parts.index(later) :]
+            leaves = [p.category for p in rest if isinstance(p, Leaf) and p.category != "COMMA"]
+            return bool(leaves) and leaves[0] == "AND"
+    return False

@@ -18,16 +18,22 @@ from xavi_dialogue.domain.terms import (
     Back,
     Ego,
     Event,
+    Everyone,
     Happens,
+    Is,
+    Not,
     Passenger,
     Pronoun,
     Proposition,
     That,
     Thing,
 )
+from xavi_dialogue.domain.vocabulary import FeelingKind
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.sem import Sem, as_thing
+from xavi_dialogue.nlu.compose.sem import Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _FEELINGS = {
@@ -40,6 +46,11 @@ _FEELINGS = {
 }
 
 
+_BODY: dict[str, FeelingKind] = {"heart": "startled", "body": "sick", "spill": "startled"}
+_PRAISING = frozenset(
+    {"clever", "good", "lovely", "brilliant", "genius", "star", "hero", "angel", "wonderful",
+     "beauty", "darling", "great", "smart", "dear", "sweet"}
+)  # fmt: skip
 _SAYING = frozenset({"ask", "say", "use", "talk", "speak", "phrase"})
 
 
@@ -75,10 +86,32 @@ def talk_act(leaf: Leaf) -> Act | None:
     return None
 
 
+def called(node: Node) -> list[tuple[tuple[Act, ...], float]]:
+    """Read "you useless lump of metal", "you clever car": what we are called."""
+    leaves = list(leaves_of(node))
+    if len(leaves) < 2:
+        return []
+    words = {word for leaf in leaves for word in leaf.words}
+    good = any(leaf.key in ("safe", "kind", "comfortable") for leaf in leaves)
+    kind: Any = "praise" if good or not words.isdisjoint(_PRAISING) else "insult"
+    return [((Social(kind),), 0.0)]
+
+
+def bodily(clause: Clause) -> Act | None:
+    """Read "my heart is pounding", "I felt that in my tummy", "my coffee!" as a feeling."""
+    sems = [clause.subject, *(sem for sem, _ in clause.objects)]
+    sems += [phrase.sem for phrase in clause.complements]
+    kinds = [sem.key for sem in sems if isinstance(sem, Noun) and sem.key in _BODY]
+    return Feel(_BODY[kinds[0]]) if kinds else None
+
+
 def feeling_of(clause: Clause, value: Any) -> Act | None:
     """Read "I am nervous", "that scared me", "I don't like it when you go so fast"."""
     subject = clause.subject
     if clause.feelings and isinstance(subject, (Passenger, Ego)) and _own(clause):
+        hurried = clause.feelings[0] == "impatient"
+        if clause.feelings[0] == "patient" or (clause.negated and hurried):
+            return Social("acknowledge")
         if clause.negated:
             return Feel(cast(Any, _opposite(clause.feelings[0])), _about(clause))
         return Feel(cast(Any, clause.feelings[0]), _about(clause))
@@ -114,13 +147,17 @@ def _special_feeling(clause: Clause, value: Special) -> Act | None:
             about = None if isinstance(clause.subject, Passenger) else as_thing(clause.subject)
             return Feel(cast(Any, clause.feelings[0]), about)
         return None
-    if name == "feel-adj" and isinstance(clause.subject, (Passenger, Pronoun)):
+    if name == "make-do" and isinstance(value.content, Is | Not):
+        return _made_feel(value.content)
+    everything = isinstance(clause.subject, Everyone | Noun | Event)
+    if name == "feel-adj" and (everything or isinstance(clause.subject, (Passenger, Pronoun))):
         state = clause.adjectives[0][0] if clause.adjectives else ""
         feeling = {"safe": "relieved", "dangerous": "afraid", "comfortable": "happy",
                    "uncomfortable": "nervous", "fast": "nervous"}.get(state, "nervous")  # fmt: skip
         if clause.negated:
             feeling = "nervous"
-        return Feel(cast(Any, feeling), None)
+        quick = state == "fast" and not clause.negated
+        return Feel(cast(Any, feeling), Is("fast", Ego()) if quick else None)
     if name in _FEELINGS and isinstance(clause.subject, Passenger):
         feeling = _FEELINGS[name]
         if name == "like":
@@ -131,6 +168,14 @@ def _special_feeling(clause: Clause, value: Special) -> Act | None:
             return None
         return Feel(cast(Any, feeling), _object(clause, value))
     return None
+
+
+def _made_feel(content: Proposition) -> Act | None:
+    """Read "that makes me feel better": what was said does the passenger good."""
+    inner = content.content if isinstance(content, Not) else content
+    if not isinstance(inner, Is) or inner.thing != Passenger():
+        return None
+    return Feel("nervous" if isinstance(content, Not) else "relieved")
 
 
 def _object(clause: Clause, value: Special) -> Proposition | Thing | None:

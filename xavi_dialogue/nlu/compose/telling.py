@@ -12,6 +12,8 @@ from xavi_dialogue.domain.meaning import (
     Question,
     Repair,
     Summarise,
+    WhatIf,
+    When,
     Whether,
     Why,
 )
@@ -19,8 +21,10 @@ from xavi_dialogue.domain.terms import (
     Described,
     Event,
     Happens,
+    Junction,
     Passenger,
     Pronoun,
+    Relative,
     That,
     Thing,
     Time,
@@ -32,9 +36,11 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import asked_each, asked_of, counted, propose
+from xavi_dialogue.nlu.compose.frames import is_short
+from xavi_dialogue.nlu.compose.nominal import asked_of, counted, propose
 from xavi_dialogue.nlu.compose.others import is_person
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.severally import asked_each, towards
 from xavi_dialogue.nlu.compose.wh import Wh
 
 _SHOWING = frozenset(
@@ -52,7 +58,7 @@ class Telling:
         wh, questions = cast("tuple[Wh | None, list[Question]]", clause.question)
         if questions:
             framed = self.composer.questions.framed(questions[0], clause, None)
-            return (Ask(framed),)
+            return (Ask(framed), *(Ask(question) for question in clause.also))
         if wh is not None and wh.kind == "why":
             return (Repair("why"),)
         return ()
@@ -95,7 +101,26 @@ class Telling:
             return ()
         return self._told(clause, value, sem)
 
+    def asked_if(self, clause: Clause) -> Question | None:
+        """Read "tell me if he brakes" and "remind me when he braked" as the question there."""
+        given = clause.condition
+        if given is not None and not clause.led and not is_short(given):
+            found = self.composer.questions.whether(given)
+            return cast(Question, found[0][0]) if found else None
+        match clause.time:
+            case Relative(relation="during", anchor=Event() as event):
+                return When(Happens(event))
+        return None
+
     def _told(self, clause: Clause, value: Special, sem: Sem | None) -> tuple[Act, ...]:
+        if value.content is None and isinstance(sem, Passenger | Pronoun | None):
+            inner = self.asked_if(clause)
+            if inner is not None:
+                return (Ask(inner),)
+        if clause.verb is not None and clause.verb.key == "say" and clause.that is not None:
+            supposed = self.composer.questions.supposed(clause.that)
+            if supposed is not None:
+                return (Ask(WhatIf(supposed)),)  # "say he had braked"
         if value.content is not None and clause.that is not None:
             return (Ask(Whether(value.content)),)
         if sem is None or isinstance(sem, (Passenger, Pronoun)):
@@ -106,7 +131,7 @@ class Telling:
             return (Ask(Why(timed(Happens(sem), clause.time))),)
         if isinstance(sem, (Moment, Unknown)):
             return (Ask(Identify(sem)),) if isinstance(sem, Unknown) else ()
-        each = asked_each(sem, clause.time, clause.tense)
+        each = asked_each(sem, clause, clause.tense)
         if each:
             return tuple(Ask(question) for question in each)
         thing = as_thing(sem)
@@ -114,7 +139,9 @@ class Telling:
             p.key == "about" for p in clause.complements
         ):
             return (Ask(Summarise(thing, clause.time)),)
-        question = asked_of(sem, clause.time, clause.tense)
+        if isinstance(thing, Junction):
+            return (Ask(Summarise(thing, clause.time)),)  # "give me the whole junction"
+        question = asked_of(towards(sem, clause.complements), clause.time, clause.tense)
         if isinstance(question, Why):
             question = Why(timed(question.of, clause.time))
         return (Ask(question),) if question is not None else ()
@@ -159,7 +186,8 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
         met = thing.doing is not None and thing.doing.action in _MEETING
         if met:
             return Listing("vehicles", time=WholeRide())
-        if thing.doing is not None and isinstance(thing.doing.object, Wanted):
+        due = thing.doing is not None and thing.doing.modal is not None  # "you have to yield to"
+        if thing.doing is not None and isinstance(thing.doing.object, Wanted) and not due:
             return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
         return Listing("vehicles", thing, clause.time)
     found = asked_of(sem, clause.time)

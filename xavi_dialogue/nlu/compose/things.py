@@ -7,18 +7,17 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
-    Happens,
+    Is,
     Nobody,
-    Not,
     Passenger,
     Pronoun,
     Quantity,
-    Related,
     Thing,
     Unknown,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.followers import Followers, doing
 from xavi_dialogue.nlu.compose.heads import noun, rank_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
@@ -31,7 +30,6 @@ from xavi_dialogue.nlu.compose.sem import (
 )
 from xavi_dialogue.nlu.compose.traits import Traits, described
 from xavi_dialogue.nlu.compose.tree import (
-    is_negated,
     leaf_of,
     leaves_of,
     node_of,
@@ -42,6 +40,8 @@ from xavi_dialogue.nlu.compose.tree import (
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+_CROSSING = frozenset({"cross", "pass", "overtake", "let-go", "come", "see"})
+_AMISS = frozenset({"dangerous", "wrong", "uncomfortable"})  # of what happens
 _SCALES = {
     "kmh": ("m/s", 1 / 3.6),
     "mph": ("m/s", 0.44704),
@@ -54,28 +54,15 @@ _SCALES = {
     "min": ("s", 60.0),
     "h": ("s", 3600.0),
     "percent": ("%", 1.0),
+    "half": ("%", 50.0),
+    "third": ("%", 33.3),
+    "quarter": ("%", 25.0),
     "times": ("count", 1.0),
 }
-_RELATIONS = {
-    "ahead": "ahead-of",
-    "behind": "behind",
-    "left": "left-of",
-    "right": "right-of",
-    "beside": "beside",
-    "oncoming": "oncoming-to",
-    "around": "near",
-    "in-way": "in-the-way-of",
-    "here": "near",
-    "there": "near",
-    "far": "near",
-}
 
 
-class Nouns:
+class Nouns(Followers):
     """Reads noun phrases; clauses inside them are read by `clauses`."""
-
-    def __init__(self, clauses: Any) -> None:
-        self.clauses = clauses
 
     def read(self, node: Node) -> Sem:
         """Read an `np`, a group of them, or what can stand for one."""
@@ -85,11 +72,13 @@ class Nouns:
             return self._pronoun(cast(Leaf, node.parts[0]), Traits())
         core = node.parts[0]
         traits = Traits()
+        traits.reason = isinstance(core, Node) and _is_reason(core)
         for part in node.parts[1:]:
-            self._behind(part, traits)
+            self.follow(part, traits)
         if isinstance(core, Leaf):
             return Unknown(core.words[0])
-        return self._core(core, traits)
+        found = self._core(core, traits)
+        return Group((found, *traits.beside)) if traits.beside else found
 
     def _group(self, node: Node) -> Sem:
         join = "or" if leaf_of(node, "OR") else "and"
@@ -105,7 +94,8 @@ class Nouns:
 
     def _core(self, core: Node, traits: Traits) -> Sem:
         if core.name == "pronoun":
-            named = self._pronoun(cast(Leaf, core.parts[0]), traits)
+            leaf = cast(Leaf, core.parts[0])
+            named = self._pronoun(leaf, Traits() if leaf.category == "OBJPRON" else traits)
             cleft = isinstance(named, Ego | Pronoun) and traits.clause is not None
             relative = traits.gerund is not None and traits.gerund.name == "relative"
             if cleft and relative and traits.clause is not None:
@@ -116,7 +106,11 @@ class Nouns:
         if core.name == "driven":
             return self.read(cast(Node, core.parts[-1]))
         if core.name == "quantity":
-            return self._quantity(core)
+            amount = self._quantity(core)
+            if isinstance(amount, Quantity) and amount.unit == "count" and traits.clause:
+                traits.fields["number"] = int(amount.value)  # "four we had to wait for"
+                return described("vehicle", traits, plural=True)
+            return amount
         if core.name == "times_clause":
             return Moment("times", rank_of(leaf_of(core, "ORD")))
         if core.name == "sided":
@@ -145,8 +139,12 @@ class Nouns:
         leaf = cast(Leaf, leaf_of(core, "ANY"))
         kind = leaf_of(core, "KIND")
         for part in core.parts[1:]:
-            self._modifier(part, traits)
+            self.modify(part, traits)
         traits.kind = kind.key if kind else None
+        deed = traits.fields.get("doing")
+        if leaf.key == "everything" and isinstance(deed, Event) and deed.action in _CROSSING:
+            traits.determiner = "def"  # "everything that crossed in front of us"
+            return described("vehicle", traits, plural=True)
         if leaf.key == "everything":
             return Noun("ride", word="everything")
         if leaf.key == "everybody" and {"bearing", "doing", "such"} & traits.fields.keys():
@@ -155,6 +153,12 @@ class Nouns:
         if leaf.key == "everybody":
             return Everyone(cast(Any, traits.kind or "vehicle"))
         traits.determiner = "indef"
+        if leaf.key == "somebody":
+            words = {word for part in leaves_of(core) for word in part.words}
+            traits.other |= bool({"else", "another"} & words)
+        quality = leaf_of(core, "ADJ")
+        if quality is not None and quality.key in _AMISS:
+            traits.fields["such"] = Is(cast(Any, quality.key), Wanted())
         found = described(traits.kind or "vehicle", traits)
         if leaf.key == "nobody":
             return Nobody(found if found != Described(definite=False) else None)
@@ -177,10 +181,11 @@ class Nouns:
         if isinstance(head, Node):  # an unknown word as head
             head = cast(Leaf, head.parts[0])
         for part in parts[: -1 if head is not None else None]:
-            self._modifier(part, traits)
+            self.modify(part, traits)
         return head
 
-    def _modifier(self, part: Part, traits: Traits) -> None:
+    def modify(self, part: Part, traits: Traits) -> None:
+        """Note what stands before the head."""
         if isinstance(part, Node):
             self._phrase_before(part, traits)
             return
@@ -213,6 +218,8 @@ class Nouns:
                 traits.kind = key
             case "EVN":
                 traits.deed = key
+            case "PLACEN":
+                traits.place = as_thing(noun(part, Traits()))
             case "FROM":
                 traits.fields["origin"] = key
             case "ADJ":
@@ -232,7 +239,7 @@ class Nouns:
                 traits.fields["doing"] = self.clauses.relative(part, Wanted())
             case "of_all":
                 for leaf in leaves_of(part):
-                    self._modifier(leaf, traits)
+                    self.modify(leaf, traits)
 
     def _owner(self, node: Node) -> Sem:
         first = node.parts[0]
@@ -249,81 +256,13 @@ class Nouns:
             return Vehicle(int(number_of(node)))
         traits = Traits()
         for part in node.parts[:-1]:
-            self._modifier(part, traits)
+            self.modify(part, traits)
         if isinstance(last, Node):
             return Vehicle(int(number_of(last)))
         return noun(last, traits)
 
-    # --- what stands behind it ---------------------------------------
 
-    def _behind(self, part: Part, traits: Traits) -> None:
-        if isinstance(part, Leaf):
-            self._modifier(part, traits)
-            return
-        match part.name:
-            case "of":
-                traits.of = self.clauses.inner(part.parts[1])
-            case "at_bearing":
-                leaf = cast(Leaf, part.parts[0])
-                of = as_thing(self.read(cast(Node, part.parts[1])))
-                traits.fields["bearing"] = "ahead" if leaf.key == "in-way" else leaf.key
-                traits.fields["of"] = None if isinstance(of, (Ego, Passenger)) else of
-            case "relative" | "contact" | "participle" | "extent":
-                self._clause_behind(part, traits)
-            case "attached":
-                key = cast(Leaf, part.parts[0]).key
-                sem = self.clauses.inner(part.parts[1])
-                traits.about.append((key, sem))
-                gerund = part.parts[1]
-                if isinstance(sem, Event) and isinstance(gerund, Node) and is_negated(gerund):
-                    traits.clause = Not(Happens(sem))  # "the reason for not stopping"
-
-    def _clause_behind(self, part: Node, traits: Traits) -> None:
-        traits.gerund = part
-        found = self.clauses.relative_proposition(part)
-        traits.clause = found
-        match found:
-            case Happens(event=event):
-                event = self._placed(event, traits)
-                traits.fields["doing"] = event
-                traits.event = event
-            case Related(relation=relation, thing=Wanted(), to=to):
-                bearing = next((b for b, r in _RELATIONS.items() if r == relation), None)
-                if bearing is not None:
-                    traits.fields["bearing"] = bearing
-                    traits.fields["of"] = None if isinstance(to, Ego) else to
-            case None:
-                pass
-            case _:
-                traits.fields["such"] = found
-
-    def _placed(self, event: Event, traits: Traits) -> Event:
-        """Take the place of "standing on the right" for the place of who stands there."""
-        where = event.where
-        if where is None or where.thing != Wanted() or not isinstance(where.to, Ego):
-            return event
-        bearing = next((b for b, r in _RELATIONS.items() if r == where.relation), None)
-        if bearing is None or "bearing" in traits.fields:
-            return event
-        traits.fields["bearing"] = bearing
-        fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
-        return Event(**{**fields, "where": None})
-
-
-def doing(thing: Thing, event: Event | None) -> Sem:
-    """Read "vehicle 1 entering our lane" as the event."""
-    if event is None:
-        return thing
-    fields: dict[str, Any] = {k: getattr(event, k) for k in event.__struct_fields__}
-    actor = thing if isinstance(event.actor, Wanted) else event.actor
-    return Event(**{**fields, "actor": actor})
-
-
-def relation_of(bearing: str) -> str:
-    """Name the relation that a bearing is one side of."""
-    return _RELATIONS.get(bearing.split("-")[0], "near")
-
-
-def quantity_of(value: object) -> Quantity | None:
-    """Give a quantity as such."""
-    return value if isinstance(value, Quantity) else None
+def _is_reason(core: Node) -> bool:
+    """Say whether a noun phrase has a word for a reason at its head."""
+    head = core.parts[-1] if core.parts else None
+    return isinstance(head, Leaf) and (head.category, head.key) == ("ABS", "reason")

@@ -8,6 +8,7 @@ from xavi_dialogue.domain.terms import (
     AtDecision,
     Back,
     Between,
+    Event,
     Junction,
     Next,
     Now,
@@ -23,6 +24,12 @@ from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, nodes_of, number_
 from xavi_dialogue.nlu.grammar.chart import Node
 
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+UP_TO_NOW = 1e6  # [s] the end of a stretch that reaches up to now, or its decision
+#: Deeds that name by their beginning the moment at which something was so.
+MOMENTARY = frozenset(
+    ("go", "do", "brake", "slow-down", "speed-up", "stop", "change-lane", "change-left",
+     "change-right", "pull-out", "cut-in", "merge", "enter", "leave", "appear", "signal", "see"),
+)  # fmt: skip
 FEW = 5.0  # [s] "a few seconds"
 _ADVERBS: dict[str, Time] = {
     "now": Now(),
@@ -54,20 +61,38 @@ def time_of(node: Node) -> Time:
     clocks = [clock(leaf.key) for leaf in leaves_of(node) if leaf.category == "CLOCK"]
     if node.name == "time_between" and len(clocks) > 1:
         return Between(min(clocks), max(clocks))
-    if clocks:
+    if clocks and node.name != "time_to_now":
         return _placed(node, clocks[0])
     if node.name == "time_since":
         adverbs = [leaf.key for leaf in leaves_of(node) if leaf.category == "TIMEADV"]
         return Back("after") if "now" in adverbs else Unsaid()
+    if node.name == "time_to_now":
+        return _to_now(node)
     if node.name == "time_rank":
         return Rank(_rank(node))
     if node.name in ("time_decision", "time_decisions"):
         ranks = [int(number_of(part)) for part in nodes_of(node, "num")]
+        if _preposition(node) == "since":
+            ranks.append(int(UP_TO_NOW))
         return AtDecision(min(ranks), max(ranks) if len(ranks) > 1 else None)
     if node.name == "time_between":
         numbers = [number_of(part) for part in nodes_of(node, "num")]
         return Between(min(numbers), max(numbers))
     return _amount(node)
+
+
+def _to_now(node: Node) -> Time:
+    """Read "between 13 s and now", "from decision 4 to now"."""
+    adverb = leaf_of(node, "TIMEADV")
+    if adverb is None or adverb.key != "now":
+        return Unsaid()
+    clocks = [clock(leaf.key) for leaf in leaves_of(node) if leaf.category == "CLOCK"]
+    if clocks:
+        return Between(clocks[0], UP_TO_NOW)
+    number = number_of(nodes_of(node, "num")[0])
+    if leaf_of(node, "DECIDED") is not None:
+        return AtDecision(int(number), int(UP_TO_NOW))
+    return Between(seconds_of(node) or number, UP_TO_NOW)
 
 
 def _rank(node: Node) -> int:
@@ -79,6 +104,8 @@ def _placed(node: Node, at: float) -> Time:
     key = _preposition(node)
     if key == "before" or key == "until":
         return Between(0.0, at)
+    if key == "since":
+        return Between(at, UP_TO_NOW)
     return At(at)
 
 
@@ -104,6 +131,8 @@ def seconds_of(node: Node) -> float | None:
 
 def _amount(node: Node) -> Time:
     """Read an amount of time, or after "at" a bare number of seconds."""
+    if node.name == "time_bare" and leaf_of(nodes_of(node, "num")[0], "HUNDRED"):
+        return Unsaid()  # "he went past us at a hundred"
     if node.name == "time_bare":
         return At(number_of(nodes_of(node, "num")[0]))
     amount = seconds_of(node)
@@ -131,6 +160,14 @@ def relative(relation: str, anchor: object) -> Time:
     """Build a time before, after or during something."""
     names = {"before": "before", "after": "after", "until": "until", "since": "since"}
     return Relative(names.get(relation, "during"), anchor)  # type: ignore[arg-type]
+
+
+def is_moment(time: Time) -> bool:
+    """Tell whether a time is one moment: "at 12 s", "when you set off"."""
+    if isinstance(time, Relative):
+        of = time.anchor if time.relation == "during" else None
+        return isinstance(of, Event) and of.action in MOMENTARY
+    return isinstance(time, At) or (isinstance(time, AtDecision) and time.last is None)
 
 
 def place_time(key: str, sem: object) -> Time | None:

@@ -2,9 +2,13 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Described, Event, Proposition, Wanted
-from xavi_dialogue.nlu.compose.sem import Sem
+from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Wanted
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.compose.sem import Measure, Sem
 from xavi_dialogue.nlu.grammar.chart import Node
+
+#: What a vehicle does whose lights are on.
+LIGHTS: dict[str, ActionName] = {"indicator": "signal", "brake-lights": "brake"}
 
 
 class Traits:
@@ -23,11 +27,14 @@ class Traits:
         self.kind: str | None = None
         self.of: Sem | None = None
         self.about: list[tuple[str, Sem]] = []
+        self.beside: tuple[Sem, ...] = ()  # joined by "and" to the whole of it
         self.event: Event | None = None
+        self.place: Thing | None = None  # "the roundabout business"
         self.deed: str | None = None  # "standstill duration"
         self.other = False
         self.gerund: Node | None = None
         self.clause: Proposition | None = None
+        self.reason = False  # the head is a word for a reason
 
 
 def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
@@ -44,6 +51,15 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
     for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
         if key in traits.adjectives:
             fields.setdefault(*value)
+    for key, sem in traits.about:
+        if key in ("in", "on") and isinstance(sem, Described) and kind == "vehicle":
+            kind = sem.kind  # "the one on the motorbike", "somebody in a blue car"
+            for name in ("colour", "size"):
+                if getattr(sem, name) is not None:
+                    fields.setdefault(name, getattr(sem, name))
+        elif key == "with" and isinstance(sem, Measure) and sem.of.attribute in LIGHTS:
+            lit = LIGHTS[sem.of.attribute]  # "the one with the blinker on"
+            fields.setdefault("doing", Event(lit, Wanted(), tense="present"))
     standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
     for adjective in traits.adjectives:
         if adjective in standing:

@@ -1,7 +1,5 @@
 """Trees: small looks at a parse."""
 
-from collections.abc import Iterator
-
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.text.tables import load
@@ -9,13 +7,9 @@ from xavi_dialogue.nlu.text.tables import load
 MOST = 1e9  # numbers are cut off there
 
 
-def leaves_of(part: Part) -> Iterator[Leaf]:
-    """Go through all leaves, in order."""
-    if isinstance(part, Leaf):
-        yield part
-    else:
-        for inner in part.parts:
-            yield from leaves_of(inner)
+def leaves_of(part: Part) -> tuple[Leaf, ...]:
+    """Give all leaves, in order."""
+    return (part,) if isinstance(part, Leaf) else part.leaves
 
 
 def leaf_of(node: Node, category: str) -> Leaf | None:

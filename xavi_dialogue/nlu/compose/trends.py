@@ -2,7 +2,18 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Ago, Compares, Measured, Proposition, Quantity, Unsaid
+from xavi_dialogue.domain.terms import (
+    Ago,
+    Compares,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Measured,
+    Proposition,
+    Quantity,
+    Unsaid,
+)
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Measure, as_thing
@@ -12,23 +23,43 @@ _DIRECTIONS: dict[str, str] = {
     "shrink": "less", "decrease": "less", "drop": "less", "fall": "less", "narrow": "less",
     "reduce": "less", "grow": "more", "increase": "more", "rise": "more", "widen": "more",
     "big": "more", "high": "more", "long": "more", "far": "more", "wide": "more", "fast": "more",
+    "jump": "more", "leap": "more", "shoot": "more", "go": "more", "move": "more",
     "small": "less", "low": "less", "close": "less", "slow": "less", "short": "less",
 }  # fmt: skip
 
 
 def trend(clause: Clause) -> Proposition | None:
     """Read that a measure changes as a comparison with what it was shortly before."""
-    if not isinstance(clause.subject, Measure):
+    of = _shifting(clause)
+    if of is None:
         return None
     words = [key for key, _ in (*clause.comparisons, *clause.adjectives)]
     words += [clause.verb.key] if clause.verb is not None else []
     way = next((_DIRECTIONS[word] for word in words if word in _DIRECTIONS), None)
     if way is None:
         return None
-    of = clause.subject.of
     now = with_fields(of, tense=cast(Any, clause.tense))
     then = clause.time if not isinstance(clause.time, Unsaid) else Ago(SINCE)
     return Compares(now, cast(Any, way), with_fields(of, time=then, tense="past"))
+
+
+def _shifting(clause: Clause) -> Measured | None:
+    """Tell what changes: a measure, or of a deed that is expected how probable it is."""
+    sem = clause.subject
+    if isinstance(sem, Measure):
+        return sem.of
+    if not isinstance(sem, Event) or clause.verb is None:
+        return None
+    if isinstance(sem.actor, Ego) and sem.object is not None:  # "exit-right for vehicle 1"
+        sem = with_fields(sem, actor=sem.object, object=None)
+    return Measured("probability", about=Happens(sem))
+
+
+def believed(of: Measured) -> Proposition | None:
+    """Tell of what a probability is."""
+    if of.about is not None or of.event is not None:
+        return of.about or Happens(cast(Event, of.event))
+    return None if isinstance(of.thing, Ego) else Exists(of.thing)
 
 
 def nearness(clause: Clause, left: Measured) -> Measured:

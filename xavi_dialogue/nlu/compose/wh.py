@@ -5,19 +5,24 @@ from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
     Believed,
+    Described,
     Ego,
     Event,
+    Exists,
     Happens,
+    Is,
     Not,
     Pronoun,
     Proposition,
+    Related,
     Thing,
     Unknown,
+    Vehicle,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import event_in
+from xavi_dialogue.nlu.compose.nominal import done_by, event_in
 from xavi_dialogue.nlu.compose.sem import Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.specials import proposition_of
 
@@ -54,16 +59,26 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
     """Find what a belief is of: "that he would turn", "to vehicle 1 entering our lane"."""
     if isinstance(value, Special):
         if value.content is not None:
-            return value.content
+            return _of_whom(value.content, value)
         for sem in (*value.match.phrases.values(), value.object):
             about = sem.of.to if isinstance(sem, Measure) else sem
             event = sem.of.event if isinstance(sem, Measure) else event_in(about)
             if event is not None:
-                return Happens(event)
-        return None
+                return Happens(done_by(event, value.match.second, value.object))
+        found = proposition_of(value)
+        return found if isinstance(found, Related) else None
     if isinstance(value, Believed):
         return value.content
-    return value if isinstance(value, (Happens, Not)) else None
+    return value if isinstance(value, (Happens, Not, Related, Is, Exists)) else None
+
+
+def _of_whom(content: Proposition, value: Special) -> Proposition:
+    """Put in whom a belief is of: "what did you assign to it going straight on?"."""
+    if not isinstance(content, Happens) or content.event.actor != Pronoun("that"):
+        return content
+    things = (as_thing(sem) for sem in value.match.phrases.values())
+    whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
+    return content if whom is None else Happens(with_fields(content.event, actor=whom))
 
 
 def is_that(sem: object) -> bool:

@@ -3,22 +3,21 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
-    Changed,
     Doing,
     Fault,
     HowAvoid,
-    HowKnow,
     HowMuch,
+    HowSure,
     Identify,
     Listing,
     Question,
-    Summarise,
     WhatWouldChange,
-    Where,
     Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    At,
+    AtDecision,
     Back,
     Caused,
     Compares,
@@ -31,7 +30,6 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Next,
     Not,
-    Passenger,
     Pronoun,
     Proposition,
     Quantity,
@@ -43,31 +41,37 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
-from xavi_dialogue.nlu.compose.adoption import adopted, as_of, with_fields
+from xavi_dialogue.nlu.compose.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.doings import deed_asked, doing, happened
 from xavi_dialogue.nlu.compose.lasting import measured
-from xavi_dialogue.nlu.compose.nominal import asked_of, propose
+from xavi_dialogue.nlu.compose.nominal import asked_of
 from xavi_dialogue.nlu.compose.others import (
-    expected_of,
     is_idle,
     is_vehicle,
     nearest,
     placed,
+    pointed_out,
     shown,
+    with_lane,
     with_whom,
 )
+from xavi_dialogue.nlu.compose.propositions import Propositions
+from xavi_dialogue.nlu.compose.reasoning import reasoned
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.tree import leaves_of
 from xavi_dialogue.nlu.compose.wh import (
     Wh,
+    content_of,
     fact,
-    prevented,
 )
 
 
 class What:
     """Builds questions that "what" and "who" ask."""
+
+    propositions: Propositions
 
     def what(self, wh: Wh, clause: Clause, value: Any) -> Question:
         """Ask what or who it is of which the clause holds."""
@@ -111,9 +115,9 @@ class What:
         time = clause.time
         match name:
             case "do":
-                return self._doing(wh, clause, value)
+                return doing(wh, clause, value)
             case "happen" | "happen-wrong":
-                return self._happened(clause, value)
+                return happened(clause, value)
             case "load":
                 return measured("load", clause, subject)
             case "driver" if isinstance(clause.subject, Wanted):
@@ -125,11 +129,19 @@ class What:
                     return WhatWouldChange(inner)
                 if isinstance(inner, Happens) and is_idle(inner.event):
                     return Doing(inner.event.actor, time)  # "what makes the lorry there?"
-                return Why(inner or That())
+                if inner in (None, That()) and isinstance(time, AtDecision | At):
+                    inner = Happens(Event("do", object=Pronoun("that"), time=time))
+                return Why(inner or That())  # "what tipped it at decision 3?"
+            case "make-safe" if isinstance(value.content, Happens):
+                event = value.content.event  # "what made it all right to go?"
+                ours = with_fields(event, actor=Ego()) if _open(event.actor) else event
+                return Why(Is("safe", event=cast(Any, ours), tense=cast(Any, clause.tense)))
             case "take-time" if isinstance(subject, Wanted) and not clause.gerund:
                 return Why(Compares(Measured("duration", time=time), "more"))
             case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
                 return Listing("vehicles", time=time)
+            case "assign" | "give-priority" if isinstance(value.object, Wanted):
+                return HowSure(content_of(clause, value), time)  # "what did you give it?"
             case "plan" if clause.tense == "past" and not isinstance(time, Unsaid):
                 return Listing("decisions", time=time)
             case "plan" | "want" if isinstance(value.object, Wanted) or value.object is None:
@@ -137,40 +149,7 @@ class What:
             case "plan" | "want" | "decide" if isinstance(value.content, Happens):
                 then = value.content.event.time if isinstance(time, Unsaid) else time
                 return Doing(subject, then, "future" if name != "decide" else "past")
-        return _of_reasons(clause, value)
-
-    def _doing(self, wh: Wh, clause: Clause, value: Special) -> Question:
-        undone = clause.modal == "could" and clause.tense == "past"
-        if (undone or clause.modal == "should") and not isinstance(clause.subject, Wanted):
-            content = value.content
-            avoiding = clause.infinitive is not None or "differently" in clause.focus
-            if undone and content is None and isinstance(clause.subject, Ego) and not avoiding:
-                return Listing("options", time=clause.time)
-            return HowAvoid(content.content if isinstance(content, Not) else content)
-        actor = as_thing(clause.subject) or Ego()
-        if isinstance(clause.subject, Wanted):
-            actor = Ego()
-        if isinstance(actor, Passenger):
-            actor = Ego()
-        tense = clause.tense
-        if clause.modal in ("would", "could", "should", "might") and tense != "past":
-            tense = "future"
-        besides = That() if wh.besides or clause.else_ else None
-        return Doing(
-            actor, clause.time, cast(Any, "past" if tense == "perfect" else tense), besides
-        )
-
-    def _happened(self, clause: Clause, value: Special) -> Question:
-        about = next((as_thing(s) for s in value.match.phrases.values()), None)
-        if is_vehicle(about or Ego()) and clause.tense in ("past", "perfect"):
-            return Where(Event("go", cast(Thing, about), time=clause.time))
-        if about is not None and not isinstance(about, Pronoun):
-            return Summarise(about, clause.time)
-        tense = clause.tense if clause.tense != "perfect" else "past"
-        thing: Thing | None = about
-        if thing is None and isinstance(clause.subject, Described):
-            thing = clause.subject
-        return Doing(thing, clause.time, cast(Any, tense))
+        return reasoned(clause, value)
 
     def _what_holds(self, wh: Wh, clause: Clause, value: Proposition) -> Question:
         wanted = _wanted(wh)
@@ -181,6 +160,12 @@ class What:
                 event=Event(action="change-plan", actor=Wanted(), modal="would" | "could")
             ):
                 return WhatWouldChange()
+            case Happens(
+                event=Event(action="change-plan" | "change-lane", actor=Wanted(), modal="must")
+            ):
+                governed = clause.that or clause.infinitive
+                hangs = None if governed is None else self.propositions.plain(governed)
+                return WhatWouldChange(hangs)
             case Happens(event=Event(action="change-plan", actor=Wanted()) as event) if (
                 wh.kind == "what"
             ):
@@ -191,6 +176,9 @@ class What:
                 return Doing(who, clause.time, "present")
             case Is(state="over", thing=Wanted()) if clause.modal in ("could", "should"):
                 return HowAvoid()
+            case Is(state="wrong", thing=Wanted()) if (lane := with_lane(clause)) is not None:
+                kept = Event("keep-lane", object=lane, tense=cast(Any, clause.tense))
+                return Why(Not(Happens(kept)))  # "what's wrong with this lane?"
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
             case Happens(event=Event(action="come", actor=Wanted(), object=None, time=Relative())):
@@ -202,32 +190,46 @@ class What:
                     return Doing(None, clause.time, cast(Any, clause.tense))
             case Related(relation="same-as", thing=Wanted(), to=to):
                 return asked_of(to, clause.time, clause.tense) or Identify(to)
+            case Is(state="present", thing=Described(definite=True) as thing, event=None):
+                return Identify(cast(Thing, thing))  # "what is that big thing over there"
             case Caused(cause=Wanted(), effect=effect):
                 return Why(effect or That())
             case Exists():
                 return Listing("vehicles", time=clause.time)
-            case Related(relation="near", thing=Wanted(), to=Described() as to) if _inside(clause):
+            case Related(
+                relation="near" | "on", thing=Wanted(), to=Described() | Pronoun() as to
+            ) if _inside(clause):
                 return measured("load" if wh.kind == "what" else "occupant", clause, to)
             case Related(relation=relation, thing=thing, to=to) if not _open(thing, to):
-                return Identify(placed(relation, thing, to))
-        if isinstance(value, Happens) and _complete(value.event):
-            actor = value.event.actor
-            if isinstance(actor, Described) and actor.doing is None:
-                event = with_fields(value.event, actor=Wanted())
-                return Identify(cast(Thing, with_fields(actor, doing=event)))
-            if isinstance(actor, Pronoun) and actor.form in ("that", "this"):
-                event = with_fields(value.event, actor=Wanted())
-                return Identify(cast(Thing, Described(doing=event)))
-            if wh.kind == "who" and isinstance(actor, Pronoun):
-                return Which(wanted, Happens(with_fields(value.event, actor=Wanted())))
-        if wh.kind == "what" and _does_something(value):
-            value = cast(Happens, value)
-            if value.event.modal in ("could", "should") and value.event.tense == "past":
-                ours = value.event.modal == "could" and isinstance(value.event.actor, Ego)
-                ours = ours and clause.infinitive is None and "differently" not in clause.focus
-                return Listing("options", time=clause.time) if ours else HowAvoid()
-            return Doing(value.event.actor, clause.time, cast(Any, clause.tense))
+                found = placed(relation, thing, to)
+                for phrase in clause.complements:  # "who is that behind us on the motorbike"
+                    found = cast(Thing, adopted(found, phrase) or found)
+                return Identify(found)
+        doer = _doer(wh, clause, value)
+        if doer is not None:
+            return doer
+        if wh.kind == "what" and (done := deed_asked(clause, value)) is not None:
+            return done
         return Which(wanted, value)
+
+
+def _doer(wh: Wh, clause: Clause, value: Proposition) -> Question | None:
+    """Ask who or what does something: "who is that turning left?"."""
+    if not isinstance(value, Happens):
+        return None
+    if (doer := pointed_out(clause, value.event)) is not None:
+        return Identify(doer)
+    if _complete(value.event):
+        actor = value.event.actor
+        if isinstance(actor, Described) and actor.doing is None:
+            event = with_fields(value.event, actor=Wanted())
+            return Identify(cast(Thing, with_fields(actor, doing=event)))
+        if isinstance(actor, Pronoun) and actor.form in ("that", "this"):
+            event = with_fields(value.event, actor=Wanted())
+            return Identify(cast(Thing, Described(doing=event)))
+        if wh.kind == "who" and isinstance(actor, Pronoun):
+            return Which(_wanted(wh), Happens(with_fields(value.event, actor=Wanted())))
+    return None
 
 
 def _inside(clause: Clause) -> bool:
@@ -242,48 +244,6 @@ def _next_named(clause: Clause) -> bool:
     named = [node for sem, node in clause.objects if sem == Described(rank=1)]
     words = {word for node in named for leaf in leaves_of(node) for word in leaf.words}
     return bool(words) and words <= {"next", "up"}
-
-
-def _of_reasons(clause: Clause, value: Special) -> Question | None:
-    """Ask what was considered, believed, decisive, preventive."""
-    name, subject, time = value.name, value.subject, clause.time
-    match name:
-        case "consider" | "score":
-            return Listing("options", time=time)
-        case "know" | "believe" | "conclude":
-            about = getattr(value.content, "event", None)
-            thing = about.actor if about is not None else expected_of(value)
-            if about is not None and isinstance(time, Unsaid):
-                time = about.time  # "what did you expect it to do then"
-            return Listing("beliefs", None if isinstance(thing, Ego) else thing, time)
-        case "matter" | "influence" | "depend":
-            return WhatWouldChange(None, most=True)
-        case "decide" | "choose":
-            return Listing("decisions", time=time)
-        case "save" | "cost" if isinstance(by := value.match.phrases.get("by"), Event):
-            return Why(as_of(Happens(by), value.clause.tense))
-        case "achieve":
-            by = value.match.phrases.get("by")
-            return Why(as_of(Happens(by), clause.tense) if isinstance(by, Event) else That())
-        case "change" if value.content is None and clause.modal is None:
-            return Changed(time)
-        case "require" | "change" | "need":
-            return WhatWouldChange(value.content)
-        case "prevent" if (denied := prevented(value)) is not None:
-            if clause.modal in ("would", "could"):
-                return HowAvoid(denied)
-            return Why(Not(denied))
-        case "take-time" if clause.infinitive is not None and clause.modal == "would":
-            return WhatWouldChange(value.content)
-        case "make-know":
-            return HowKnow(value.content)
-        case "prevent" | "help" | "improve":
-            return HowAvoid(value.content or propose(value.object))
-        case "tell" | "say" | "report":
-            return HowKnow(value.content)
-        case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
-            return measured("delay", clause, as_thing(subject))
-    return None
 
 
 def _cost_asked(value: Proposition) -> Question | None:
@@ -312,13 +272,6 @@ def purpose(clause: Clause) -> bool:
     about = any(leaf.words == ("about",) for leaf in clause.particles)
     alone = "for" in stranded or (deed and (about or "about" in stranded))
     return alone and (clause.verb is None or clause.verb.key not in _SOUGHT)
-
-
-def _does_something(value: Proposition) -> bool:
-    """Say whether it is asked what somebody does."""
-    if not isinstance(value, Happens) or value.event.action != "do":
-        return False
-    return value.event.object is None or isinstance(value.event.object, (Wanted, Pronoun))
 
 
 def _complete(event: Event) -> bool:

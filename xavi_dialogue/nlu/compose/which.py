@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.meaning import (
     HowMuch,
     HowSure,
@@ -38,7 +40,7 @@ from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.lasting import meanwhile, measured
 from xavi_dialogue.nlu.compose.nominal import asked_of
-from xavi_dialogue.nlu.compose.others import nearest
+from xavi_dialogue.nlu.compose.others import nearest, placed
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.wh import (
     Wh,
@@ -111,10 +113,9 @@ class WhichOne:
             return way_at(Ego(), time_of(clause, value), clause.tense)
         extreme = _superlative(clause)
         if isinstance(thing, Described):
-            fields: dict[str, Any] = {k: getattr(thing, k) for k in thing.__struct_fields__}
             if extreme is not None:
-                return Identify(Described(**{**fields, "extreme": extreme, "definite": True}))
-            thing = Described(**{**fields, "definite": True})
+                return Identify(with_fields(thing, extreme=extreme, definite=True))
+            thing = structs.replace(thing, definite=True)
         if value is None:
             return Which(thing)
         of = fact(value)
@@ -140,6 +141,8 @@ class WhichOne:
         thing = None if isinstance(clause.subject, Measure) else actor
         if clause.objects and thing is None:
             thing = as_thing(clause.objects[0][0])
+        if isinstance(value, Related) and thing is not None and value.thing == thing:
+            thing = placed(value.relation, thing, value.to)  # "the car behind us"
         return HowMuch(
             Measured(measure.attribute, thing or measure.thing, measure.to, measure.event, None,
                      _moment(clause, value), cast(Any, clause.tense)), sem.extreme,

@@ -12,12 +12,17 @@ from xavi_dialogue.domain.terms import (
     Not,
     Quantity,
 )
+from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.nominal import propose
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh
+from xavi_dialogue.nlu.grammar.chart import Node
 
 COST = 0.1  # of a question without a verb
-_CHANGES: dict[str, Any] = {"deceleration": "slow-down", "acceleration": "speed-up"}
+RUN_ON = 0.6  # cost of taking a clause into such a question
+#: How one brakes, by what is said of it.
+_MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly", "suddenly": "suddenly"}
 SPEEDS = 20  # from which a bare number may be a speed in km/h
 
 
@@ -36,7 +41,16 @@ def pace_asked(composer: Any, clause: Clause) -> list[tuple[tuple[Act, ...], flo
         speed = Compares(Measured("speed"), "less" if limited else "more")
         return [((Ask(Why(speed)),), COST)]
     paced = any(manner in ("slowly", "fast") for manner in clause.manner)
-    if clause.objects or clause.subject is not None or not (clause.adjectives or paced):
+    if clause.objects or clause.subject is not None:
+        return None
+    hard = [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
+    hard += [manner for manner in clause.manner if manner in _MANNERS.values()]
+    paced |= any(key in ("slow", "fast") for key, _ in clause.adjectives)
+    if hard and not paced:  # "why so hard all of a sudden?"
+        hard = list(dict.fromkeys(hard))
+        deed = Event("brake", manner=tuple(hard), tense="perfect", time=clause.time)
+        return [((Ask(Why(Happens(deed))),), COST)]
+    if not (clause.adjectives or paced):
         return None
     if clause.adjectives:
         clause.subject = Ego()
@@ -49,6 +63,15 @@ def pace_asked(composer: Any, clause: Clause) -> list[tuple[tuple[Act, ...], flo
 def _is_speed(number: float) -> bool:
     """Say whether a bare number is one that limits have, and few vehicles."""
     return number >= SPEEDS and number % 10 == 0
+
+
+def runs_on(unit: Node) -> bool:
+    """Say whether a clause of its own follows: "why back to the right, we are faster here"."""
+    clauses = [
+        index for index, part in enumerate(unit.parts)
+        if isinstance(part, Node) and part.name == "that_clause"
+    ]  # fmt: skip
+    return any(index > 1 for index in clauses)
 
 
 def lacking(clause: Clause) -> Act:
@@ -67,8 +90,9 @@ def reason_for(sem: Measure | Noun, clause: Clause) -> Why | None:
         if phrase.key in ("for", "behind") and phrase.sem is not None:
             if isinstance(phrase.sem, Event):
                 return Why(Happens(phrase.sem))
-            if isinstance(phrase.sem, Measure) and phrase.sem.of.attribute in _CHANGES:
-                return Why(Happens(Event(_CHANGES[phrase.sem.of.attribute], time=clause.time)))
+            of = propose(phrase.sem) if isinstance(phrase.sem, Measure) else None
+            if isinstance(of, Happens):
+                return Why(Happens(with_fields(of.event, time=clause.time)))
     return None
 
 

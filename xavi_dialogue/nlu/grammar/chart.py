@@ -4,7 +4,7 @@ Top down with a table: a phrase is tried at a node only where one of the word cl
 begin with stands, and only once. Of the readings of a phrase over one stretch the cheapest is kept.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -13,16 +13,29 @@ from xavi_dialogue.nlu.grammar.rules import Edges, Grammar, State
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Node:
-    """A phrase over a stretch of the lattice: the rule that made it, and its parts."""
+    """A phrase over a stretch of the lattice: the rule that made it, its parts, their leaves."""
 
     name: str
     parts: tuple["Part", ...]
     start: int
     end: int
     cost: float
+    leaves: tuple[Leaf, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Gather the leaves."""
+        found: list[Leaf] = []
+        for part in self.parts:
+            if isinstance(part, Leaf):
+                found.append(part)
+            else:
+                found += part.leaves
+        object.__setattr__(self, "leaves", tuple(found))
 
 
 Part: TypeAlias = Node | Leaf
+#: Trees by name, cost and parts.
+Nodes: TypeAlias = dict[tuple[str, float, tuple[Part, ...]], Node]
 #: What was read so far, last part first: the chain before it, and a leaf or an entry.
 Chain: TypeAlias = "tuple[Chain, Leaf | Entry] | None"
 #: A phrase in the table: its cost, its rule, its parts.
@@ -54,88 +67,158 @@ class Budget:
 
 
 class Chart:
-    """One text against the grammar."""
+    """One text against the grammar.
 
-    def __init__(self, grammar: Grammar, leaves: Leaves, budget: Budget) -> None:
+    Charts that are given the same `nodes` have the same phrases over the same leaves in common.
+    """
+
+    def __init__(
+        self, grammar: Grammar, leaves: Leaves, budget: Budget, nodes: Nodes | None = None
+    ) -> None:
         self.grammar = grammar
         self.leaves = leaves
         self.budget = budget
-        self.table: dict[int, dict[int, Entry]] = {}
+        self.table: list[dict[int, dict[int, Entry]]] = [{} for _ in range(len(leaves) + 1)]
         bits = grammar.bits
         self.masks = [sum(bits[name] for name in found if name in bits) for found in leaves]
         self.masks.append(0)
         self.lacking = _lacking(grammar, leaves)
-        self.width = len(leaves) + 1
         self.depth = 0
+        self.nodes: Nodes = {} if nodes is None else nodes
+        self.trees: dict[int, Node] = {}  # by the id of the entry, which the table keeps
 
     def read(self, name: str, start: int) -> dict[int, Entry]:
         """Find the phrases of that name that begin at a node, by the node where they end."""
         number = self.grammar.number[name]
-        if start >= self.width or not self.grammar.phrases[number].first & self.masks[start]:
+        phrase = self.grammar.phrases[number]
+        if not phrase.first & self.masks[start] or phrase.needed & self.lacking[start]:
             return {}
         return self._find(number, start)
 
     def _find(self, number: int, start: int) -> dict[int, Entry]:
-        key = number * self.width + start
-        found = self.table.get(key)
+        """Give what is in the table, once it was tried; nothing while it is."""
+        row = self.table[start]
+        found = row.get(number)
         if found is None:
             if self.depth >= _DEEPEST:
                 return {}
-            if self.grammar.phrases[number].needed & self.lacking[start]:
-                self.table[key] = {}
-                return {}
-            self.table[key] = {}
+            row[number] = {}
+            phrase = self.grammar.phrases[number]
             self.depth += 1
-            found = self.table[key] = self._run(number, start)
+            run = self._run_single if phrase.single else self._run
+            found = row[number] = run(phrase.states, start)
             self.depth -= 1
         return found
 
-    def _run(self, number: int, start: int) -> dict[int, Entry]:
-        states, budget = self.grammar.phrases[number].states, self.budget
+    def _run(self, states: list[State], start: int) -> dict[int, Entry]:
+        """Take an automaton from a node as far as it goes."""
+        budget, masks = self.budget, self.masks
         found: dict[int, Entry] = {}
-        pending: Pending = {start: {0: (0.0, None)}}
-        here = start
+        pending: Pending = {}
+        begin = states[0]
+        present = begin.following & masks[start]
+        edges = begin.known.get(present) or begin.edges(present)
+        self._step(edges, start, 0.0, None, pending)
+        budget.spend(1)
+        here = start + 1
         while pending:
             active = pending.pop(here, None)
             if active is not None:
                 bound = _BEAM + (min([c for c, _ in active.values()]) if len(active) > 1 else 99.0)
-                mask = self.masks[here]
+                mask = masks[here]
                 for index, (cost, chain) in active.items():
                     if cost > bound:
                         continue
                     budget.steps -= 1
                     state = states[index]
-                    if state.complete and here > start:
-                        _complete(state, found, here, cost, chain)
-                    if mask:
-                        edges = state.known.get(mask) or state.edges(mask)
-                        self._step(states, edges, here, cost, chain, pending)
+                    for rule, extra in state.complete:
+                        known = found.get(here)
+                        if known is None or cost + extra < known[0] - _TIE:
+                            found[here] = (cost + extra, rule, chain)
+                    present = state.following & mask
+                    if present:
+                        edges = state.known.get(present) or state.edges(present)
+                        self._step(edges, here, cost, chain, pending)
                 if budget.steps < budget.reserve:
                     raise ChartLimitError
             here += 1
         return found
 
     def _step(
-        self, states: list[State], edges: Edges, here: int, cost: float, chain: Chain,
-        pending: Pending,
+        self, edges: Edges, here: int, cost: float, chain: Chain, pending: Pending
     ) -> None:  # fmt: skip
         """Go on from a state in every way."""
-        lacking = self.lacking
-        for _, name, target, price in edges[0]:
-            needed = states[target].needed
-            for leaf in self.leaves[here][name]:  # type: ignore[index]
+        lacking, row = self.lacking, self.table[here]
+        for _, name, target, price, behind in edges[0]:
+            for leaf in self.leaves[here][name]:
                 end = leaf.end
-                if not needed & lacking[end]:
+                if not behind & lacking[end]:
                     _relax(pending, end, target, cost + price + leaf.cost, chain, leaf)
-        for _, other, target, price in edges[1]:
-            found = self.table.get(other * self.width + here)  # type: ignore[operator]
+        lack = lacking[here]
+        for _, other, target, price, behind, needed in edges[1]:
+            if needed & lack:
+                continue
+            found = row.get(other)
             if found is None:
-                found = self._find(other, here)  # type: ignore[arg-type]
-            if found:
-                needed = states[target].needed
-                for end, entry in found.items():
-                    if not needed & lacking[end]:
-                        _relax(pending, end, target, cost + price + entry[0], chain, entry)
+                found = self._find(other, here)
+            if not found:
+                continue
+            price += cost
+            for end, entry in found.items():
+                if not behind & lacking[end]:
+                    total = price + entry[0]
+                    reached = pending.get(end)
+                    if reached is None:
+                        pending[end] = {target: (total, (chain, entry))}
+                    else:
+                        known = reached.get(target)
+                        if known is None or total < known[0] - _TIE:
+                            reached[target] = (total, (chain, entry))
+
+    def _run_single(self, states: list[State], start: int) -> dict[int, Entry]:
+        """Find the phrases of one part: what `_run` finds, without keeping states."""
+        lacking = self.lacking[start]
+        begin = states[0]
+        found: dict[int, Entry] = {}
+        present = begin.following & self.masks[start]
+        words, phrases = begin.known.get(present) or begin.edges(present)
+        for _, name, target, price, _ in words:
+            for leaf in self.leaves[start][name]:
+                _complete(states[target], found, leaf.end, price + leaf.cost, leaf)
+        for _, other, target, price, _, needed in phrases:
+            if not needed & lacking:
+                for end, entry in self._find(other, start).items():
+                    _complete(states[target], found, end, price + entry[0], entry)
+        self.budget.spend(1 + len(found))
+        return dict(sorted(found.items())) if len(words) + len(phrases) > 1 else found
+
+    def tree(self, entry: Entry) -> Node:
+        """Build the tree of an entry; phrases whose name begins with "_" give their parts away."""
+        known = self.trees.get(id(entry))
+        if known is None:
+            cost, name, chain = entry
+            found: list[Part] = []
+            self._gather(chain, found)
+            found.reverse()
+            parts = tuple(found)
+            key = (name, cost, parts)
+            known = self.nodes.get(key)
+            if known is None:
+                known = Node(name, parts, parts[0].start, parts[-1].end, cost)
+                self.nodes[key] = known
+            self.trees[id(entry)] = known
+        return known
+
+    def _gather(self, chain: Chain, found: list[Part]) -> None:
+        """List the parts of a phrase, the last first."""
+        while chain is not None:
+            chain, part = chain
+            if isinstance(part, Leaf):
+                found.append(part)
+            elif part[1][0] == "_":
+                self._gather(part[2], found)
+            else:
+                found.append(self.tree(part))
 
 
 def _lacking(grammar: Grammar, leaves: Leaves) -> list[int]:
@@ -162,26 +245,10 @@ def _relax(
         row[state] = (cost, (chain, part))
 
 
-def _complete(state: State, found: dict[int, Entry], end: int, cost: float, chain: Chain) -> None:
+def _complete(
+    state: State, found: dict[int, Entry], end: int, cost: float, part: "Leaf | Entry"
+) -> None:
     for rule, extra in state.complete:
         known = found.get(end)
         if known is None or cost + extra < known[0] - _TIE:
-            found[end] = (cost + extra, rule, chain)
-
-
-def tree(entry: Entry) -> Node:
-    """Build the tree of an entry; phrases whose name begins with "_" give their parts away."""
-    cost, name, chain = entry
-    parts: list[Part] = []
-    while chain is not None:
-        chain, part = chain
-        if isinstance(part, Leaf):
-            parts.append(part)
-            continue
-        node = tree(part)
-        if node.name.startswith("_"):
-            parts.extend(reversed(node.parts))
-        else:
-            parts.append(node)
-    parts.reverse()
-    return Node(name, tuple(parts), parts[0].start, parts[-1].end, cost)
+            found[end] = (cost + extra, rule, (None, part))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from importlib import resources
-from typing import TypeAlias, cast
+from typing import TypeAlias
 
 import lark
 from lark.grammar import Rule, Symbol
@@ -18,10 +18,13 @@ GRAMMAR_FILES = ("nlu_phrases.lark", "nlu_clauses.lark")
 STEP = 0.01  # cost of one point of negative priority
 
 
-Edge: TypeAlias = "tuple[int, str | int, int, float]"
-"""An edge: bits of the word classes that it may begin with, its class or phrase, the next state,
-its cost."""
-Edges: TypeAlias = "tuple[tuple[Edge, ...], tuple[Edge, ...]]"
+Word: TypeAlias = tuple[int, str, int, float, int]
+"""An edge to a word: bit of its class, its class, the next state, its cost, and the marks of what
+must come behind it."""
+Inner: TypeAlias = tuple[int, int, int, float, int, int]
+"""An edge to a phrase: bits of the word classes that it may begin with, its number, the next
+state, its cost, the marks of what must come behind it, and of what must come in or behind it."""
+Edges: TypeAlias = tuple[tuple[Word, ...], tuple[Inner, ...]]
 _REMEMBERED = 512  # sets of word classes for which a state keeps its edges
 
 
@@ -29,45 +32,46 @@ _REMEMBERED = 512  # sets of word classes for which a state keeps its edges
 class State:
     """A state of an automaton: where symbols lead, and what is complete here."""
 
-    terminals: list[Edge] = field(default_factory=list)
-    phrases: list[Edge] = field(default_factory=list)
+    terminals: list[Word] = field(default_factory=list)
+    phrases: list[Inner] = field(default_factory=list)
     complete: list[tuple[str, float]] = field(default_factory=list)  # name of rule, cost
     needed: int = 0  # marks of what must still come
+    following: int = 0  # bits of the word classes with which it can go on
     known: dict[int, Edges] = field(default_factory=dict)
 
     def edges(self, mask: int) -> Edges:
-        """List the edges, to words and to phrases, that can be taken where some words stand."""
-        found = self.known.get(mask)
-        if found is None:
-            if len(self.known) >= _REMEMBERED:
-                self.known.clear()
-            found = (
-                tuple(edge for edge in self.terminals if edge[0] & mask),
-                tuple(edge for edge in self.phrases if edge[0] & mask),
-            )
-            self.known[mask] = found
+        """List the edges, to words and to phrases, that can be taken where some words stand.
+
+        Args:
+            mask: bits of the classes of these words, none outside `following`.
+        """
+        if len(self.known) >= _REMEMBERED:
+            self.known.clear()
+        found = self.known[mask] = (
+            tuple(edge for edge in self.terminals if edge[0] & mask),
+            tuple(edge for edge in self.phrases if edge[0] & mask),
+        )
         return found
 
 
 @dataclass(slots=True)
 class Phrase:
-    """A phrase of the grammar: its automaton, and the word classes that it can begin with."""
+    """A phrase of the grammar: its automaton, and the word classes at its ends."""
 
     name: str
     states: list[State]
     first: int = 0  # bits of word classes
-
-    @property
-    def needed(self) -> int:
-        """The marks of what must stand in it."""
-        return self.states[0].needed
+    last: int = 0  # bits of the word classes that it can end with
+    needed: int = 0  # marks of what must stand in it
+    single: bool = False  # it always consists of one part
 
 
 @dataclass(frozen=True, slots=True)
 class Grammar:
     """All phrases, by number.
 
-    `bits` gives each word class its bit, `marks` its bit and those of the groups that it is in.
+    `bits` gives each word class its bit, `marks` its bit and those of the groups that it is in:
+    a group is what some phrase can begin or end with, so each such phrase needs one of it.
     """
 
     phrases: tuple[Phrase, ...]
@@ -86,15 +90,16 @@ def grammar() -> Grammar:
     built = lark.Lark(text, parser="earley", lexer="basic", start=["utterance"])
     by_name: dict[str, list[Rule]] = {}
     for rule in built.rules:
-        by_name.setdefault(rule.origin.name, []).append(rule)
+        by_name.setdefault(str(rule.origin.name), []).append(rule)
     number = {name: index for index, name in enumerate(by_name)}
-    terminals = sorted({s.name for r in built.rules for s in r.expansion if s.is_term})
+    terminals = sorted({str(s.name) for r in built.rules for s in r.expansion if s.is_term})
     bits = {name: 1 << index for index, name in enumerate(terminals)}
     builder = _Builder(number, bits, _choices(by_name))
     phrases = tuple(builder.phrase(name, rules) for name, rules in by_name.items())
-    _find_first(phrases)
-    marks = _marks(bits, {phrases[number[name]].first for name in builder.choices})
+    _find_ends(phrases)
+    marks = _marks(bits, {group for one in phrases for group in (one.first, one.last)})
     _find_needed(phrases, marks)
+    _link_needed(phrases)
     return Grammar(phrases, number, bits, marks)
 
 
@@ -142,10 +147,12 @@ class _Builder:
             if rule in recursive:
                 continue
             end = self._lay(0, rule.expansion)
-            self.states[end].complete.append((rule.alias or rule.origin.name, _cost(rule)))
+            made = str(rule.alias or rule.origin.name)
+            self.states[end].complete.append((made, _cost(rule)))
         if recursive:
             self._loop(recursive)
-        return Phrase(name, self.states)
+        single = not any(state.terminals or state.phrases for state in self.states[1:])
+        return Phrase(name, self.states, single=single)
 
     def _loop(self, rules: list[Rule]) -> None:
         """Let each complete state go on with what follows the phrase in its recursive rules."""
@@ -170,35 +177,50 @@ class _Builder:
         state = self.states[start]
         for one, cost in self.choices.get(symbol.name, [(symbol, 0.0)]):
             if one.is_term:
-                edge: Edge = (self.bits[one.name], one.name, target, cost)
-                row = state.terminals
+                word: Word = (self.bits[one.name], str(one.name), target, cost, 0)
+                if word not in state.terminals:
+                    state.terminals.append(word)
             else:
-                edge = (0, self.number[one.name], target, cost)
-                row = state.phrases
-            if edge not in row:
-                row.append(edge)
+                inner: Inner = (0, self.number[one.name], target, cost, 0, 0)
+                if inner not in state.phrases:
+                    state.phrases.append(inner)
 
 
-def _find_first(phrases: tuple[Phrase, ...]) -> None:
-    """Find the word classes that each phrase and each edge can begin with."""
+def _find_ends(phrases: tuple[Phrase, ...]) -> None:
+    """Find the word classes that each phrase can begin and end with."""
     changed = True
     while changed:
         changed = False
         for phrase in phrases:
-            begin = phrase.states[0]
-            found = phrase.first
-            for edge in begin.terminals:
-                found |= edge[0]
-            for _, other, _, _ in begin.phrases:
-                found |= phrases[cast(int, other)].first
-            changed |= found != phrase.first
-            phrase.first = found
+            first, last = phrase.first, phrase.last
+            for index, state in enumerate(phrase.states):
+                for bit, _, target, *_ in state.terminals:
+                    first |= 0 if index else bit
+                    last |= bit if phrase.states[target].complete else 0
+                for _, other, target, *_ in state.phrases:
+                    first |= 0 if index else phrases[other].first
+                    last |= phrases[other].last if phrase.states[target].complete else 0
+            changed |= (first, last) != (phrase.first, phrase.last)
+            phrase.first, phrase.last = first, last
+
+
+def _link_needed(phrases: tuple[Phrase, ...]) -> None:
+    """Write on each edge what it can begin with, and what must come in and behind it."""
     for phrase in phrases:
         for state in phrase.states:
-            state.phrases = [
-                (phrases[cast(int, other)].first, other, target, cost)
-                for _, other, target, cost in state.phrases
+            state.terminals = [
+                (bit, name, target, cost, phrase.states[target].needed)
+                for bit, name, target, cost, _ in state.terminals
             ]
+            state.phrases = [
+                (phrases[other].first, other, target, cost, behind := phrase.states[target].needed,
+                 behind | phrases[other].needed)
+                for _, other, target, cost, *_ in state.phrases
+            ]  # fmt: skip
+            for bit, *_ in state.terminals:
+                state.following |= bit
+            for first, *_ in state.phrases:
+                state.following |= first
 
 
 def _marks(bits: dict[str, int], groups: set[int]) -> dict[str, int]:
@@ -219,16 +241,17 @@ def _find_needed(phrases: tuple[Phrase, ...], marks: dict[str, int]) -> None:
     for phrase in phrases:
         for state in phrase.states:
             state.needed = 0 if state.complete else everything
+        phrase.needed = everything
     changed = True
     while changed:
         changed = False
         for phrase in phrases:
             for state in reversed(phrase.states):
                 needed = state.needed
-                for _, name, target, _ in state.terminals:
-                    needed &= marks[cast(str, name)] | phrase.states[target].needed
-                for _, other, target, _ in state.phrases:
-                    inner = phrases[cast(int, other)].needed
-                    needed &= inner | phrase.states[target].needed
+                for _, name, target, *_ in state.terminals:
+                    needed &= marks[name] | phrase.states[target].needed
+                for _, other, target, *_ in state.phrases:
+                    needed &= phrases[other].needed | phrase.states[target].needed
                 changed |= needed != state.needed
                 state.needed = needed
+            phrase.needed = phrase.states[0].needed

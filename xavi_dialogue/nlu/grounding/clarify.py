@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import WhichOne
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Feel, Request, Whether
+from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Described,
     Destination,
@@ -28,7 +29,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import interval, proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Unclear
-from xavi_dialogue.nlu.grounding.rewriting import first, rewrite
 
 THINGS: Final = (Vehicle, Vehicles, Described, Ego, Junction, Exit, Lane, Destination)
 CLOSE: Final = 0.15  # difference of cost up to which what the world tells may decide

@@ -15,7 +15,9 @@ EXCLAMATION: Final = 3  # words, at most
 Words: TypeAlias = dict[int | None, tuple[str, ...]]  # by the act that they belong to
 _SUBJECTS: Final = frozenset(
     ("i", "you", "we", "he", "she", "it", "they", "that", "this", "one", "who", "u", "everybody",
-     "everyone", "somebody", "someone", "nobody", "anybody", "car", "driver", "us", "there"),
+     "everyone", "somebody", "someone", "nobody", "anybody", "car", "driver", "us", "there",
+     "me", "him", "her", "them", "itself", "himself", "herself", "themselves", "myself",
+     "yourself", "ourselves"),
 )  # fmt: skip
 _AUXILIARIES: Final = frozenset(
     ("do", "does", "did", "will", "would", "can", "could", "should", "must", "may", "might",
@@ -98,8 +100,3 @@ def _is_main(shares: Sequence[TokenShare], index: int) -> bool:
 
 def _is(share: TokenShare, sorts: tuple[str, ...]) -> bool:
     return share.share == "meaning" and share.part.lower().startswith(sorts)
-
-
-def glosses(reading: Reading) -> tuple[str, ...]:
-    """List the words of a reading that were understood."""
-    return tuple(share.read for share in reading.shares if share.share == "meaning")

@@ -14,17 +14,17 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
-from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Social
+from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Claim, Reading, Request, Social
+from xavi_dialogue.domain.rewriting import first, substitute
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.nlu.grounding import clarify, doubts
+from xavi_dialogue.nlu.grounding import clarify, doubts, quoting
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
 from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
-from xavi_dialogue.nlu.grounding.rewriting import first, substitute
-from xavi_dialogue.nlu.grounding.salience import after
+from xavi_dialogue.nlu.grounding.salience import after, named_time
 from xavi_dialogue.nlu.grounding.soundness import is_sound
 from xavi_dialogue.nlu.grounding.world import World
 
@@ -41,6 +41,7 @@ class Part:
     notes: Notes
     context: Context  # in which it was grounded
     failure: Failure | None = None
+    quote: str = ""  # its words
 
     @property
     def answerable(self) -> bool:
@@ -93,28 +94,26 @@ def _try(reading: Reading, context: Context) -> Trial:
     judged = doubts.judge(reading)
     parts: list[Part] = []
     cost = reading.cost
-    for index, spoken in enumerate(reading.acts):
-        part = _part(spoken, context, judged.kills(index), judged.leaves(index), reading)
+    for index in range(len(reading.acts)):
+        part = _part(reading, index, judged, context)
         parts.append(part)
         cost += part.notes.cost
-        context = context.within(_discussed(after(context.discourse, part.act), part.act))
+        context = context.within(_discussed(after(context.discourse, part.act), part.act, context))
     return Trial(reading, tuple(parts), cost)
 
 
-def _discussed(discourse: Discourse, done: GroundedAct) -> Discourse:
-    """Let "and why?" in the same breath be about the question just asked."""
+def _discussed(discourse: Discourse, done: GroundedAct, context: Context) -> Discourse:
+    """Let "and why?" in the same breath be about the question just asked, and its time."""
+    named = named_time(done, context.now)
+    if named is not None:
+        discourse = replace(discourse, named=named)
     of = proposition_of(done.act.question) if isinstance(done.act, Ask) else None
     return replace(discourse, propositions=(of, *discourse.propositions)) if of else discourse
 
 
-def _part(
-    spoken: Act,
-    context: Context,
-    fatal: tuple[str, ...],
-    left: tuple[str, ...],
-    reading: Reading,
-) -> Part:
-    g = TermGrounder(context)
+def _part(reading: Reading, index: int, judged: doubts.Doubts, context: Context) -> Part:
+    spoken, g = reading.acts[index], TermGrounder(context)
+    fatal, left = judged.kills(index), judged.leaves(index)
     complete = completed(spoken, g)
     grounded = spoken if complete is None else ground_act(complete, g)
     notes = g.notes
@@ -122,17 +121,18 @@ def _part(
     unknown = (*fatal, *notes.unknown)
     senseless = not isinstance(spoken, Beyond | Social) and (unknown or not is_sound(grounded))
     if complete is None or senseless:
-        failure = NotUnderstood(words=reading.strange, about=doubts.glosses(reading))
+        failure = quoting.missed(reading, index, fatal)
         notes.cost += DEAF
     done = GroundedAct(
         act=grounded,
         span=notes.span,
         leaned=notes.leaned,
-        doubts=left,
+        doubts=quoting.phrases(reading, index, left),
         strange=tuple(word for word in left if word in reading.strange),
         presupposed=notes.presupposed,
     )
-    return Part(done, complete or spoken, notes, context, failure)
+    quote = quoting.words_of(reading, index)
+    return Part(done, complete or spoken, notes, context, failure, quote)
 
 
 def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
@@ -140,14 +140,11 @@ def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
     if not best.parts:
         return Grounding(reading=best.reading, refusal=NotUnderstood(words=best.reading.strange))
     asked = _unclear(best) or _torn(trials)
-    acts = tuple(part.act for part in best.parts if part.answerable)
-    failures = [part.failure for part in best.parts if part.failure is not None]
-    refusal = failures[0] if failures else _rest(best)
-    if acts and isinstance(refusal, NotUnderstood):
-        refusal = replace(refusal, rest=True)
+    told, refusal = _told(best)
+    acts, quotes = tuple(part.act for part in told), tuple(part.quote for part in told)
     if asked is None:
         named = _named(best) if isinstance(refusal, NotUnderstood) else None
-        return Grounding(acts=acts, reading=best.reading, refusal=refusal, named=named)
+        return Grounding(acts, reading=best.reading, refusal=refusal, quotes=quotes, named=named)
     found, pending = asked
     if found.which.between == "meanings":
         acts = tuple(a for a in acts if a.act not in found.offers)
@@ -164,14 +161,31 @@ def _decided(trials: Sequence[Trial], context: Context) -> Grounding:
 
 def _named(best: Trial) -> Vehicle | None:
     """Give who was named, so that the next turn may speak of him as "he"."""
-    lost = (part.act.act for part in best.parts if isinstance(part.failure, NotUnderstood))
-    return next((v for act in lost if (v := first(act, Vehicle)) is not None), None)
+    acts = (part.act.act for part in best.parts)
+    return next((v for act in acts if (v := first(act, Vehicle)) is not None), None)
 
 
-def _rest(best: Trial) -> Failure | None:
-    """Own up to a question of which nothing was made, beside what was understood."""
-    asked = any(unread.asks for unread in best.reading.unread)
-    return NotUnderstood(words=best.reading.strange) if asked else None
+def _told(best: Trial) -> tuple[list[Part], Failure | None]:
+    """Give the acts that are replied to, and what is owned up to beside them.
+
+    Beside a question, what else was said is context: of that, nothing is owned up to. Where it
+    is the question of which nothing was made, what else was said is not replied to, either.
+    """
+    asking = [part for part in best.parts if isinstance(part.complete, Ask | Request)]
+    answered = any(part.answerable for part in asking)
+    lost = [part.failure for part in asking if part.failure is not None]
+    unread = [one for one in best.reading.unread if one.asks]
+    lost += [quoting.unread(best.reading, one) for one in unread]
+    if not lost and not answered:
+        lost = [part.failure for part in best.parts if part.failure is not None]
+    misdescribed = [p.failure for p in best.parts if p.answerable and p.failure is not None]
+    refusal = next(iter((*misdescribed, *lost)), None)
+    told = [part for part in best.parts if part.answerable]
+    if (asking or unread) and not answered and not misdescribed:
+        told = [part for part in told if not isinstance(part.complete, Claim | Social)]
+    if told and isinstance(refusal, NotUnderstood):
+        refusal = replace(refusal, rest=True)
+    return told, refusal
 
 
 def _unclear(trial: Trial) -> tuple[clarify.Clarification, Act] | None:

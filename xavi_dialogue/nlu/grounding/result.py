@@ -27,4 +27,5 @@ class Grounding(Value, frozen=True):
     offers: tuple[Act, ...] = ()  # grounded: one for each choice that `clarify` names
     offered_things: tuple[Thing, ...] = ()  # likewise, where it names vehicles
     pending: Act | None = None  # the act that is to be completed, as it was read
+    quotes: tuple[str, ...] = ()  # the words of each of the acts; "" where they are all the words
     named: Vehicle | None = None  # who was named in an act that was not understood

@@ -7,12 +7,14 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Mention
 from xavi_dialogue.domain.meaning import Ask, Claim
-from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Vehicles
-from xavi_dialogue.nlu.grounding.rewriting import parts
+from xavi_dialogue.domain.rewriting import parts
+from xavi_dialogue.domain.terms import At, Ego, Event, Thing, Vehicle, Vehicles
 
 DECAY: Final = 0.6  # of salience with each turn
 FRESH: Final = 1.5  # more salience within the turn, so that it outdoes the turn before
+BY_CAR: Final = 0.97  # share of the salience of what the car named, not the passenger
 FADED: Final = 0.05  # below which a thing is no longer spoken of
+JUST: Final = 0.3  # [s] before now up to which a time is now
 ROLES: Final = {"subject": 1.0, "cause": 0.95, "object": 0.85, "other": 0.7}
 
 
@@ -23,7 +25,8 @@ def salience(role: str | None) -> float:
 
 def mention(thing: Thing, turn: int, role: str | None, by_car: bool = False) -> Mention:
     """Make the mention of a thing in this turn."""
-    return Mention(thing=thing, turn=turn, by_car=by_car, salience=salience(role), role=role)
+    weight = salience(role) * (BY_CAR if by_car else 1.0)
+    return Mention(thing=thing, turn=turn, by_car=by_car, salience=weight, role=role)
 
 
 def ordered(mentions: Iterable[Mention]) -> tuple[Mention, ...]:
@@ -50,15 +53,16 @@ def renewed(mentions: Sequence[Mention], new: Iterable[Mention]) -> tuple[Mentio
 def mentions_of(act: object, turn: int, by_car: bool = False) -> tuple[Mention, ...]:
     """List the vehicles in a grounded act or answer by the part that they have in it."""
     roles: dict[Thing, str] = {}
-    for event in parts(act, Event):
-        if isinstance(event.actor, Vehicle | Vehicles):
+    found = list(parts(act, (Event, Vehicle, Vehicles)))
+    for event in found:
+        if isinstance(event, Event) and isinstance(event.actor, Vehicle | Vehicles):
             roles.setdefault(event.actor, "subject")
-        if isinstance(event.object, Vehicle | Vehicles):
+        if isinstance(event, Event) and isinstance(event.object, Vehicle | Vehicles):
             roles.setdefault(event.object, "object")
-    for one in parts(act, Vehicle):
-        roles.setdefault(one, "subject")
-    for several in parts(act, Vehicles):
-        roles.setdefault(several, "subject")
+    for kind in (Vehicle, Vehicles):
+        for one in found:
+            if isinstance(one, kind):
+                roles.setdefault(one, "subject")
     return tuple(mention(thing, turn, role, by_car) for thing, role in roles.items())
 
 
@@ -80,13 +84,16 @@ def group(mentions: Iterable[Mention]) -> tuple[int, ...]:
     return next((g.numbers for g in groups if len(g.numbers) > 1), ())
 
 
+def naming(discourse: Discourse, said: object) -> Discourse:
+    """Give the discourse within a turn after something grounded that was said in it."""
+    top = max((m.salience for m in discourse.mentions), default=0.0)
+    new = (replace(m, salience=top + m.salience + FRESH) for m in mentions_of(said, discourse.turn))
+    return replace(discourse, mentions=renewed(discourse.mentions, new))
+
+
 def after(discourse: Discourse, done: GroundedAct) -> Discourse:
     """Give the discourse within a turn after one of its acts, for the acts that follow it."""
-    top = max((m.salience for m in discourse.mentions), default=0.0)
-    new = (
-        replace(m, salience=top + m.salience + FRESH) for m in mentions_of(done.act, discourse.turn)
-    )
-    found = replace(discourse, mentions=renewed(discourse.mentions, new))
+    found = naming(discourse, done.act)
     if done.span is not None and not done.span.ahead and done.span.end - done.span.begin < 60.0:
         found = replace(found, episode=(done.span.begin, done.span.end))
     match done.act:
@@ -95,6 +102,16 @@ def after(discourse: Discourse, done: GroundedAct) -> Discourse:
         case Claim(that=that):
             return replace(found, propositions=(that, *found.propositions))
     return found
+
+
+def named_time(done: GroundedAct, now: float) -> tuple[float, float] | None:
+    """Give the time [s] that an act names, where that lies behind."""
+    at, span = next(parts(done.act, At), None), done.span
+    if at is not None:
+        return (at.at, at.at) if at.at < now - JUST else None
+    if span is None or not span.said or span.end >= now - JUST:
+        return None
+    return span.begin, span.end
 
 
 def is_spoken_of(discourse: Discourse, thing: Thing) -> bool:

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     Social,
     Whether,
 )
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     Ago,
     Compares,
@@ -32,7 +33,6 @@ from xavi_dialogue.domain.terms import (
     Start,
     That,
 )
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.fields import (
     TALK,
     FieldActions,

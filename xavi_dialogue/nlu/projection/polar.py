@@ -3,6 +3,7 @@
 from typing import Any
 
 from xavi_dialogue.domain.meaning import HowSure, Whether
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
@@ -15,7 +16,6 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Thing,
 )
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.comparisons import compared, of_choices
 from xavi_dialogue.nlu.projection.fields import FieldTense, QueryFields
 from xavi_dialogue.nlu.projection.propositions import PROPOSITIONS, subject, tense

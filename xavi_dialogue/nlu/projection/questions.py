@@ -31,6 +31,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     Ago,
     Believed,
@@ -46,7 +47,6 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Wanted,
 )
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.comparisons import compare
 from xavi_dialogue.nlu.projection.fields import FieldTense, QueryFields, QueryType
 from xavi_dialogue.nlu.projection.polar import declined, foreseen, how_sure, what_fields, whether

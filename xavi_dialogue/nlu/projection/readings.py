@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 
 from xavi_dialogue.domain.meaning import Act, Beyond, Reading, Social
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Unknown
 from xavi_dialogue.nlu.grammar.lexicon import lexicon
 from xavi_dialogue.nlu.grounding.doubts import judge
 from xavi_dialogue.nlu.grounding.ground import DEAF, READINGS
-from xavi_dialogue.nlu.grounding.rewriting import parts
 from xavi_dialogue.nlu.projection.fields import QueryFields
 from xavi_dialogue.nlu.projection.follow_ups import AMBIGUOUS, project
 from xavi_dialogue.nlu.projection.polar import declined

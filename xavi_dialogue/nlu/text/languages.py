@@ -21,7 +21,8 @@ def is_foreign(tokens: tuple[str, ...], vocabulary: Vocabulary) -> bool:
         return False
     if sum(not _latin(token) for token in tokens) * 2 > len(tokens):
         return True
-    strange = [token for token in tokens if token not in vocabulary.words]
+    typed = load("nlu_text.toml")["phone"]  # "r", "wat"
+    strange = [t for t in tokens if t not in vocabulary.words and t not in typed]
     for words in _function_words().values():
         found = [token for token in tokens if token in words]
         odd = {token for token in found if token in strange}

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from xavi_dialogue.nlu.text.spelling import Vocabulary, corrections
-from xavi_dialogue.nlu.text.tables import load
+from xavi_dialogue.nlu.text.tables import homophones, load
 from xavi_dialogue.nlu.text.tokens import Typed
 
 HOMOPHONE = 0.6
@@ -34,6 +34,12 @@ _PREFIXES = ("un", "in", "im", "dis", "re", "over", "under", "mis", "non", "pre"
 _ENDINGS = ("s", "es", "ed", "d", "ing", "er", "ers", "est", "ly", "able", "ible", "ness", "ment",
             "ful", "less", "ish", "y", "ity", "ion", "ation")  # fmt: skip
 
+#: Words that "to" and a verb often follow, so that "too" and "two" behind them are misspelt.
+_GOVERNING = frozenset(
+    ("going", "want", "wanted", "need", "needed", "have", "had", "has", "trying", "supposed",
+     "about", "able", "allowed", "got", "used", "ready", "meant")
+)  # fmt: skip
+_TO = frozenset(("too", "two"))
 _EXITS = frozenset({"out", "exit", "off", "ramp"})
 TYPED_NUMBER = 0.05  # cost of "#2" as the number alone: "car #2"
 _DRAWN = re.compile(r"([a-z])\1\1+")
@@ -75,6 +81,8 @@ def build(typed: Typed, vocabulary: Vocabulary, nouns: frozenset[str]) -> Lattic
             lattice.edges.append([])
         start = len(lattice.edges) - 1
         found = alternatives(token.text, vocabulary, nouns)
+        if index and token.text in _TO and typed.tokens[index - 1].text in _GOVERNING:
+            found = tuple((w, PHONE if w == ("to",) else cost) for w, cost in found)
         longest = max(len(words) for words, _ in found)
         lattice.edges.extend([] for _ in range(longest))
         for words, cost in found:
@@ -179,7 +187,8 @@ def _listed(table: str, token: str, cost: float) -> list[Alternative]:
 
 
 def _sounding(token: str) -> list[Alternative]:
-    return _listed("confused", token, CONFUSED) + _listed("homophones", token, HOMOPHONE)
+    found = _listed("confused", token, CONFUSED) + _listed("homophones", token, HOMOPHONE)
+    return found or [((meant,), CONFUSED) for meant in homophones().get(token, ())]
 
 
 def _contracted(token: str, vocabulary: Vocabulary, nouns: frozenset[str]) -> list[Alternative]:

@@ -20,6 +20,14 @@ def english() -> tuple[str, ...]:
     return tuple(word for line in lines for word in line.split())
 
 
+@cache
+def homophones() -> dict[str, tuple[str, ...]]:
+    """Read which words sound like a word of ours."""
+    text = resources.files("grammars").joinpath("homophones.txt").read_text(encoding="utf-8")
+    rows = (line.split() for line in text.splitlines() if not line.startswith("#"))
+    return {heard: tuple(meant) for heard, *meant in rows}
+
+
 def phrases(listed: str) -> list[tuple[str, ...]]:
     """Split "a b, c" into phrases, each a tuple of words."""
     return [tuple(phrase.split()) for phrase in listed.split(",") if phrase.strip()]

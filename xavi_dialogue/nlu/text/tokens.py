@@ -3,6 +3,7 @@
 import re
 import unicodedata
 from dataclasses import dataclass
+from itertools import pairwise
 
 MAX_CHARACTERS = 256  # read of any input: the end of a longer one, where the question stands
 MAX_TOKENS = 48
@@ -17,6 +18,8 @@ _PIECES = re.compile(
     r"|%|\.{2,}|[.,;:!?–—()]|-"
 )
 _MODALS = frozenset(("would", "could", "should", "might", "must"))
+_NUMBERS = {"four": "for", "two": "to"}  # as a recogniser of speech mistakes them
+_AFTER_PREPOSITION = frozenset(("us", "him", "her", "them", "me", "it", "the", "that", "this"))
 _STOPS = frozenset(".!?;")
 _MARKS = frozenset(".,;:!?–—()-")
 
@@ -61,6 +64,15 @@ def _heard_as_of(tokens: list[Token]) -> list[Token]:
     return found
 
 
+def _heard_as_number(tokens: list[Token]) -> list[Token]:
+    """Write the preposition where a number was heard before a pronoun or article: "four us"."""
+    found = list(tokens)
+    for index, (token, after) in enumerate(pairwise(tokens)):
+        if token.text in _NUMBERS and after.text in _AFTER_PREPOSITION and not after.mark:
+            found[index] = Token(_NUMBERS[token.text], token.mark)
+    return found
+
+
 def tokenise(text: str) -> Typed:
     """Cut a text into tokens; of one that is too long the end is read."""
     cleaned = clean(text)
@@ -77,7 +89,7 @@ def tokenise(text: str) -> Typed:
         else:
             tokens.append(Token(piece.rstrip("'") or piece, mark if tokens else ""))
             mark = ""
-    tokens = _heard_as_of(tokens)
+    tokens = _heard_as_number(_heard_as_of(tokens))
     if len(tokens) > MAX_TOKENS:
         tokens, shortened = tokens[-MAX_TOKENS:], True
     return Typed(tuple(tokens), mark, shortened)

@@ -164,6 +164,17 @@ def standing_within(states: States, vehicle: int, begin: float, end: float) -> f
     return total
 
 
+def _behind(states: States, vehicle: int, free: float, steps: range) -> float:
+    """Tell how much longer [s] a stretch took than at a speed, at most the limit of each place."""
+    motion, lost = states.motion(vehicle), 0.0
+    for k in steps:
+        place = states.place(vehicle, motion.time[k])
+        pace = free if place is None else min(free, place.limit)
+        driven = motion.arc[k + 1] - motion.arc[k]
+        lost += motion.time[k + 1] - motion.time[k] - driven / pace
+    return lost
+
+
 def delay(states: States, episode: Episode) -> Measure:
     """What slowing down or standing cost: the time it took to drive that far, less free driving.
 
@@ -191,8 +202,7 @@ def delay(states: States, episode: Episode) -> Measure:
         end += 1
         if motion.time[end] >= over and motion.speed[end] >= 0.95 * free:
             break
-    took = motion.time[end] - motion.time[first]
-    lost = max(took - (motion.arc[end] - motion.arc[first]) / free, 0.0)
+    lost = max(_behind(states, vehicle, free, range(first, end)), 0.0)
     going_on = motion.speed[end] < 0.95 * free
     found = asked.found(round(lost, 1), time=episode.begin)
     return replace(found, until=motion.time[end], at_least=going_on)

@@ -1,15 +1,16 @@
 """Acts: one act of a turn, completed where it is a fragment, and grounded."""
 
-from typing import Final
+from typing import Any, Final
 
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, Repair, Request
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Fault, Feel, Repair, Request
+from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
-    Exists,
+    Is,
     Nobody,
     Proposition,
     Thing,
@@ -47,6 +48,8 @@ def act(spoken: Act, g: Grounder) -> Act:
     match spoken:
         case Ask():
             return Ask(question(subordinate(bound(spoken, g).question, g), g))
+        case Claim(that=Is(state="at-fault", thing=thing, event=None)):
+            return Ask(question(Fault(suspect=thing), g))
         case Claim():
             return replace(spoken, that=_claimed(bound(spoken, g).that, g))
         case Request(event=event, negated=negated):
@@ -59,13 +62,24 @@ def act(spoken: Act, g: Grounder) -> Act:
 def _claimed(that: Proposition, g: Grounder) -> Proposition:
     """Ground a claim; who is said to be there is taken for whom the noun phrase fits."""
     found = g.proposition(that, "asked")
-    match that, found:
-        case Exists(thing=Described(doing=doing, such=such) as thing), Exists(thing=Nobody()) if (
-            doing is not None or such is not None
-        ):
-            bare = replace(that, thing=replace(thing, doing=None, such=None))
-            return g.proposition(bare, "asked")
+    if first(found, Nobody) is None or first(that, Described) is None:
+        return found
+    known = len(g.notes.missing), g.notes.cost
+    meant = g.proposition(rewrite(that, _specific), "asked")
+    if len(g.notes.missing) == known[0]:
+        return meant
+    del g.notes.missing[known[0] :]
+    g.notes.cost = known[1]
     return found
+
+
+def _specific(part: Any) -> Any:
+    """Take "some green car that came in" for one that is in view, whatever it is said to do."""
+    if not isinstance(part, Described) or part.definite or part.plural:
+        return part
+    if part.colour is None and part.kind == "vehicle" and part.bearing is None:
+        return part
+    return replace(part, definite=True, doing=None, such=None)
 
 
 def _requested(event: Event, g: Grounder) -> Event:

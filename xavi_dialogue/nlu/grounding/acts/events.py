@@ -13,22 +13,31 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Junction,
     Nobody,
     Passenger,
     Pronoun,
     Related,
+    Relative,
     Thing,
+    Time,
     Unsaid,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.kin import like
 from xavi_dialogue.nlu.grounding.things.pronouns import apart
 
+#: What is meant by going left or right where we did not turn off.
+SIDEWAYS: Final[dict[ActionName, ActionName]] = {
+    "exit-left": "change-left", "exit-right": "change-right",
+}  # fmt: skip
+_HALTS: Final = frozenset(("stand", "stop", "wait"))
 UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
 ELSEWHEN: Final = 0.3  # ... where it happened, but at another time
@@ -42,6 +51,8 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
     spoken = completed(spoken, g)
+    if spoken.tense == "future" and _meanwhile(spoken.time):
+        spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
     real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
     # "Is it braking?" is of whom was spoken of, whether he brakes or not.
@@ -53,7 +64,10 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     target = spoken.object
     if target is not None:
         other = apart(target, actor, g)
+        spoken_of = target
         target = _somebody(target, other, window, real, _undergoing(spoken, g, window))
+        if isinstance(target, Nobody) and _pictured(spoken_of):
+            target = other.thing(spoken_of, window)  # "you pulled out in front of a lorry"
     elif spoken.action == "leave":
         target = _left(actor, g, window)
     found = specified(replace(spoken, object=target, where=_where(spoken, g, window)), window, g)
@@ -66,6 +80,13 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
             g.notes.spans(window.span)
         return replace(found, time=window.term)
     return _placed(found, mode, g, window, outer is not None and not outer.said)
+
+
+def _meanwhile(time: Time) -> bool:
+    """Tell whether something to come is said to be while something else is: "while we go"."""
+    if not isinstance(time, Relative) or not isinstance(time.anchor, Event):
+        return False
+    return time.relation == "during" and time.anchor.tense in ("present", "future")
 
 
 def completed(spoken: Event, g: Grounder) -> Event:
@@ -96,6 +117,12 @@ def _window(spoken: Event, mode: Mode, g: Grounder, outer: Window | None) -> Win
     return g.window(spoken.time, tense)
 
 
+def _pictured(thing: Thing) -> bool:
+    """Tell whether somebody is described well enough to be known by his looks alone."""
+    one = isinstance(thing, Described) and not thing.plural and not thing.definite
+    return one and isinstance(thing, Described) and thing.kind not in ("vehicle", "car")
+
+
 def _somebody(thing: Thing, g: Grounder, window: Window, real: bool, fits: Fits) -> Thing:
     if not real and isinstance(thing, Described) and not thing.definite:
         return Nobody(described=thing)
@@ -118,8 +145,8 @@ def _left(actor: Thing, g: Grounder, window: Window) -> Junction | None:
 
 def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
     where = spoken.where
-    if where is None:
-        return None
+    if where is None or (spoken.action in _HALTS and where.to == Feature("line")):
+        return None  # where we stood is no more than that: at the line
     thing = where.thing if isinstance(where.thing, Wanted) else g.thing(where.thing, window)
     return replace(where, thing=thing, to=g.thing(where.to, window), time=window.term)
 
@@ -163,6 +190,11 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     held = g.context.holds(found, *window.search)
     if mode == "denied":
         return _denied(found, g, window)
+    aside = mode == "asked" and found.tense == "present"  # "now we are going further left?"
+    if not held and (mode == "presupposed" or aside) and found.action in SIDEWAYS:
+        moved = replace(found, action=SIDEWAYS[found.action])  # "left again, what is that for"
+        if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *_searched(g, window))):
+            found = moved
     present = mode == "asked" and found.tense == "present" and _is_present(window)
     if held and present and found.action in _PACES and not window.said:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - 0.5)

@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Now,
     Proposition,
     Related,
+    Tense,
     Thing,
     Unsaid,
     Vehicle,
@@ -34,6 +35,9 @@ Site: TypeAlias = Literal["ring", "before-ring", "junction", "lanes", "road"]
 RING_NEAR: Final = 80.0  # [m] from which on a roundabout in front is where "in" leads to
 JUNCTION_NEAR: Final = 40.0  # [m] likewise of a junction
 LEFT_LATELY: Final = 6.0  # [s] for which who has left a roundabout may have come out of it
+NEAR: Final = 25.0  # [m] up to which who drives in another lane may come over to ours
+BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
+ROLLING: Final = 1.0  # [m/s] from which somebody drives along
 GAVE: Final = 6.0  # [s] since when who let somebody go first comes after him
 _MOTION: Final = frozenset(("go", "come", "move", "head"))
 _RING: Final = Junction("roundabout")
@@ -41,6 +45,10 @@ _RING: Final = Junction("roundabout")
 
 def specified(event: Event, window: Window, g: Grounder) -> Event:
     """Put the action that is meant in the place of a generic one; grounded, but for its time."""
+    if event.action == "head" and event.object is None:
+        return replace(event, action="go")  # "why are we going there?"
+    if isinstance(event.object, Junction) and event.action in ("go", "move", "head"):
+        return replace(event, action="enter")  # "are we going round the roundabout?"
     if event.object is not None and not isinstance(event.object, Ego | Vehicle):
         return event
     moment = min(window.end, g.context.now)
@@ -50,7 +58,25 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         return _outwards(event, moment, g)
     if event.action == "let-go" and event.modal is None:
         return _let_go(event, moment, g)
+    if event.action == "continue-next-exit":
+        number = _number(event.actor)
+        ring = _site(moment, g) in ("ring", "before-ring")
+        ring = ring or (number is not None and _on_ring(_road(moment, g), number))
+        return event if ring else replace(event, action="move")
+    if event.action == "come" and event.where is None and event.side is None:
+        return _over(event, moment, g)
     return event
+
+
+def _over(event: Event, moment: float, g: Grounder) -> Event:
+    """Read "come" of who drives along in another lane near us: to our lane."""
+    number = _number(event.actor)
+    look = g.context.look(number, moment) if number else None
+    if look is None or not look.in_view or look.oncoming or look.speed < ROLLING:
+        return event
+    along = look.bearing.partition("-")[0] in ("ahead", "behind", "beside")
+    near = look.distance <= NEAR and abs(look.left) >= BESIDE
+    return replace(event, action="change-lane", object=None) if along and near else event
 
 
 def _inwards(event: Event, moment: float, g: Grounder) -> Event:
@@ -61,7 +87,10 @@ def _inwards(event: Event, moment: float, g: Grounder) -> Event:
     if site != "lanes":
         return event
     if isinstance(event.actor, Ego):
-        return replace(event, action="change-right")
+        road = _road(moment, g)
+        place = None if road is None else road.places.get(EGO)
+        outer = place is not None and place.lane == 0  # there is none to the right of ours
+        return replace(event, action="change-left" if outer else "change-right")
     return replace(event, action="cut-in", object=Ego())
 
 
@@ -73,13 +102,23 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
     if ring and event.object is None:
         return replace(event, action="leave", object=_RING)
     if not isinstance(event.actor, Ego):
-        return event
+        return replace(event, action="exit-right") if _turns_off(event, moment, g) else event
     before = event.object
     if _site(moment, g) != "lanes":
         coming = before is None and event.tense in ("present", "future")
         return replace(event, action="leave") if coming else event
     where = event.where if before is None else Related("ahead-of", event.actor, before)
     return replace(event, action="change-left", object=None, where=where)
+
+
+def _turns_off(event: Event, moment: float, g: Grounder) -> bool:
+    """Tell whether who is said to go out drives along with its right indicator on."""
+    number = _number(event.actor)
+    look = g.context.look(number, moment) if number else None
+    if look is None or look.speed < ROLLING or event.tense not in ("present", "future"):
+        return False
+    signal = Event("signal", event.actor, side="right")
+    return event.object is None and bool(g.context.holds(signal, moment - 1.0, moment))
 
 
 def _let_go(event: Event, moment: float, g: Grounder) -> Event:
@@ -127,7 +166,8 @@ def in_order(spoken: Happens, mode: Mode) -> Proposition:
         return spoken if named else Not(Happens(gave), lexical=True)
     ours = isinstance(event.actor, Vehicle)
     to: Thing = Ego() if ours else event.object if named and event.object else Everyone()
-    return Related("has-priority-over", event.actor, to, event.time, "present")
+    tense: Tense = "past" if event.tense in ("past", "perfect") else "present"
+    return Related("has-priority-over", event.actor, to, event.time, tense)
 
 
 def _beside(event: Event, where: Related) -> Proposition | None:

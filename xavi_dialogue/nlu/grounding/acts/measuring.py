@@ -7,7 +7,9 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    Ago,
     At,
     Back,
     Between,
@@ -21,9 +23,9 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.grounding.acts.windows import pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.rewriting import first
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
 #: What has a value at each moment.
@@ -31,13 +33,9 @@ MOMENTARY: Final = frozenset(
     ("speed", "limit", "excess", "gap", "headway", "distance", "time-to-collision", "lane",
      "indicator", "brake-lights", "distance-to-go", "time-to-go"),
 )  # fmt: skip
-#: Deeds at the middle of which they are thought to happen; others at their beginning.
-AT_MIDDLE: Final = frozenset(
-    ("pass", "overtake", "cross", "turn", "exit-left", "exit-right", "exit-straight", "head",
-     "continue-next-exit", "come", "collide", "nearly-collide", "follow", "stand", "wait"),
-)  # fmt: skip
 #: What may be asked of "it" where it is our car.
 OURS: Final = frozenset(("speed", "acceleration", "deceleration"))
+MOMENT: Final = 1.0  # [s] ago that a value was "just now", "a second ago"
 PRESENT: Final = 0.5  # salience from which a vehicle is the one spoken of
 _SPOKEN: Final = ("it", "he", "she", "that", "this", "one")
 
@@ -53,6 +51,8 @@ def measured(
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
+    if spoken.thing == Pronoun("one") and g.context.discourse.named is not None:
+        spoken = replace(spoken, tense="past")  # "at 26 s, was it moving, and how fast?"
     window = timed(spoken.time, spoken.tense, g, outer)
     if event is not None and isinstance(spoken.time, Unsaid) and (when := interval(event)):
         window = dataclasses.replace(g.window(Between(*when), "past"), said=False)
@@ -63,13 +63,16 @@ def measured(
     to = None if spoken.to is None else g.thing(spoken.to, window)
     thing = g.thing(spoken.thing, window)
     time = _moment(spoken, window, g, extreme=extreme)
-    if isinstance(time, At) and isinstance(spoken.time, Relative):
+    if isinstance(time, At) and isinstance(spoken.time, Relative | Back | Ago):
         g.notes.span = Span(time.at, time.at, said=True)
     return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
 
 
 def _corefer(spoken: Measured, g: Grounder) -> Measured:
     """Let "how fast is it going?" be of us, where we are spoken of."""
+    alone = spoken.thing == Pronoun("it") and spoken.to is None and spoken.tense == "present"
+    if spoken.attribute == "distance" and alone:
+        return spoken if spoken_of(g) else replace(spoken, attribute="distance-to-go", thing=Ego())
     unsaid = spoken.thing == Pronoun("one") and not _speaks_of_others(g)
     if unsaid or (_is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g)):
         return replace(spoken, thing=Ego())
@@ -88,6 +91,17 @@ def _to_whom(spoken: Measured, g: Grounder) -> Measured:
     return replace(spoken, to=Vehicle(near[0]))
 
 
+def just_named(g: Grounder) -> Vehicle | None:
+    """Give the vehicle that was named last in this utterance."""
+    fresh = (v for v, salience in vehicles_of(g.context.discourse.mentions) if salience > 1.0)
+    return next((Vehicle(v) for v in fresh), None)
+
+
+def spoken_of(g: Grounder) -> bool:
+    """Tell whether another vehicle was just spoken of."""
+    return any(salience >= PRESENT for _, salience in vehicles_of(g.context.discourse.mentions))
+
+
 def _speaks_of_others(g: Grounder) -> bool:
     """Tell whether another vehicle was what the question before was about."""
     asked = g.context.discourse.question
@@ -97,7 +111,7 @@ def _speaks_of_others(g: Grounder) -> bool:
 def _speaks_of_us(g: Grounder) -> bool:
     """Tell whether it is our own driving that was just spoken of, and no other vehicle."""
     discourse = g.context.discourse
-    if any(salience >= PRESENT for _, salience in vehicles_of(discourse.mentions)):
+    if spoken_of(g):
         return False
     return first((discourse.question, discourse.propositions[:1]), Ego) is not None
 
@@ -112,20 +126,11 @@ def _moment(spoken: Measured, window: Window, g: Grounder, *, extreme: bool) -> 
     A deed that did not take place stays in the term, for the explainer to say so.
     """
     time, found = spoken.time, window.term
-    if isinstance(time, Back) and time.relation == "during" and isinstance(found, Between):
-        return At(found.begin) if spoken.attribute in MOMENTARY and not extreme else found
-    if not isinstance(time, Relative) or not isinstance(time.anchor, Event):
-        return found
-    if not isinstance(found, Between):
-        return found if window.ahead else replace(time, anchor=g.event(time.anchor, "asked"))
+    deed = time.anchor if isinstance(time, Relative) else None
+    if isinstance(deed, Event) and not isinstance(found, Between):
+        return found if window.ahead else replace(time, anchor=g.event(deed, "asked"))
     if spoken.attribute not in MOMENTARY or extreme:
         return found
-    match time.relation:
-        case "before":
-            return At(found.end)
-        case "after":
-            return At(found.begin)
-        case "during":
-            middle = time.anchor.action in AT_MIDDLE
-            return At((found.begin + found.end) / 2.0 if middle else found.begin)
-    return found
+    if time == Ago(None):
+        return At(max(g.context.now - MOMENT, g.context.begin))
+    return pointed(time, window).term

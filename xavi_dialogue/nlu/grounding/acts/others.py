@@ -7,6 +7,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.meaning import (
     Doing,
     HowLong,
+    HowMuch,
     HowSure,
     Identify,
     Listing,
@@ -17,26 +18,50 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    Ago,
+    Both,
+    Compares,
     Described,
     Ego,
     Event,
+    Everyone,
     Exists,
     Feature,
     Happens,
+    Is,
+    Measured,
+    Not,
     Pronoun,
+    Proposition,
     Related,
+    Unsaid,
+    Vehicle,
     Wanted,
+    WholeRide,
 )
+from xavi_dialogue.domain.vocabulary import Bearing, Relation
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
-from xavi_dialogue.nlu.grounding.rewriting import first
 
 _VAGUE: Final = ("it", "that", "this")
+#: Where somebody is of whom a relation to us holds.
+BEARINGS: Final[dict[Relation, Bearing]] = {
+    "ahead-of": "ahead", "behind": "behind", "left-of": "left", "right-of": "right",
+    "beside": "beside", "oncoming-to": "oncoming", "near": "around",
+}  # fmt: skip
+_MOVING_IT: Final = ("speed-up", "slow-down", "change-plan", "do", "move")  # "what raised it?"
+#: What one does who does not come nearer.
+_PARTING: Final = ("go", "come", "move", "leave", "disappear", "slow-down", "speed-up")
+EARLIER: Final = 3.0  # [s] ago, with which it is compared how far somebody is
 _CHANGING: Final = ("change-plan", "change-lane", "change-left", "change-right")
 
 
 def of_others(spoken: Question, g: Grounder) -> Question | None:
     """Put the question that is meant in the place of one about others; None: it is another one."""
+    meant = _reworded(spoken, g)
+    if meant is not None:
+        return meant
     match spoken:
         case Whether(that=Happens(event=Event("go", actor, Feature(kind="way")) as event)):
             ours = isinstance(actor, Ego)
@@ -47,12 +72,89 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
         ) if action in _CHANGING and form in _VAGUE and _about_belief(g.context):
             g.notes.leaned = True
             return HowSure(changed=True)  # "has that changed since?"
+        case Whether(
+            that=Related(
+                relation=relation, thing=Described(definite=False, bearing=None) as thing, to=Ego()
+            ) as of
+        ) if relation in BEARINGS:  # "anyone still behind us?"
+            thing = replace(thing, bearing=BEARINGS[relation])
+            return replace(spoken, that=Exists(thing, of.time, of.tense))
+        case Which(such=Happens(event=Event(action=action, actor=Wanted(), object=Pronoun()))) if (
+            action in _MOVING_IT and _about_belief(g.context)
+        ):
+            g.notes.leaned = True
+            asked = g.context.discourse.question
+            return HowSure(asked.of if isinstance(asked, HowSure) else None, changed=True)
         case Identify(thing=Described("vehicle", doing=Event("do", actor, Wanted()))):
             return Doing(actor, tense="past")  # "what was the last thing it did?"
-        case HowLong(of=Event("stand", actor, where=Related() as where) as event):
+        case Whether(that=Happens(event=Event("keep-distance", Ego(), whom, tense="present"))) if (
+            isinstance(whom, Described | Pronoun | Vehicle)
+        ):  # "are you keeping well back from him?"
+            return Whether(Not(Is("close", whom), lexical=True))
+        case HowLong(of=Event("stand", actor, where=Related() as where) as event) if not isinstance(
+            where.to, Feature
+        ):
             beside = replace(where, thing=actor, time=event.time, tense=event.tense)
             return HowLong(beside)  # "how long has he been sitting beside us?"
     return None
+
+
+def _reworded(spoken: Question, g: Grounder) -> Question | None:
+    """Read who is aboard, to whom we have to yield, and whether somebody comes nearer."""
+    match spoken:
+        case Which(
+            thing=Described(plural=True) as thing,
+            such=Happens(event=Event(actor=Ego(), object=Wanted(), time=Unsaid()) as deed),
+        ) if deed.modal in (None, "must") and deed.tense in ("past", "perfect"):
+            such = Happens(replace(deed, time=WholeRide(), modal=None))  # "which did we pass?"
+            named = Described(thing.kind, plural=True)
+            plain = thing in (named, replace(named, definite=False))
+            return replace(spoken, thing=Everyone(thing.kind) if plain else thing, such=such)
+        case Whether(
+            that=Exists(
+                thing=Described(
+                    "pedestrian", such=Related(relation="on" | "near" | "with", to=aboard)
+                )
+            )
+        ) if isinstance(aboard, Described | Pronoun | Vehicle):
+            return HowMuch(Measured("occupant", aboard))  # "are there kids in it?"
+        case Whether(
+            that=Related(relation="on", thing=Described("vehicle", definite=False), to=aboard)
+        ) if isinstance(aboard, Described | Pronoun | Vehicle):
+            return HowMuch(Measured("occupant", aboard))  # "is anybody in it?"
+        case Listing(of="events", event=Event("give-way" | "let-go", Ego(), None) as event) if (
+            event.modal in ("must", "should")
+        ):  # "list the vehicles you are obliged to yield to"
+            owed = replace(event, object=Wanted(), tense="present", modal="must")
+            return Which(Wanted(), Happens(owed))
+        case Whether(that=Both(contents=contents, join="or")) if (
+            moved := _nearer_or_farther(contents, g)
+        ) is not None:
+            return replace(spoken, that=moved)
+    return None
+
+
+def _nearer_or_farther(contents: tuple[Proposition, ...], g: Grounder) -> Both | None:
+    """Read "is it coming nearer or going away" as a question for how far it is and was."""
+    nearing = [p for p in contents if isinstance(p, Happens) and p.event.action == "approach"]
+    if len(nearing) != 1 or len(contents) != 2 or nearing[0].event.tense != "present":
+        return None
+    event = nearing[0].event
+    other = contents[1] if contents[0] is nearing[0] else contents[0]
+    match other:
+        case Happens(event=Event(action=action, tense="present")) if action in _PARTING:
+            pass
+        case Is(state="far"):
+            pass
+        case _:
+            return None
+    whom = event.object if isinstance(event.actor, Ego) else event.actor
+    if not isinstance(whom, Described | Pronoun | Vehicle):
+        return None
+    whom = g.thing(whom, g.window(Unsaid(), "present"))  # the same one now and before
+    now = Measured("distance", whom, Ego())
+    before = replace(now, time=Ago(EARLIER), tense="past")
+    return Both((Compares(now, "less", before), Compares(now, "more", before)), "or")
 
 
 def _about_belief(context: Context) -> bool:

@@ -6,13 +6,16 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    Back,
     Believed,
     Between,
     Both,
     Caused,
     Compares,
     Described,
+    Destination,
     Ego,
     Event,
     Exists,
@@ -24,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Now,
     Pronoun,
     Proposition,
     Quantity,
@@ -38,9 +42,11 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
-from xavi_dialogue.nlu.grounding.acts.measuring import measured
+from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
-from xavi_dialogue.nlu.grounding.acts.windows import is_stale
+from xavi_dialogue.nlu.grounding.acts.restating import restated
+from xavi_dialogue.nlu.grounding.acts.timing import believed_then
+from xavi_dialogue.nlu.grounding.acts.windows import is_stale, pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -50,9 +56,9 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     questioned,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
-from xavi_dialogue.nlu.grounding.rewriting import first
-from xavi_dialogue.nlu.grounding.salience import vehicles_of
-from xavi_dialogue.nlu.grounding.things.pronouns import apart
+from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
+from xavi_dialogue.nlu.grounding.things.descriptions import is_such
+from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
 UNHEARD_OF: Final = 0.4  # cost of taking for granted what no record tells
@@ -72,14 +78,21 @@ def proposition(
     match spoken:
         case Happens(event=Event(actor=Nobody(described=None))):
             return g.proposition(of_nobody(spoken), mode, outer)
+        case Happens() if (meant := restated(spoken, mode)) is not None:
+            return g.proposition(meant, mode, outer)
         case Happens(event=event):
+            others = event.tense == "present" and not isinstance(event.actor, Ego)
+            mode = "asked" if others and "first" in event.manner else mode  # it may still come
             return in_order(Happens(g.event(event, mode, outer)), mode)
         case Not(content=content):
             inner: Mode = "denied" if mode == "presupposed" else mode
             return Not(g.proposition(content, inner, outer))
         case Both(contents=contents):
-            each = tuple(g.proposition(one, mode, outer) for one in contents)
-            return replace(spoken, contents=each)
+            each: list[Proposition] = []
+            for one in contents:  # "did the red one leave, or is it behind us?"
+                beside = g.beside(naming(g.context.discourse, tuple(each)))
+                each.append(beside.proposition(one, mode, outer))
+            return replace(spoken, contents=tuple(each))
         case That():
             return _that(g)
         case Caused():
@@ -93,22 +106,46 @@ def proposition(
             if limited is not None:
                 return g.proposition(limited, mode, outer)
             return _is(something_wrong(spoken, g) or spoken, g, mode, outer)
+        case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
+            seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
+            return g.proposition(seen, mode, outer)
         case Related():
-            spoken = come_along(spoken)
-            window = timed(spoken.time, spoken.tense, g, outer)
-            thing = g.thing(spoken.thing, window)
-            place = _place(spoken, g)
-            to = apart(place, thing, g).thing(place, window)
-            return replace(spoken, thing=thing, to=to, time=window.term)
+            return _related(come_along(spoken), g, outer)
         case Has():
-            window = timed(spoken.time, spoken.tense, g, outer)
+            window = at_moment(spoken.time, spoken.tense, g, outer)
             return replace(spoken, thing=g.thing(spoken.thing, window), time=window.term)
         case Believed():
-            window = timed(spoken.time, spoken.tense, g, outer)
+            spoken = believed_then(spoken)
+            window = at_moment(spoken.time, spoken.tense, g, outer)
             content = g.proposition(spoken.content, "supposed", window)
             if isinstance(spoken.content, That):  # what came true or not, as it was foreseen
                 content = affirmed(content)
             return replace(spoken, content=content, time=window.term)
+
+
+def _related(spoken: Related, g: Grounder, outer: Window | None) -> Related:
+    """Ground where one thing is beside another."""
+    if spoken.relation == "same-as" and isinstance(spoken.time, Back):
+        spoken = replace(spoken, time=Unsaid())  # "the same car as before"
+    window = at_moment(spoken.time, spoken.tense, g, outer)
+    thing = _pointed_at(spoken, g) or g.thing(spoken.thing, window)
+    place = _place(spoken, g)
+    alike = spoken.relation == "same-as" and is_such(thing, place, g, window)
+    to = thing if alike else apart(place, thing, g).thing(place, window)
+    return replace(spoken, thing=thing, to=to, time=window.term)
+
+
+def _pointed_at(spoken: Related, g: Grounder) -> Thing | None:
+    """Take "that" in "is that the same red car as before?" for a red car that is in view."""
+    to, now = spoken.to, g.context.now
+    if spoken.relation != "same-as" or not isinstance(spoken.thing, Pronoun):
+        return None
+    if not isinstance(to, Described) or (to.colour is None and to.kind in ("vehicle", "car")):
+        return None
+    plain = Described(kind=to.kind, colour=to.colour, size=to.size)
+    found = g.thing(plain, g.window(Now(), "present"))
+    look = g.context.look(found.number, now) if isinstance(found, Vehicle) else None
+    return found if look is not None and look.in_view else None
 
 
 def _place(spoken: Related, g: Grounder) -> Thing:
@@ -123,20 +160,35 @@ def timed(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window
     if outer is not None and isinstance(time, Unsaid):
         return outer
     window = g.window(time, tense)
-    focus = g.context.discourse.episode
+    discourse = g.context.discourse
+    focus = discourse.named or discourse.episode
     if focus is not None and is_stale(g.context):
         focus = None
     if isinstance(time, Unsaid) and tense == "past" and focus is not None:
         window = inferred(focus, g)
+        window = dataclasses.replace(window, said=focus == discourse.named)
     open_ended = isinstance(time, Unsaid) and tense in ("past", "perfect") and focus is None
     if outer is None and not open_ended:
         g.notes.spans(window.span)
     return window
 
 
+def at_moment(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window:
+    """Find the window of a state; where a deed names it, the moment that is meant."""
+    found = timed(time, tense, g, outer)
+    window = pointed(time, found)
+    if window is not found and outer is None:
+        g.notes.span = window.span
+    return window
+
+
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
     right = spoken.right
     of = spoken.left
+    if of.attribute == "count":
+        return replace(spoken, left=_tally(of, g))
+    if isinstance(right, Quantity) and right.unit == "count" and of.attribute in _PACES:
+        right = Quantity(round(right.value / 3.6, 6), "m/s")  # nobody says "km/h"
     near = isinstance(right, Quantity) and of.attribute in _APART and outer is None
     if near and isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
         of = replace(of, time=WholeRide())  # "did he come within 5 metres?"
@@ -146,16 +198,38 @@ def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
     return replace(spoken, left=left, right=right)
 
 
+_NEAR: Final = frozenset(("roomy", "close"))  # of whom is named in the same breath
+_PACES: Final = frozenset(("speed", "limit", "excess"))
+
+
+def _tally(of: Measured, g: Grounder) -> Measured:
+    """Ground how many there were, or how often something was done."""
+    if of.event is not None:
+        whole = WholeRide() if isinstance(of.event.time, Unsaid) else of.event.time
+        return replace(of, event=g.event(replace(of.event, time=whole), "asked"))
+    found = g.thing(of.thing, g.window(Unsaid(), "perfect"))
+    return replace(of, thing=found, about=Exists(of.thing))
+
+
 def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
-    window = timed(spoken.time, spoken.tense, g, outer)
+    window = at_moment(spoken.time, spoken.tense, g, outer)
     thing = spoken.thing
     if isinstance(thing, Described) and not thing.definite:
         thing = replace(thing, plural=True)
+        doing = thing.doing
+        after = getattr(getattr(doing, "time", None), "anchor", None)
+        if doing is not None and isinstance(after, Described | Pronoun | Vehicle):
+            g = g.beside(naming(g.context.discourse, g.thing(after, window)))
+            thing = replace(thing, other=True, doing=replace(doing, time=Unsaid()))
     return replace(spoken, thing=g.thing(thing, window), time=window.term)
 
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
     spoken = _of_event(spoken, g)
+    if spoken.state == "far" and spoken.thing == Pronoun("it") and not spoken_of(g):
+        spoken = replace(spoken, thing=Destination())  # "is it far?"
+    if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
+        spoken = replace(spoken, thing=just_named(g))
     event = spoken.event
     if mode == "presupposed" and spoken.state in _UNHEARD_OF:
         g.notes.presupposed = False
@@ -167,7 +241,7 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
         if when is not None and isinstance(spoken.time, Unsaid):
             window = inferred(when, g)
     if window is None or not isinstance(spoken.time, Unsaid):
-        window = timed(spoken.time, spoken.tense, g, outer)
+        window = at_moment(spoken.time, spoken.tense, g, outer)
     thing = None if spoken.thing is None else g.thing(spoken.thing, window)
     return replace(spoken, thing=thing, event=event, time=window.term)
 
@@ -179,6 +253,16 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     )
     if spoken.event is not None or not vague or spoken.state not in OF_EVENTS:
         return spoken
+    told = next(iter(g.context.discourse.propositions), None)
+    if spoken.state in ("wrong", "right") and isinstance(told, Believed):
+        whom, event = first(told, Vehicle), first(told, Event)
+        if whom is not None and event is not None and event.actor == whom:
+            g.notes.leaned = True  # "you expected it to turn. Was that wrong?"
+            return replace(spoken, thing=whom, time=told.time)
+    near = next((v for v, s in vehicles_of(g.context.discourse.mentions) if s >= CLEAR), None)
+    if spoken.state == "close" and spoken.tense == "present" and near is not None:
+        g.notes.leaned = True
+        return replace(spoken, thing=Vehicle(near))  # "that's tight, isn't it?"
     if spoken.state in _ONLY_EVENTS or spoken.tense == "past":
         known = discussed(g.context)
     else:

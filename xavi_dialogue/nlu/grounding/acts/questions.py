@@ -31,6 +31,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Between,
     Described,
@@ -47,8 +48,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.acts.measuring import measured
 from xavi_dialogue.nlu.grounding.acts.others import asked_who
-from xavi_dialogue.nlu.grounding.acts.propositions import inferred, suspect, timed
+from xavi_dialogue.nlu.grounding.acts.propositions import at_moment, inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
+from xavi_dialogue.nlu.grounding.acts.timing import believed_last, changed, foreseen, over
+from xavi_dialogue.nlu.grounding.acts.windows import pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     PROPOSITIONS,
     affirmed,
@@ -58,8 +61,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     questioned,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
-from xavi_dialogue.nlu.grounding.rewriting import first
 
+_AWAY: Final = frozenset(("go", "move", "head", "disappear"))
 UNASKED: Final = 0.2  # cost of taking somebody for the cause where no cause was spoken of
 
 
@@ -79,7 +82,10 @@ def _why(spoken: Why, g: Grounder) -> Why:
         g.notes.cost += UNASKED
     if blamed is not None:
         blamed = suspect(blamed, event, g, _during(event, g))
-    return replace(spoken, of=of, instead=instead, suspect=blamed)
+    rival = spoken.rival
+    if rival is not None:
+        rival = suspect(rival, event, g, _during(event, g))
+    return replace(spoken, of=of, instead=instead, suspect=blamed, rival=rival)
 
 
 def _during(event: Event | None, g: Grounder) -> Window:
@@ -112,10 +118,9 @@ def _whether(spoken: Whether, g: Grounder) -> Whether:
 
 
 def _which(spoken: Which, g: Grounder) -> Which:
-    such = spoken.such
+    such, thing = spoken.such, spoken.thing
     if such is not None:
         such = g.proposition(such, "asked")
-    thing = spoken.thing
     event = first(such, Event)
     if isinstance(thing, Described) and such is not None:
         thing = replace(thing, plural=True)
@@ -167,13 +172,17 @@ def _how_long(spoken: HowLong, g: Grounder) -> HowLong:
     return replace(spoken, of=g.event(spoken.of, "asked" if state else "presupposed"))
 
 
+_OF_MOMENTS: Final = ("beliefs", "options", "vehicles")  # listed as they are at one time
+
+
 def _where(spoken: Where, g: Grounder) -> Where:
     of = spoken.of
     if isinstance(of, Event):
         if isinstance(of.time, Unsaid):
             of = replace(of, time=spoken.time)
-        return replace(spoken, of=g.event(of, "presupposed"), time=Unsaid())
-    window = timed(spoken.time, "present", g, None)
+        away = of.action in _AWAY and of.object is None  # nobody need have set off
+        return replace(spoken, of=g.event(of, "asked" if away else "presupposed"), time=Unsaid())
+    window = at_moment(spoken.time, "present", g, None)
     return replace(spoken, of=g.thing(of, window), time=window.term)
 
 
@@ -191,7 +200,10 @@ def _doing(spoken: Doing, g: Grounder) -> Doing:
     besides = spoken.besides
     if besides is not None:
         besides = g.proposition(besides, "asked")
-    return replace(spoken, actor=actor, besides=besides, time=window.term)
+    time = window.term
+    if spoken.time == Unsaid() and isinstance(time, Between) and time.begin == time.end:
+        time = WholeRide()  # what it did, and not how it was at one moment
+    return replace(spoken, actor=actor, besides=besides, time=time)
 
 
 def _compare(spoken: Compare, g: Grounder) -> Compare:
@@ -207,24 +219,16 @@ def _compare(spoken: Compare, g: Grounder) -> Compare:
 
 
 def _listing(spoken: Listing, g: Grounder) -> Listing:
-    window = _over(spoken.time, g)
+    window = over(spoken.time, g)
+    if spoken.of in _OF_MOMENTS:
+        window = pointed(spoken.time, window)
+        g.notes.span = window.span
     about = None if spoken.about is None else g.thing(spoken.about, window)
     return replace(spoken, about=about, time=window.term)
 
 
 def _peak(spoken: Peak, g: Grounder) -> Peak:
-    return replace(spoken, time=_over(spoken.time, g).term)
-
-
-def _changed(spoken: Changed, g: Grounder) -> Changed:
-    """Ground what changed: since the last two times that were asked about, where none is said."""
-    if not isinstance(spoken.time, Unsaid):
-        return replace(spoken, time=_over(spoken.time, g).term)
-    times = sorted(g.context.discourse.times[:2])
-    if len(times) < 2:
-        return spoken
-    g.notes.leaned = True
-    return replace(spoken, time=Between(times[0], times[1]))
+    return replace(spoken, time=over(spoken.time, g).term)
 
 
 def _summarise(spoken: Summarise, g: Grounder) -> Summarise:
@@ -232,21 +236,12 @@ def _summarise(spoken: Summarise, g: Grounder) -> Summarise:
     if isinstance(about, Event):
         about = g.event(about, "presupposed")
         when = interval(about)
-        window = _over(spoken.time, g) if when is None else inferred(when, g)
+        window = over(spoken.time, g) if when is None else inferred(when, g)
         return replace(spoken, about=about, time=window.term)
-    window = _over(spoken.time, g)
+    window = over(spoken.time, g)
     return replace(
         spoken, about=None if about is None else g.thing(about, window), time=window.term
     )
-
-
-def _over(time: Any, g: Grounder) -> Window:
-    if isinstance(time, Unsaid):
-        window = g.window(Unsaid(), "perfect")
-    else:
-        window = g.window(time, "past")
-    g.notes.spans(window.span)
-    return window
 
 
 def _how_know(spoken: HowKnow, g: Grounder) -> HowKnow:
@@ -254,10 +249,12 @@ def _how_know(spoken: HowKnow, g: Grounder) -> HowKnow:
 
 
 def _how_sure(spoken: HowSure, g: Grounder) -> HowSure:
-    of = _about(spoken.of, "asked", g)
+    spoken = foreseen(spoken)
+    moved = spoken.changed and spoken.of is None
+    of = (believed_last(g) if moved else None) or _about(spoken.of, "asked", g)
     if isinstance(spoken.time, Unsaid):
         return replace(spoken, of=of)
-    window = timed(spoken.time, "past", g, None)
+    window = at_moment(spoken.time, "past", g, None)
     return replace(spoken, of=of, time=window.term)
 
 
@@ -303,6 +300,9 @@ def _fault(spoken: Fault, g: Grounder) -> Fault:
     elif g.context.discourse.question is not None or g.context.discourse.episode is not None:
         hindered = hindrance(g.context)
         of = questioned(g.context) if hindered is None else Happens(hindered)
+        imagined = first(of, Event)
+        if imagined is not None and imagined.modal == "would":
+            of = None
         g.notes.leaned = of is not None or g.notes.leaned
         if of is not None:
             _span_of(of, g)
@@ -330,7 +330,7 @@ _HANDLERS: Final[dict[type, Callable[[Any, Grounder], Any]]] = {
     Compare: _compare,
     Listing: _listing,
     Peak: _peak,
-    Changed: _changed,
+    Changed: changed,
     Summarise: _summarise,
     HowKnow: _how_know,
     HowSure: _how_sure,

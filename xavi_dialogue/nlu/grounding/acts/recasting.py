@@ -23,6 +23,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     Back,
     Between,
@@ -45,12 +46,16 @@ from xavi_dialogue.domain.terms import (
     That,
     Thing,
     Unsaid,
+    WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.others import of_others
+from xavi_dialogue.nlu.grounding.acts.races import race
+from xavi_dialogue.nlu.grounding.acts.trips import SIDES, of_trip
 from xavi_dialogue.nlu.grounding.acts.windows import notable
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
+    beside_road,
     discussed,
     event_of,
     hindrance,
@@ -58,7 +63,6 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
-from xavi_dialogue.nlu.grounding.rewriting import parts
 
 _LASTING: Final = frozenset(("duration", "waiting-time", "delay"))
 _VAGUE: Final = ("it", "that", "this")
@@ -71,16 +75,11 @@ _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=Fa
 
 def recast(spoken: Question, g: Grounder) -> Question:
     """Put the question that is meant in the place of one that its words leave open."""
-    meant = of_others(spoken, g) or _lasted(spoken, g)
+    meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g)
+    meant = meant or of_trip(spoken) or _of_deed(spoken, g)
     if meant is not None:
         return meant
     match spoken:
-        case Why(of=That(), suspect=None) if (deed := _fresh(g.context)) is not None:
-            return Why(Happens(deed))
-        case Whether(that=Is(state="necessary", thing=thing, event=None) as of) if (
-            is_vague(thing) and (deed := _fresh(g.context)) is not None
-        ):
-            return replace(spoken, that=replace(of, thing=None, event=deed))
         case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
             found = notable(g.context)
             return spoken if found is None else replace(spoken, time=Between(*found))
@@ -130,12 +129,28 @@ def recast(spoken: Question, g: Grounder) -> Question:
     return spoken
 
 
+def _of_deed(spoken: Question, g: Grounder) -> Question | None:
+    """Ask of the deed just now, where only "that" is said of it."""
+    match spoken:
+        case Why(of=That(), suspect=None) if (
+            deed := _fresh(g.context) or beside_road(g.context)
+        ) is not None:
+            return Why(Happens(deed))
+        case Whether(that=Is(state="necessary", thing=thing, event=None) as of) if (
+            is_vague(thing) and (deed := _fresh(g.context)) is not None
+        ):
+            return replace(spoken, that=replace(of, thing=None, event=deed))
+    return None
+
+
 def _lasted(spoken: Question, g: Grounder) -> Question | None:
     """Read how long or how far, where it is left open what lasts; None: something else."""
     match spoken:
         case HowMuch(of=Measured(attribute=attribute, thing=thing, event=None) as of) if (
             attribute in _LASTING and is_vague(thing)
         ):
+            if attribute == "duration" and isinstance(of.time, WholeRide):
+                return HowLong(Event("move", tense="perfect"))  # "how long has this taken?"
             return _lasting(spoken, of, g)
         case HowLong(of=That()):
             return _so_long(spoken, g)
@@ -156,17 +171,16 @@ def _lasted(spoken: Question, g: Grounder) -> Question | None:
 
 _ARRIVING: Final = ("leave", "arrive", "exit-left", "exit-right", "turn")
 _TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
-_SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
 
 
 def _by_side(relation: str, spoken: Question, g: Grounder) -> Question:
     """Take "is that the one on the right?" after a question for our way for which way it is."""
     match g.context.discourse.question:
         case HowMuch(of=Measured(attribute="turn" | "exit-number", thing=Ego())) if (
-            relation in _SIDES
+            relation in SIDES
         ):
             g.notes.leaned = True
-            action: Any = _SIDES[relation]
+            action: Any = SIDES[relation]
             return Whether(Happens(Event(action, tense="present")))
     return spoken
 
@@ -229,7 +243,9 @@ def _own_measure(context: Context) -> HowMuch | None:
 
 def _so_long(spoken: HowLong, g: Grounder) -> Question:
     """Take "how long for?" for how long it is so that was asked about or told."""
-    known = proposition_of(g.context.discourse.question) or asserted(g.context)
+    discourse = g.context.discourse
+    silent = discourse.question is None and not discourse.propositions
+    known = None if silent else proposition_of(discourse.question) or asserted(g.context)
     if known is None:
         return HowMuch(Measured("time-to-go"))
     g.notes.leaned = True

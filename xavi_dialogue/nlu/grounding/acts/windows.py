@@ -44,6 +44,11 @@ JUST_BEFORE: Final = 0.2  # [s] before something that are still of it
 STALE: Final = 6.0  # [s] after which what was spoken of is no longer what "back there" means
 TOGETHER: Final = 1.5  # [s] between deeds that belong together
 LONGEST: Final = 15.0  # [s] that deeds which belong together last at most
+#: Deeds at the middle of which they are thought to happen; others at their beginning.
+AT_MIDDLE: Final = frozenset(
+    ("pass", "overtake", "cross", "turn", "exit-left", "exit-right", "exit-straight", "head",
+     "continue-next-exit", "come", "collide", "nearly-collide", "follow", "stand", "wait"),
+)  # fmt: skip
 UNFOUND: Final = 0.6  # cost of a time that hangs on what did not happen
 
 Interval = tuple[float, float]
@@ -71,7 +76,9 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
         case Within(seconds=after):
             return _coming(context, SOON if after is None else after, said=True)
         case Between(begin=first, end=last):
-            return replace(_between(min(first, last), max(first, last), now), whole=True)
+            first, last = min(first, last), max(first, last)
+            last = now if first < now < last else last
+            return replace(_between(first, last, now), whole=True)
         case Relative():
             return _relative(time, tense, g)
         case Back(relation=relation):
@@ -101,6 +108,28 @@ def unsaid(tense: Tense, context: Context) -> Window:
     return Window(begin, now, Unsaid(), (begin, now))
 
 
+def pointed(time: Time, found: Window) -> Window:
+    """Narrow what a deed names as a time to the moment that is meant by it.
+
+    What lies before it, ends as it begins; what lies after it, begins as it ends.
+    """
+    anchor = time.anchor if isinstance(time, Relative) else None
+    spoken = isinstance(anchor, Event) or isinstance(time, Back)
+    if not isinstance(time, Relative | Back) or not spoken or not isinstance(found.term, Between):
+        return found
+    match time.relation:
+        case "before":
+            at = found.term.end
+        case "after":
+            at = found.term.begin
+        case "during":
+            middle = isinstance(anchor, Event) and anchor.action in AT_MIDDLE
+            at = (found.term.begin + found.term.end) / 2.0 if middle else found.term.begin
+        case _:
+            return found
+    return replace(found, begin=at, end=at, term=At(at))
+
+
 def focus(discourse: Discourse) -> Interval | None:
     """Give the episode that "then" and "that" reach back to."""
     return discourse.episode
@@ -114,6 +143,8 @@ def _at(at: float, now: float) -> Window:
 def _decided(number: int, last: int, context: Context) -> Window:
     """Take the time of a decision, or from one to another, by their numbers in the record."""
     first, end = (context.world.decided(n) for n in (number, last))
+    if end is None and last > number:
+        end = context.now
     if first is None or end is None:
         return unsaid("past", context)
     return _at(first, context.now) if first == end else _between(first, end, context.now)
@@ -161,6 +192,10 @@ def notable(context: Context) -> Interval | None:
     return begin, end
 
 
+#: What we set about on purpose.
+MANOEUVRES: Final = frozenset(
+    ("change-left", "change-right", "exit-left", "exit-right", "exit-straight", "enter"),
+)
 #: What people call something that happened.
 NOTABLE: Final = frozenset(
     (
@@ -216,6 +251,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
     """Find when the anchor was; () never, None: it is yet to come."""
     whole = unsaid("past", g.context)
     match time.anchor:
+        case Event(action="do", actor=Ego()):
+            return _of_ours(g)
         case Event() as event:
             return _of_event(event, tense, g)
         case Junction() as spoken:
@@ -228,6 +265,23 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return None
         case thing:
             return _of_thing(g.thing(thing, whole), g.context)
+
+
+def _of_ours(g: Grounder) -> tuple[Interval, ...]:
+    """Find what "when you did it", "when you committed" goes back to: the last manoeuvre."""
+    context = g.context
+    spoken = None if is_stale(context) else focus(context.discourse)
+    deeds = context.deeds(Ego(), context.begin, context.now)
+    moves = [e for e in deeds if e.action in MANOEUVRES]
+    if spoken is not None:
+        near = [_interval(e, context) for e in moves]
+        near = [i for i in near if i[0] <= spoken[1] and i[1] >= spoken[0]]
+        ours = any(e.begin == spoken[0] for e in deeds if e.action in NOTABLE)
+        if ours or not moves:
+            return (spoken,)
+        return tuple(near[-1:]) or (_interval(moves[-1], context),)
+    found = _interval(moves[-1], context) if moves else notable(context)
+    return () if found is None else (found,)
 
 
 def _of_event(event: Event, tense: Tense, g: Grounder) -> tuple[Interval, ...] | None:

@@ -8,6 +8,7 @@ from typing import Final, TypeVar
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import Ask, Claim
+from xavi_dialogue.domain.rewriting import first, parts, substitute
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -19,7 +20,6 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder
-from xavi_dialogue.nlu.grounding.rewriting import first, parts, substitute
 
 Spoken = TypeVar("Spoken", Ask, Claim)
 _SPOKEN: Final = ("it", "he", "she", "that", "this", "one")
@@ -49,7 +49,7 @@ def bound(spoken: Spoken, g: Grounder) -> Spoken:
 
 def _done(anchor: Event, main: Event | None) -> Event:
     """Put what the question is about in the place of "did": "has he braked when we did?"."""
-    vague = anchor.object is None or isinstance(anchor.object, Pronoun)
+    vague = anchor.object is None or anchor.object == Pronoun("it")
     if anchor.action != "do" or not vague or main is None or main.action == "do":
         return anchor
     return replace(main, actor=anchor.actor, object=None, time=Unsaid(), tense=anchor.tense)

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.meaning import (
     Where,
     Whither,
 )
+from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     At,
     Believed,
@@ -41,7 +42,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.acts.windows import NOTABLE
 from xavi_dialogue.nlu.grounding.context import Context
-from xavi_dialogue.nlu.grounding.rewriting import first, parts
 
 PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
@@ -145,6 +145,18 @@ def hindrance(context: Context) -> Event | None:
         near = [e for e in hindered if e.begin <= focus[1] and (e.end or context.now) >= focus[0]]
         hindered = near or hindered
     return None if not hindered else event_of(hindered[-1], context.now)
+
+
+def beside_road(context: Context) -> Event | None:
+    """Give what we did last, where all that was told before "what was that for?" is the setting."""
+    known = next((p for p in context.discourse.propositions if not isinstance(p, That)), None)
+    free = isinstance(known, Is) and known.state == "free"
+    if not (free or isinstance(known, Exists | Related)):
+        return None
+    since = context.discourse.asked_at or context.begin
+    begun = [e for e in context.deeds(Ego(), since, context.now) if e.action in _HINDERED]
+    fresh = [e for e in begun if e.begin > since]
+    return event_of(fresh[-1], context.now) if fresh else hindrance(context)
 
 
 def _last_of(context: Context, actor: Ego | Vehicle) -> Event | None:

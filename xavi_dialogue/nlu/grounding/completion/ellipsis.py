@@ -32,6 +32,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -59,7 +60,6 @@ from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, count
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if
 from xavi_dialogue.nlu.grounding.context import Grounder
-from xavi_dialogue.nlu.grounding.rewriting import first
 
 FRAMELESS: Final = 0.6  # cost of a fragment that has nothing to complete
 
@@ -265,6 +265,15 @@ _FOR_WHOM: Final = frozenset(
 )  # fmt: skip
 
 
+def _of_our_way(question: Question | None) -> bool:
+    """Tell whether it was asked which way we go, or what we do next."""
+    if isinstance(question, HowMuch):
+        return question.of.attribute in ("turn", "exit-number") and question.extreme is None
+    deed = main_event(question)
+    ours = deed is not None and deed.actor == Ego() and deed.tense in ("present", "future")
+    return ours and first(question, Vehicle) is None
+
+
 def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
     """Put another question word to what was spoken of: "when?", "which one?", "how sure?"."""
     thing = spoken.thing
@@ -276,6 +285,8 @@ def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | No
         if not named and event is not None and event.action in _FOR_WHOM:
             return Ask(Which(Wanted(), Happens(replace(event, object=Wanted()))))
         return Ask(Identify(thing or Pronoun("it")))
+    if spoken.form == "where" and thing is None and _of_our_way(question):
+        return Ask(Whither())  # "and then where?"
     if spoken.form == "where" and (thing is not None or main_event(question) is None):
         told = isinstance(question, HowMuch) and question.extreme is not None
         if thing is None and question is not None and (told or isinstance(question, Whither)):

@@ -3,12 +3,12 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, Repair, Request
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Described, Event, Pronoun, Thing, Vehicle
 from xavi_dialogue.nlu.grounding.completion.ellipsis import complete as ellipsis_of
 from xavi_dialogue.nlu.grounding.completion.ellipsis import under_discussion
 from xavi_dialogue.nlu.grounding.completion.replacing import with_thing
 from xavi_dialogue.nlu.grounding.context import Grounder
-from xavi_dialogue.nlu.grounding.rewriting import first
 from xavi_dialogue.nlu.grounding.things.looks import (
     bearing_cost,
     colour_cost,

@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.rewriting import first, rewrite, substitute
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -25,7 +26,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
 from xavi_dialogue.nlu.grounding.context import Context
-from xavi_dialogue.nlu.grounding.rewriting import first, rewrite, substitute
 
 T = TypeVar("T")
 _USERS = (Vehicle, Vehicles, Described, Pronoun, Nobody)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Whether,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -32,7 +33,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questioned
 from xavi_dialogue.nlu.grounding.context import Grounder
-from xavi_dialogue.nlu.grounding.rewriting import first
 
 PLACES: Final = (Exit, Junction, Lane)
 HALTING: Final = ("stop", "brake", "avoid", "slow-down")

@@ -8,7 +8,7 @@ from xavi_dialogue.domain.terms import Described, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.match import Match
-from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
+from xavi_dialogue.nlu.grounding.things.scene import MENTIONED, interacting, most_prominent
 
 TIE: Final = 0.15  # difference of cost that decides nothing
 LATER: Final = 3.0  # [s] by which what was done last is meant
@@ -21,6 +21,8 @@ def several(
     """List those that a plural means, nearest first."""
     best = matches[0].total
     kept = [m for m in matches if m.total <= best + 2.0 * TIE]
+    exact = [m for m in kept if not m.misses.get("kind")]
+    kept = exact if len(exact) >= (wanted.number or 1) else kept
     order = sorted(kept, key=lambda m: (m.look.distance, m.vehicle))
     spoken = [n for n in group(context.discourse.mentions) if n in {m.vehicle for m in order}]
     if wanted.number is not None and len(order) > wanted.number == len(spoken):
@@ -63,6 +65,10 @@ def choose(
 def _prominent(
     context: Context, wanted: Described, tied: Sequence[Match], moment: float
 ) -> tuple[int, ...]:
+    salient = dict(vehicles_of(context.discourse.mentions)) if bare(wanted) else {}
+    spoken = [m.vehicle for m in tied if salient.get(m.vehicle, 0.0) >= MENTIONED]
+    if spoken:  # "that poor man"
+        return (max(spoken, key=lambda n: (salient[n], -n)),)
     order, clear = most_prominent(context, [m.vehicle for m in tied], moment)
     if clear or not wanted.definite:
         return order[:1]

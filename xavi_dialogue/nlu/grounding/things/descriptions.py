@@ -10,13 +10,15 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.facts import Episode, Look
-from xavi_dialogue.domain.terms import Described, Nobody, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.things import looks, scene
 from xavi_dialogue.nlu.grounding.things.choosing import choose, several
 from xavi_dialogue.nlu.grounding.things.match import Match
+from xavi_dialogue.nlu.grounding.things.passing import goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
 from xavi_dialogue.nlu.grounding.things.such import Condition, condition_of
 
@@ -29,6 +31,7 @@ MISDESCRIBED: Final = 0.4  # cost of a reading that describes somebody wrongly
 DOUBTED: Final = 0.2  # cost of a description of which the clause fits nobody
 BLANK: Final = 0.4  # cost of a description that says nothing: rather a word of it was missed
 STAGES: Final = (0.0, 0.05, 0.1, 0.2)
+SINCE: Final = 1.0  # [s] over which it is judged whether somebody comes nearer
 KNOWN: Final = 3  # vehicles offered where none fits
 
 
@@ -66,7 +69,8 @@ class Search:
             return Match(vehicle, look, misses, stage)
         done = None if self.clause is None else self.clause.episode(vehicle)
         if self.clause is not None:
-            misses["doing"] = _undone(self, look) if done is None else self.clause.cost(vehicle)
+            seen = done is None or _comes(self.described)
+            misses["doing"] = _undone(self, look) if seen else self.clause.cost(vehicle)
         if self.condition is not None:
             misses["such"] = self.condition.cost(vehicle)
         deed = None if self.fits is None else self.fits(vehicle)
@@ -104,17 +108,20 @@ class Search:
 _ANY: Final = ("vehicle", "car")
 
 
+def is_such(thing: Thing, such: Thing, g: Grounder, window: Window) -> bool:
+    """Tell whether a vehicle fits a description, whoever else fits it."""
+    if not isinstance(thing, Vehicle) or not isinstance(such, Described):
+        return False
+    match = _search(such, g, window, None).match(thing.number, 0.0)
+    return match is not None and match.cost < ACCEPT
+
+
 def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) -> Thing:
     """Resolve a description."""
     if thing == Described():
         g.notes.cost += BLANK
-    moment = min(window.end, g.context.now) if not window.ahead else g.context.now
-    clause = None if thing.doing is None else clause_of(thing.doing, g, window)
-    reference = None if thing.of is None else g.thing(thing.of, window)
-    if not isinstance(reference, Vehicle):
-        reference = None
-    such = None if thing.such is None else condition_of(thing.such, g, window, moment)
-    search = Search(thing, g, moment, clause, fits, reference, such)
+    thing = placed(thing)
+    search = _search(thing, g, window, fits)
     found = _candidates(search)
     good = [m for m in found if m.cost < ACCEPT]
     if not thing.definite and not thing.plural and fits is not None:
@@ -124,6 +131,16 @@ def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) 
     if not thing.definite:
         return Nobody(described=thing)
     return _by_noun(search) or _near_miss(search, found)
+
+
+def _search(thing: Described, g: Grounder, window: Window, fits: Fits | None) -> Search:
+    moment = min(window.end, g.context.now) if not window.ahead else g.context.now
+    clause = None if thing.doing is None else clause_of(thing.doing, g, window)
+    reference = None if thing.of is None else g.thing(thing.of, window)
+    if not isinstance(reference, Vehicle):
+        reference = None
+    such = None if thing.such is None else condition_of(thing.such, g, window, moment)
+    return Search(thing, g, moment, clause, fits, reference, such)
 
 
 def _by_noun(search: Search) -> Vehicle | None:
@@ -148,9 +165,15 @@ def _candidates(search: Search) -> list[Match]:
         for vehicle in vehicles:
             if vehicle not in found and (match := search.match(vehicle, stage)) is not None:
                 found[vehicle] = match
-        if any(m.total < GOOD for m in found.values()):
+        if not _every(search) and any(m.total < GOOD for m in found.values()):
             break
     return sorted(found.values(), key=lambda m: (round(m.total, 3), m.vehicle))
+
+
+def _every(search: Search) -> bool:
+    """Tell whether all are meant who ever did something: "the cars that we passed"."""
+    thing = search.described
+    return thing.plural and thing.doing is not None and thing.doing.tense in ("past", "perfect")
 
 
 def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
@@ -171,11 +194,38 @@ def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
 
 def _undone(search: Search, look: Look) -> float:
     """Weigh that somebody has not done what is said of him: who is seen to come is said to."""
-    event = search.described.doing
-    if event is not None and event.action in ("come", "approach") and event.tense == "present":
-        nears = look.oncoming or look.bearing.startswith(("crossing", "behind"))
-        return 0.0 if nears else 0.3
+    if _comes(search.described):
+        before = search.grounder.context.look(look.vehicle, search.moment - SINCE)
+        nears = look.oncoming or look.bearing.startswith("crossing") or _catches_up(search, look)
+        near = before is None or before.distance > look.distance
+        if (near and nears) or (look.left > 0.0 and _goes_first(search, look.vehicle)):
+            return 0.0
+        return 0.4 if search.described.definite else ACCEPT
+    if goes_past(search.described.doing):
+        return passing_cost(search.grounder.context, look, search.moment)
     return 1.0
+
+
+def _goes_first(search: Search, vehicle: int) -> bool:
+    """Tell whether somebody has right of way over us, so that he comes to where we are going."""
+    world = search.grounder.context.world
+    return world.relation("has-priority-over", Vehicle(vehicle), Ego(), search.moment) is True
+
+
+def _comes(thing: Described) -> bool:
+    """Tell whether somebody is described as coming now, which is to be seen."""
+    event = thing.doing
+    coming = event is not None and event.action in ("come", "approach")
+    return coming and event is not None and event.tense == "present"
+
+
+def _catches_up(search: Search, look: Look) -> bool:
+    """Tell whether somebody may be said to come who is behind us: where he can go past."""
+    road = search.grounder.context.world.road(search.moment)
+    mine = None if road is None else road.places.get(EGO)
+    beside = mine is not None and mine.lanes > 1
+    sought = (search.described.bearing or "").startswith("behind")
+    return look.bearing.startswith("behind") and (sought or beside)
 
 
 def _resolved(search: Search, good: list[Match]) -> Thing:

@@ -12,8 +12,9 @@ from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
 from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
 
 CLEAR: Final = 0.3  # salience from which a vehicle may be one of "both"
+PAIR: Final = 2
 LOST: Final = 0.1  # salience below which a pronoun does not reach back
-MISFIT: Final = 0.45  # share of its salience that is left to who did not do what is said
+MISFIT: Final = 0.62  # share of its salience that is left to who did not do what is said
 LEVEL: Final = 0.98  # ratio of two saliences that do not differ
 FROM_SCENE: Final = 0.1  # cost of a pronoun for which only the scene has a vehicle
 
@@ -24,6 +25,9 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     together = group(mentions)
     if thing.form == "them-all":
         spoken = together or _spoken(g)
+        seen = g.context.world.in_view(min(window.end, g.context.now))
+        if len(spoken) < PAIR <= len(seen) <= PAIR:  # "have you seen both?"
+            spoken = seen
         return Vehicles(spoken) if len(spoken) > 1 else Everyone()
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)

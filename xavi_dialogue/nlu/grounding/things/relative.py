@@ -6,7 +6,16 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Described, Ego, Event, Pronoun, Thing, Vehicle, Wanted
+from xavi_dialogue.domain.terms import (
+    Back,
+    Described,
+    Ego,
+    Event,
+    Pronoun,
+    Thing,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
 from xavi_dialogue.nlu.grounding.kin import like
 
@@ -89,7 +98,8 @@ def _is_gap(thing: Thing | None) -> bool:
 
 def _when(event: Event, g: Grounder, window: Window) -> tuple[float, float]:
     inner = g.window(event.time, event.tense)
-    if inner.said:
+    before = isinstance(event.time, Back) and event.time.relation == "before"
+    if inner.said and not before:
         return inner.search
     moment = min(window.end, g.context.now)
     if event.tense == "present":

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
+from xavi_dialogue.domain.rewriting import rewrite, substitute
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -20,7 +21,6 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.rewriting import rewrite, substitute
 from xavi_dialogue.nlu.grounding.things import looks
 
 STANDING: Final = 0.5  # [m/s]

@@ -6,6 +6,8 @@ from typing import Any, TypeVar
 import msgspec
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.terms import Wanted
+
 T = TypeVar("T")
 V = TypeVar("V")
 
@@ -20,9 +22,12 @@ def rewrite(value: T, change: Callable[[Any], Any]) -> T:
         same = all(a is b for a, b in zip(parts, value, strict=True))
         return value if same else parts  # type: ignore[return-value]
     if isinstance(value, msgspec.Struct):
-        found = {name: getattr(value, name) for name in value.__struct_fields__}
-        new = {name: rewrite(part, change) for name, part in found.items()}
-        new = {name: part for name, part in new.items() if part is not found[name]}
+        new: dict[str, Any] = {}
+        for name in value.__struct_fields__:
+            part = getattr(value, name)
+            made = rewrite(part, change)
+            if made is not part:
+                new[name] = made
         return replace(value, **new) if new else value
     return value
 
@@ -32,16 +37,22 @@ def substitute(value: T, old: object, new: object) -> T:
     return rewrite(value, lambda part: new if _same(part, old) else part)
 
 
+def with_wanted(value: T, thing: object) -> T:
+    """Put a thing in the place of what is asked for."""
+    return rewrite(value, lambda part: thing if isinstance(part, Wanted) else part)
+
+
 def parts(value: object, sort: type[V] | tuple[type[V], ...]) -> Iterator[V]:
     """Yield every part of a sort, outermost and leftmost first."""
-    if isinstance(value, sort):
-        yield value
-    if isinstance(value, tuple):
-        for part in value:
-            yield from parts(part, sort)
-    elif isinstance(value, msgspec.Struct):
-        for name in value.__struct_fields__:
-            yield from parts(getattr(value, name), sort)
+    left = [value]  # the next one last
+    while left:
+        part = left.pop()
+        if isinstance(part, sort):
+            yield part
+        if isinstance(part, tuple):
+            left.extend(reversed(part))
+        elif isinstance(part, msgspec.Struct):
+            left.extend([getattr(part, name) for name in reversed(part.__struct_fields__)])
 
 
 def first(value: object, sort: type[V] | tuple[type[V], ...]) -> V | None:

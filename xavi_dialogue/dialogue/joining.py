@@ -1,0 +1,100 @@
+"""Joining: what is said of several results as one reply, short and nothing twice. Pure."""
+
+import re
+from collections.abc import Sequence
+from typing import Final
+
+from xavi_dialogue.nlg.context import Utterance
+
+AT_MOST: Final = 3  # sentences of a reply to several acts
+_CLAUSES: Final = re.compile(r"(: |; |, because |, though |, so )")
+_WORDS: Final = re.compile(r"\d+(?:[.:]\d+)?|[^\W\d_]+")
+_ASIDE: Final = re.compile(r"\((?:vehicle )?\d+\)")
+#: Words that tell nothing new by themselves.
+_SMALL: Final = frozenset(
+    ("yes", "actually", "that", "is", "was", "am", "are", "were", "be", "been", "right", "you",
+     "i", "we", "us", "our", "it", "its", "the", "a", "an", "this", "and", "or", "to", "of", "at",
+     "in", "on", "for", "by", "will", "would", "has", "had", "have", "do", "did", "does", "put",
+     "chance", "expect", "expected", "almost", "certainly", "probably", "because", "now", "just",
+     "thought", "think", "may", "might", "well", "as", "so"),
+)  # fmt: skip
+#: Endings that tenses and persons put to verbs.
+_ENDINGS: Final = re.compile(r"(?:ing|ed|es|s|e)$")
+
+
+def joined(utterances: Sequence[Utterance]) -> Utterance:
+    """Join what is said of several results; what was said is not said again.
+
+    Several results are told in `AT_MOST` sentences, or in one for each where they are more.
+    """
+    rows: list[tuple[str, ...]] = []
+    known: set[str] = set()
+    for one in utterances:
+        row = tuple(dict.fromkeys(map(_once, sentences(one.text))))
+        if not one.choices:
+            row = tuple(new for said in row if (new := _new(said, known)))
+        known.update(*map(_gist, row))
+        rows.append(row)
+    told = [said for row in _short(rows, utterances) for said in row]
+    return Utterance(
+        text=" ".join(told),
+        mentioned=tuple(dict.fromkeys(v for one in utterances for v in one.mentioned)),
+        choices=next((one.choices for one in utterances if one.choices), ()),
+        suggestions=tuple(dict.fromkeys(s for one in utterances for s in one.suggestions)),
+    )
+
+
+def _once(sentence: str) -> str:
+    """Give a sentence without a last clause that says what the one before it says."""
+    pieces = _CLAUSES.split(sentence.rstrip("."))
+    if len(pieces) < 3 or pieces[-2] not in (": ", "; "):
+        return sentence
+    before, last = _gist(pieces[-3]), _gist(pieces[-1])
+    return (
+        "".join(pieces[:-2]) + "." if last and last <= before and "not" not in before else sentence
+    )
+
+
+def _new(sentence: str, known: set[str]) -> str:
+    """Give a sentence without the clauses at its end that were told before; "" if all were."""
+    pieces = _CLAUSES.split(sentence.rstrip("."))
+    if not known or _gist(sentence) - {"no"} <= known:
+        return "" if known else sentence
+    kept = len(pieces)
+    while kept > 1 and (gist := _gist(pieces[kept - 1])) and gist <= known:
+        kept -= 2
+    return sentence if kept == len(pieces) else "".join(pieces[:kept]) + "."
+
+
+def _gist(text: str) -> set[str]:
+    """Collect the words of a text that tell something, without their endings."""
+    words = _WORDS.findall(_ASIDE.sub(" ", text).casefold())
+    return {_ENDINGS.sub("", word) for word in words if word not in _SMALL}
+
+
+def _short(
+    rows: Sequence[tuple[str, ...]], utterances: Sequence[Utterance]
+) -> list[tuple[str, ...]]:
+    """Cut the ends off what is said of several results; choices are left whole."""
+    if len(rows) < 2:
+        return list(rows)
+    spare = max(AT_MOST - sum(bool(row) for row in rows), 0)
+    found: list[tuple[str, ...]] = []
+    for row, one in zip(rows, utterances, strict=True):
+        length = len(row) if one.choices else min(len(row), 1 + spare)
+        spare -= max(length - 1, 0)
+        found.append(row[:length])
+    return found
+
+
+def sentences(text: str) -> tuple[str, ...]:
+    """Cut a text behind the marks that end a sentence; a choice in brackets is no sentence."""
+    found: list[str] = []
+    begin = depth = 0
+    for index, mark in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(mark, 0)
+        if mark in ".!?" and depth == 0 and text[index + 1 : index + 2] in (" ", ""):
+            found.append(text[begin : index + 1].strip())
+            begin = index + 1
+    rest = text[begin:].strip()
+    return tuple(one for one in (*found, rest) if one)

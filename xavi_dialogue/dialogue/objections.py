@@ -1,0 +1,55 @@
+"""Objections: "but he was leaving, so why did you wait?" is met by what was foreseen then. Pure."""
+
+from collections.abc import Sequence
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.dialogue.mind import Situation
+from xavi_dialogue.domain.answers import Beliefs, MotionReason, NeedRollout
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Claim, HowSure
+from xavi_dialogue.domain.terms import At, Event, Happens, Next, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+
+#: What shows where a vehicle goes: with hindsight, one need not have waited for it.
+TELLING: Final = frozenset[ActionName](
+    ("leave", "exit-left", "exit-right", "exit-straight", "turn", "change-left", "change-right",
+     "stop")
+)  # fmt: skip
+SURE: Final = 0.9  # chance from which it was foreseen
+
+
+def foreseen_then(
+    now: Situation, acts: Sequence[GroundedAct], done: Sequence[tuple[object, ...]]
+) -> Beliefs | None:
+    """Give what was expected of a vehicle when we slowed for it; None: nobody objects to that.
+
+    Args:
+        now: the situation.
+        acts: the acts of the turn.
+        done: what is replied to each of them.
+    """
+    reasons = [r for results in done for r in results if isinstance(r, MotionReason)]
+    reason = next((r for r in reasons if r.causes and r.causes[0].vehicle is not None), None)
+    if reason is None:
+        return None
+    vehicle = Vehicle(reason.causes[0].vehicle or 0)
+    event = next((e for act in acts if (e := _told(act)) is not None and e.actor == vehicle), None)
+    if event is None:
+        return None
+    to_come = Event(event.action, vehicle, event.object, tense="future", time=Next())
+    asked = Ask(HowSure(Happens(to_come), time=At(reason.deed.begin)))
+    found = now.mind.explain(GroundedAct(asked), now.record)
+    if isinstance(found, NeedRollout) or not isinstance(found, Beliefs):
+        return None
+    known = found.probability is not None and found.probability < SURE
+    return replace(found, besides=(), came=None) if known else None
+
+
+def _told(act: GroundedAct) -> Event | None:
+    """Give where another vehicle is said to have gone."""
+    match act.act:
+        case Claim(that=Happens(event=event)) if event.action in TELLING:
+            return event
+    return None

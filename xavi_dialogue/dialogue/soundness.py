@@ -1,0 +1,74 @@
+"""Soundness: answers that say nothing: of nobody in particular, or of what was left open. Pure.
+
+Such an answer shows that the question was read amiss, whatever its words. It is not given.
+"""
+
+from typing import Any
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Declined, Identified, Refusal, Verdict
+from xavi_dialogue.domain.meaning import Request
+from xavi_dialogue.domain.rewriting import first, parts, rewrite
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Exists,
+    Is,
+    Nobody,
+    Proposition,
+    Related,
+    Unknown,
+    Wanted,
+)
+
+
+def says_something(result: Answer | Refusal) -> bool:
+    """Tell whether an answer tells a passenger anything."""
+    match result:
+        case Verdict(that=that):
+            return not (_is_open(that) or _twice_of_all(that) or _of_nobody(result))
+        case Identified(such=Compares(right=None), none=True):
+            return False
+        case Identified(such=such, none=True) if such is not None:
+            return not _twice_of_all(such)
+        case Declined(already=True, request=Request(event=Event(action="do" | "happen"))):
+            return False
+    return True
+
+
+def _is_open(that: Proposition) -> bool:
+    """Tell whether something in a proposition was left open, or has no sense."""
+    return first(rewrite(that, _plain), (Wanted, Unknown)) is not None
+
+
+def _plain(part: Any) -> Any:
+    """Leave out the relative clause of a description, in which "who" stands for it."""
+    clause = isinstance(part, Described) and (part.doing is not None or part.such is not None)
+    return replace(part, doing=None, such=None) if clause else part
+
+
+def _twice_of_all(that: Proposition) -> bool:
+    """Tell whether an event or relation is between all or none on either side."""
+    for one in parts(that, Event):
+        if _is_all(one.actor) and _is_all(one.object):
+            return True
+    return any(_is_all(one.thing) and _is_all(one.to) for one in parts(that, Related))
+
+
+def _is_all(thing: object) -> bool:
+    return isinstance(thing, Nobody | Everyone | Wanted)
+
+
+def _of_nobody(verdict: Verdict) -> bool:
+    """Tell whether it stays open what nobody does, or how we ourselves are."""
+    that = verdict.that
+    if verdict.holds is not None or first(that, Exists) is not None:
+        return False
+    if verdict.gap in ("others-thoughts", "not-sensed"):
+        return False
+    ours = isinstance(that, Is) and isinstance(that.thing, Ego)
+    return (ours and verdict.gap == "not-recorded") or first(that, Nobody) is not None

@@ -1,0 +1,56 @@
+"""Queues: who stands at the head of the row of vehicles that we stand in."""
+
+from typing import Final
+
+from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.facts import Somebody
+from xavi_dialogue.domain.meaning import Which
+from xavi_dialogue.domain.terms import Ego, Feature, Proposition, Related, Vehicle, Wanted
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.identify import identified, which
+
+APART: Final = 15.0  # [m] between two who stand in one row
+SLOW: Final = 3.0  # [m/s] up to which somebody is in it
+
+
+def who(question: Which, asked: Asked) -> Answer:
+    """Tell of whom something holds; of the head of a queue, who stands there.
+
+    Raises:
+        Unanswered: it takes for granted what did not happen.
+    """
+    first = head(asked) if is_head(question.such) else None
+    return which(question, asked) if first is None else identified(asked, first, asked.moment)
+
+
+def is_head(such: Proposition | None) -> bool:
+    """Tell whether it is asked who is at the front of a queue."""
+    match such:
+        case Related(relation="on" | "ahead-of" | "near", thing=Wanted(), to=Feature("queue")):
+            return True
+    return False
+
+
+def head(asked: Asked) -> Vehicle | None:
+    """Find the foremost of those who stand one behind another ahead of us; None: nobody does."""
+    row: list[Vehicle] = []
+    while (other := _next(asked, row[-1] if row else Ego(), asked.moment)) is not None:
+        if other in row:
+            break
+        row.append(other)
+    return row[-1] if row else None
+
+
+def _next(asked: Asked, one: Somebody, at: float) -> Vehicle | None:
+    """Find who stands next ahead of somebody, close to him."""
+    world = asked.world
+    near: list[tuple[float, int]] = []
+    for v in world.in_view(at):
+        other = Vehicle(v)
+        look = world.look(v, at)
+        if other == one or look is None or look.oncoming or look.speed > SLOW:
+            continue
+        gap = world.measure("distance", one, at, other).value
+        if gap is not None and gap <= APART and world.relation("ahead-of", other, one, at):
+            near.append((gap, v))
+    return Vehicle(min(near)[1]) if near else None

@@ -1,0 +1,52 @@
+"""Risks: with whom an option of a decision would have collided, in what was imagined of it."""
+
+from collections import Counter
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Options
+from xavi_dialogue.domain.meaning import WhatIf, Which
+from xavi_dialogue.domain.terms import Ego, Event, Happens
+from xavi_dialogue.explain.answers import supposing
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.causes.actions import names_of
+from xavi_dialogue.explain.causes.options import situations
+from xavi_dialogue.explain.causes.premise import Premise
+from xavi_dialogue.explain.facts.options import of_trace
+
+ONWARD = frozenset(("continue", "exit-straight"))
+
+
+def what_if(question: WhatIf, asked: Asked) -> Answer:
+    """Tell what would come of something, or whom an option would have struck.
+
+    Raises:
+        Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
+    """
+    return _struck_by(question, asked) or supposing.what_if(question, asked)
+
+
+def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
+    """Tell whom an option would have struck; None where that is not asked, or not recorded."""
+    match question:
+        case WhatIf(
+            supposed=Happens(event=Event(actor=Ego()) as event),
+            then=Which(such=Happens(event=Event(action="collide", actor=Ego()))),
+        ):
+            pass
+        case _:
+            return None
+    trace = asked.ride.at(asked.moment)
+    if trace is None:
+        return None
+    names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
+    found = [o for o in of_trace(asked.ride, trace) if o.action in names]
+    if not found:
+        return None
+    option, evidence = found[0], situations(Premise(trace, None))
+    drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == option.action]
+    struck = Counter(r.collided_with for r in drives if r.collided_with is not None)
+    if option.collided_with is None and struck:
+        option = replace(option, collided_with=struck.most_common(1)[0][0])
+    hits = sum(struck.values())
+    return Options((option,), trace.sim_time, evidence, risk=True, hits=hits, drives=len(drives))

@@ -1,0 +1,59 @@
+"""Wavering: why a plan was given up, and taken up again: the risk that it carried each time."""
+
+from itertools import pairwise
+from typing import Final
+
+from planner.trace import Action, PlanTrace
+from xavi_dialogue.domain.answers import Answer, Wavered
+from xavi_dialogue.domain.journeys import Waver
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import Happens
+from xavi_dialogue.explain.answers import reasons
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.moments import Window, window
+from xavi_dialogue.explain.answers.reading import unwrapped
+from xavi_dialogue.explain.facts.options import of_trace
+from xavi_dialogue.explain.history.ride import planned
+
+BACK: Final = 20.0  # [s] that "each time" reaches back where no time is said
+RISKY: Final = 0.05  # risk of a collision from which a plan was given up for it
+
+
+def wavered(question: Why, asked: Asked) -> Answer:
+    """Tell why we changed our mind: what made us give up a plan, each time.
+
+    Raises:
+        Unanswered: the record does not hold it, or rollouts are needed.
+    """
+    of, _ = unwrapped(question.of)
+    assert isinstance(of, Happens)
+    about = window(asked, of.event.time)
+    if about.instant or about.end >= asked.now - 1.0:
+        about = Window(max(about.end, asked.now) - BACK, asked.now)
+    near = [t for t in asked.ride.traces if about.begin <= t.sim_time <= about.end]
+    given = [
+        (plan, turn)
+        for before, after in pairwise(near)
+        if (plan := _given_up(before, after)) is not None
+        and (turn := _turn(asked, after, plan)) is not None
+    ]
+    if not given:
+        return reasons.why(question, asked)
+    plan = given[-1][0]
+    turns = tuple(turn for given_up, turn in given if given_up == plan)
+    later = [t for t in near if t.sim_time > turns[-1].time]
+    return Wavered(plan, turns, any(planned(t)[:1] == (plan,) for t in later))
+
+
+def _given_up(before: PlanTrace, after: PlanTrace) -> Action | None:
+    """Give the first step of a plan that was given up for a stop."""
+    old, new = planned(before)[:1], planned(after)[:1]
+    return old[0] if new == ("stop",) and old and old != new else None
+
+
+def _turn(asked: Asked, trace: PlanTrace, plan: Action) -> Waver | None:
+    """Give the risk that a plan carried at a decision; None where it was not for that."""
+    found = next((o for o in of_trace(asked.ride, trace) if o.action == plan), None)
+    if found is None or found.collision < RISKY:
+        return None
+    return Waver(trace.sim_time, found.collision, found.collided_with)

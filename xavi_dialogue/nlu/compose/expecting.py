@@ -1,0 +1,35 @@
+"""Expecting: "did he do what you expected?", "did it go the way you predicted?"."""
+
+from typing import Final
+
+from xavi_dialogue.domain.meaning import Question, Whether
+from xavi_dialogue.domain.terms import Ego, Is
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import as_thing
+from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+_ACTING: Final = frozenset({"do", "go", "act", "behave", "move", "turn", "end"})
+_BELIEVING: Final = frozenset(
+    {"expect", "predict", "think", "forecast", "anticipate", "foresee", "believe", "reckon",
+     "assume", "guess", "suppose", "figure"}
+)  # fmt: skip
+
+
+def as_expected(unit: Node, clause: Clause) -> Question | None:
+    """Ask whether we were right about somebody; None where nothing else is said of a belief."""
+    who = as_thing(clause.subject)
+    verb = clause.verb
+    if verb is None or verb.key not in _ACTING or who is None or isinstance(who, Ego):
+        return None
+    if (
+        clause.tense not in ("past", "perfect")
+        or clause.side is not None
+        or clause.that is not None
+    ):
+        return None
+    ours = any(
+        leaf.category in ("V", "VPAST", "VED") and leaf.key in _BELIEVING and leaf is not verb
+        for leaf in leaves_of(unit)
+    )
+    return Whether(Is("right", who, tense="past")) if ours else None

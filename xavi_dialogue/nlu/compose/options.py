@@ -1,0 +1,117 @@
+"""Options: questions which of several things or deeds it is, and which of them is better."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import Compare, Question, Which
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Next,
+    Pronoun,
+    Related,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.comparing import BY
+from xavi_dialogue.nlu.compose.effects import Effects
+from xavi_dialogue.nlu.compose.sem import Group, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.wh import Wh, fact
+
+WEAK = 1.0  # cost of a clause of which nothing is said
+_YIELDS = frozenset({"give-way", "let-go", "wait"})
+
+#: What tells nobody apart: "a man", "somebody".
+_SORTS = (Described(definite=False), Described(kind="pedestrian", definite=False))
+
+
+class Options(Effects):
+    """Builds questions that choose between things or deeds."""
+
+    def one_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> tuple[Question, float]:
+        """Ask which of some things or deeds it is, with what that reading costs."""
+        first = self._first_of(wh, clause, options)
+        if first is not None:
+            return first, 0.1
+        things = all(is_thing(option) for option in options)
+        by = "time" if "first" in clause.manner else "best"
+        if clause.comparisons:
+            by = BY.get(clause.comparisons[0][0], "best")
+            by = "speed" if by == "time" and things else by
+        return Compare(options, cast(Any, by)), 0.1 + WEAK * (things and by == "best")
+
+    def _first_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> Question | None:
+        """Ask "who goes first, we or the bus": who of them has to let the other go."""
+        other = next((one for one in options if not isinstance(one, Ego)), None)
+        bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
+        if isinstance(clause.time, Next) and bare:
+            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
+            return Which(Wanted(), Happens(going))
+        found = self.propositions.readings(clause)
+        said = fact(found[0].value) if found and clause.verb is not None else None
+        others = all(is_thing(one) and not isinstance(one, Ego) for one in options)
+        if others and said is not None and not clause.comparisons:
+            return Which(Wanted(), said, options)
+        match fact(found[0].value) if found else None:
+            case Related(relation="has-priority-over" | "must-yield-to") as related:
+                return Which(Wanted(), with_fields(related, to=other))
+            case Happens(event=event) if event.action in _YIELDS or "first" in event.manner:
+                return Which(Wanted(), Happens(with_fields(event, object=other)))
+        if wh.kind == "who" and Ego() in options and other is not None and not clause.comparisons:
+            going = Event("go", Wanted(), other, None, ("first",), tense="present", modal="should")
+            return Which(Wanted(), Happens(going))
+        return None
+
+    def compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
+        """Ask "which is faster, left or right"."""
+        if wh.kind not in ("which", "what", "who") or not clause.comparisons:
+            return None
+        deeds = self.deeds(clause)
+        if deeds:
+            return Compare(deeds, cast(Any, BY.get(clause.comparisons[0][0], "best")))
+        options = [sem for sem, _ in clause.objects if isinstance(sem, Group)]
+        if options:
+            return Compare(tuple(_option(s) for s in options[0].members),
+                           cast(Any, BY.get(clause.comparisons[0][0], "best")))  # fmt: skip
+        among = [wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
+        spoken = any(isinstance(s, Pronoun) and s.form in ("they", "them-all") for s in among)
+        if spoken or {"them", "those", "these", "both"} & set(wh.words):
+            by = {"fast": "speed", "slow": "speed"}.get(clause.comparisons[0][0])
+            other = BY.get(clause.comparisons[0][0], "best")
+            return Compare((Pronoun("them-all"),), cast(Any, by or other))
+        return None
+
+
+def alternatives(clause: Clause) -> tuple[Any, ...] | None:
+    """Take "we or the blue one" out of a clause that asks which of them."""
+    named = _named(clause)
+    if named is not None and all(option in _SORTS for option in named):
+        return None  # "a man or a lady?"
+    return named
+
+
+def _named(clause: Clause) -> tuple[Any, ...] | None:
+    for index, (sem, _) in enumerate(clause.objects):
+        if isinstance(sem, Group) and sem.join == "or":
+            del clause.objects[index]
+            return tuple(_option(member) for member in sem.members)
+    for index, (join, other) in enumerate(clause.chained):
+        if join == "or" and clause.objects and _is_option(other):
+            del clause.chained[index]
+            first, _ = clause.objects.pop()
+            return _option(first), _option(other.objects[0][0])
+    return None
+
+
+def _is_option(other: Clause) -> bool:
+    """Say whether nothing stands behind "or" but a thing."""
+    more = (other.complements, other.adjectives, other.bearings, other.manner, other.particles)
+    return len(other.objects) == 1 and is_thing(other.objects[0][0]) and not any(more)
+
+
+def _option(sem: Sem) -> Any:
+    if isinstance(sem, Event):
+        return Happens(sem)
+    return as_thing(sem) or Pronoun("that")

@@ -1,0 +1,124 @@
+"""Severally: several measures in one question: "the gap to vehicle 2 and the speed difference"."""
+
+from dataclasses import replace
+from typing import cast
+
+from xavi_dialogue.domain.meaning import Question
+from xavi_dialogue.domain.terms import (
+    Both,
+    Ego,
+    Lane,
+    Measured,
+    Pronoun,
+    Proposition,
+    Related,
+    Tense,
+    Thing,
+    Time,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing, is_thing
+
+_TOWARDS = frozenset({"into", "with", "from", "over", "between"})
+
+
+def asked_each(sem: Sem | None, clause: Clause, tense: str = "present") -> tuple[Question, ...]:
+    """Ask for each of several measures: "the speed and the gap to him"; () for all else."""
+    known = {m.of.attribute for m in _members(sem) if isinstance(m, Measure)}
+    if known and _is_measured(sem):
+        more = (m for other, _ in clause.objects if _is_measured(other) for m in _members(other))
+        new = (m for m in more if isinstance(m, Measure) and m.of.attribute not in known)
+        sem = Group((*_members(sem), *new))
+    measures = _measures(sem, clause.complements)
+    if len(measures) < 2:
+        return ()
+    found = (asked_of(measure, clause.time, tense) for measure in measures)
+    return tuple(question for question in found if question is not None)
+
+
+def each_seen(seer: Thing, sem: Sem | None, time: Time, tense: Tense) -> Proposition | None:
+    """Read "can you see the bus and the lorry" of each of them; None for all else."""
+    if not isinstance(sem, Group) or sem.join != "and":
+        return None
+    seen = [thing for one in sem.members if (thing := as_thing(one)) is not None]
+    each = tuple(Related("can-see", seer, thing, time, tense) for thing in seen)
+    return Both(each) if len(each) > 1 else None
+
+
+def towards(sem: Sem, complements: list[Complement]) -> Sem:
+    """Add to a measure the thing that it is to: "minimum gap to vehicle 2"."""
+    found = _measures(sem, complements)
+    return found[0] if isinstance(sem, Measure) and found else sem
+
+
+def _members(sem: Sem | None) -> tuple[Sem, ...]:
+    if sem is None:
+        return ()
+    members = sem.members if isinstance(sem, Group) else (sem,)
+    if not any(isinstance(member, Measure) for member in members):
+        return members
+    return tuple(_lane(member) if isinstance(member, Lane) else member for member in members)
+
+
+def _lane(lane: Lane) -> Measure:
+    """Take "lane of vehicle 2" beside measures for which one it is in."""
+    return Measure(Measured("lane", lane.of or Ego()))
+
+
+def _is_measured(sem: Sem | None) -> bool:
+    """Say whether nothing but measures is named: "speed", "the gap and the lane"."""
+    members = _members(sem)
+    return bool(members) and all(isinstance(member, Measure) for member in members)
+
+
+def _measures(sem: Sem | None, complements: list[Complement]) -> tuple[Measure, ...]:
+    """Give the measures that are named, each with the thing that they are to."""
+    if not _is_measured(sem):
+        return ()
+    found = [cast(Measure, member) for member in _members(sem)]
+    to: Thing | None = next((m.of.to for m in found if _is_named(m.of.to)), None)
+    for phrase in complements:
+        if phrase.key not in _TOWARDS:
+            continue
+        behind = _members(phrase.sem)
+        thing = next((as_thing(one) for one in behind if _reaches(one)), None)
+        to = to or thing
+        found += [one for one in behind if isinstance(one, Measure)]
+    owner = found[-1].of.thing if found else Ego()  # "speed and distance of the red car"
+    if not isinstance(owner, (Ego, Pronoun)):
+        found = [_owned(measure, owner) for measure in found]
+    return tuple(_filled(measure, to) for measure in found)
+
+
+def _owned(measure: Measure, owner: Thing) -> Measure:
+    """Put the owner that is named last into a measure that lacks one."""
+    if measure.ours or not isinstance(measure.of.thing, Ego):
+        return measure
+    return replace(measure, of=with_fields(measure.of, thing=owner))
+
+
+def _reaches(sem: Sem | None) -> bool:
+    """Say whether it can be measured up to a thing."""
+    return sem is not None and (is_thing(sem) or isinstance(as_thing(sem), Vehicle))
+
+
+def _is_named(thing: Thing | None) -> bool:
+    return thing is not None and not isinstance(thing, Pronoun)
+
+
+def _filled(measure: Measure, to: Thing | None) -> Measure:
+    """Put the thing that is named once into a measure that lacks it."""
+    of: Measured = measure.of
+    if to is None:
+        return measure
+    if of.thing == Pronoun("it"):  # "the gap to the bus and its speed"
+        return replace(measure, of=with_fields(of, thing=to))
+    if of.to == Pronoun("it") or (of.to is None and of.attribute in _MUTUAL):
+        return replace(measure, of=with_fields(of, to=to))
+    return measure
+
+
+_MUTUAL = frozenset({"gap", "headway", "distance", "time-to-collision"})

@@ -1,0 +1,105 @@
+"""Wishes: how the passenger would like us to drive, said otherwise than by an order."""
+
+from typing import Any, Final, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import Act, Request
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Junction,
+    Measured,
+    Not,
+    Passenger,
+    Proposition,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import Measure
+
+CONTRARY: Final[dict[str, ActionName]] = {"fast": "slow-down", "slowly": "speed-up"}
+_PACED: Final = frozenset({"go", "move", "continue", "speed-up", "slow-down", "stop"})
+#: What a bare comparison asks for: "gentler, please".
+_WANTED: Final[dict[str, ActionName]] = {
+    "comfortable": "slow-down", "slow": "slow-down", "safe": "slow-down", "fast": "speed-up",
+    "far": "keep-distance",
+}  # fmt: skip
+
+
+def bidden(event: Event, clause: Clause) -> Event:
+    """Give the deed that is asked for, whatever the verb form; "another lap" goes round again."""
+    again = "again" in event.manner and any(p.key == "around" for p in clause.particles)
+    lap = event.action == "do" and isinstance(event.object, Junction)
+    if lap or (again and event.action in ("go", "move")):
+        event = structs.replace(event, action="circle", object=None, manner=())
+    return structs.replace(event, tense="present", modal=None)
+
+
+def request(event: Event, clause: Clause, *, negated: bool = False) -> Request:
+    """Give the request for a deed, or not to do it: "not so fast" is to slow down."""
+    deed = bidden(event, clause)
+    if not negated:
+        return Request(deed)
+    paced = [m for m in deed.manner if m in CONTRARY]
+    if paced and deed.action in _PACED:
+        return Request(Event(CONTRARY[paced[0]], tense="present"))
+    if deed.action == "approach":
+        return Request(Event("keep-distance", Ego(), deed.object, tense="present"))
+    return Request(deed, negated=True)
+
+
+def paced(of: Proposition | None) -> Request | None:
+    """Give the request in a wish about our speed: "go at sixty", "not faster than sixty"."""
+    match of:
+        case Not(content=content):
+            inner = paced(content)
+            if inner is None:
+                return None
+            swapped: ActionName = "slow-down" if inner.event.action == "speed-up" else "speed-up"
+            return Request(Event(swapped, tense="present"))
+        case Is(state="fast" | "slow" as pace, thing=Ego() | None):
+            return Request(Event("speed-up" if pace == "fast" else "slow-down", tense="present"))
+        case Compares(left=Measured(attribute="speed" | "limit", thing=Ego()), comparator=more):
+            if more == "same":
+                return None
+            slower = more in ("less", "at-most")
+            return Request(Event("slow-down" if slower else "speed-up", tense="present"))
+    return None
+
+
+def wished(of: Proposition, clause: Clause, *, wishing: bool) -> Act | None:
+    """Read "I want to wait", "I would rather you waited" as a request.
+
+    Args:
+        of: what is stated.
+        clause: the clause.
+        wishing: words before it tell that it is a wish.
+    """
+    content, negated = (of.content, True) if isinstance(of, Not) else (of, False)
+    if not isinstance(content, Happens) or not isinstance(content.event.actor, Ego | Passenger):
+        return paced(of) if wishing else None
+    event = content.event
+    own = event.modal == "want" and event.tense == "present"
+    own = own and isinstance(clause.subject, Passenger)
+    if not (wishing or own) or event.action == "do":
+        return None
+    return request(event, clause, negated=negated)
+
+
+def bare_wish(clause: Clause, *, polite: bool) -> Act | None:
+    """Read "a bit gentler, please", "not so fast", "more distance, please"."""
+    if clause.negated and len(clause.manner) == 1 and clause.manner[0] in CONTRARY:
+        return Request(Event(CONTRARY[clause.manner[0]], tense="present"))
+    if not polite:
+        return None
+    compared = [_WANTED[key] for key, _ in clause.comparisons if key in _WANTED]
+    sem = clause.objects[0][0] if len(clause.objects) == 1 else None
+    if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
+        return Request(Event("keep-distance", Ego(), sem.of.to, tense="present"))
+    if compared and not clause.objects:
+        return Request(Event(cast(Any, compared[0]), tense="present"))
+    return None

@@ -1,0 +1,83 @@
+"""Timing: when what is asked about was, where a question says it elsewhere or not at all."""
+
+from typing import Any
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Changed, HowSure
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import (
+    At,
+    AtDecision,
+    Back,
+    Believed,
+    Between,
+    Happens,
+    Proposition,
+    Relative,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder, Window
+
+
+def over(time: Any, g: Grounder) -> Window:
+    """Find the stretch that is asked about: all of the ride, where none is said."""
+    if isinstance(time, Unsaid):
+        window = g.window(Unsaid(), "perfect")
+    else:
+        window = g.window(time, "past")
+    g.notes.spans(window.span)
+    return window
+
+
+def foreseen(spoken: HowSure) -> HowSure:
+    """Take the time of what is to come for that of the belief: "... at 12 s"."""
+    event = spoken.of.event if isinstance(spoken.of, Happens) else None
+    if event is None or event.tense != "present":
+        return spoken
+    told = isinstance(event.time, Relative) and event.time.relation == "during"
+    if spoken.time not in (Unsaid(), event.time):
+        return spoken
+    if not told and not isinstance(event.time, At | AtDecision | Back):
+        return spoken
+    to_come = replace(event, time=Unsaid(), tense="future")
+    return replace(spoken, of=Happens(to_come), time=event.time)
+
+
+def believed_then(spoken: Believed) -> Believed:
+    """Take "your log says you rated it so at 13 s" for what was believed then."""
+    while isinstance(spoken.content, Believed):
+        spoken = spoken.content
+    event = spoken.content.event if isinstance(spoken.content, Happens) else None
+    if event is None or event.tense != "present" or not isinstance(spoken.time, Unsaid):
+        return spoken
+    if not isinstance(event.time, At | AtDecision):
+        return spoken
+    to_come = replace(event, time=Unsaid(), tense="future")
+    return replace(spoken, content=Happens(to_come), time=event.time, tense="past")
+
+
+def believed_last(g: Grounder) -> Proposition | None:
+    """Give what was just said to have been believed of another vehicle: "that estimate"."""
+    told = g.context.discourse.propositions
+    found = next((one for one in told if isinstance(one, Believed)), None)
+    asked = isinstance(g.context.discourse.question, HowSure)
+    if asked or found is None or first(found.content, Vehicle) is None:
+        return None
+    g.notes.leaned = True
+    return found.content
+
+
+def changed(spoken: Changed, g: Grounder) -> Changed:
+    """Ground what changed: since the last two times that were asked about, where none is said."""
+    if not isinstance(spoken.time, Unsaid):
+        return replace(spoken, time=over(spoken.time, g).term)
+    named = g.context.discourse.named
+    if named is not None:  # "at 13 seconds you were turning. What changed?"
+        return replace(spoken, time=Between(named[0], g.context.now))
+    times = sorted(g.context.discourse.times[:2])
+    if len(times) < 2:
+        return spoken
+    g.notes.leaned = True
+    return replace(spoken, time=Between(times[0], times[1]))

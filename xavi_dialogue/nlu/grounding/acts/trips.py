@@ -1,0 +1,117 @@
+"""Trips: questions of the ride and our way whose words name what is asked for otherwise.
+
+"Why are we late?" asks who held us up; "what time did that cost us?" how much; "how many times did
+we brake and for whom?" for a list; "anything else coming up?" what comes next.
+"""
+
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    HowMany,
+    HowMuch,
+    Listing,
+    Question,
+    Summarise,
+    When,
+    Whether,
+    Which,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Is,
+    Junction,
+    Measured,
+    Not,
+    Passenger,
+    Pronoun,
+    Related,
+    Unsaid,
+    Wanted,
+    WholeRide,
+)
+
+SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
+_DELAYED: Final = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), time=WholeRide())))
+_GOING: Final = frozenset(("go", "move", "turn"))
+_LISTED: Final = frozenset(("change-lane", "brake", "stop"))
+
+
+def of_trip(spoken: Question) -> Question | None:
+    """Put the question of the ride or our way that is meant; None where it is another one."""
+    match spoken:
+        case Whether(that=that):
+            meant = _whether(that)
+            return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)
+        case Why(of=Is(state="late", thing=Ego() | Passenger() | None)):
+            return _DELAYED
+        case Which(
+            thing=Wanted(),
+            such=Happens(event=Event(action="go", actor=Wanted(), manner=("first",)) as of),
+        ) if of.tense == "past":
+            return _DELAYED  # "who went before us?"
+        case When(of=Compares(left=Measured(attribute="delay") as left)):
+            return HowMuch(left)  # "what time did that cost us?"
+    return _listed(spoken)
+
+
+def _whether(that: Any) -> Question | Happens | None:
+    """Give the question, or what is asked of our way, behind a yes or no question."""
+    match that:
+        case Happens(event=Event(actor=Ego(), where=Related(to=Ego()) as aside) as of):
+            if aside.relation not in SIDES or of.action not in _GOING:
+                return None
+            action: Any = SIDES[aside.relation]  # "we go on the right side here, yes?"
+            return Happens(replace(of, action=action, where=None))
+        case (
+            Happens(event=Event(action="head", actor=Ego(), object=None))
+            | Not(content=Happens(event=Event(action="head", actor=Ego(), object=None)))
+        ):
+            return HowMuch(Measured("turn"))  # "is that where we are going?"
+        case Related(relation="same-as", thing=Junction() as place, to=Described(kind="vehicle")):
+            # "is this our turning, the one on the right?"
+            return Whether(Related("same-as", place, Junction(rank=1)))
+        case Compares(
+            left=Measured(attribute="occupant") as who, right=Measured(attribute="occupant")
+        ):
+            return HowMuch(who)  # "is he a robber?"
+        case Is(state="over", thing=Described(doing=Event(action="come"))):
+            return Doing(tense="future")  # "anything else coming up?"
+        case Is(state="over", thing=Ego(), event=None):
+            return Whether(Happens(Event("arrive", tense="perfect")))  # "are we done?"
+        case Happens(event=Event(action="come", actor=Junction() as place)):
+            return Whether(Exists(place))  # "is that a roundabout coming?"
+        case Happens(event=Event(action="happen", tense="future", object=None)):
+            return Doing(tense="future")
+    return None
+
+
+def _listed(spoken: Question) -> Question | None:
+    """Give the list that is asked for: each time, with when and for whom."""
+    match spoken:
+        case Summarise(about=Event(action=action) as of) if action in _LISTED:
+            whole = WholeRide() if isinstance(spoken.time, Unsaid) else spoken.time
+            return Listing("events", time=whole, event=replace(of, time=Unsaid()))
+        case (
+            Summarise(about=Described(doing=Event(actor=Wanted()) as of), time=time)
+            | Listing(of="vehicles", about=Described(doing=Event(actor=Wanted()) as of), time=time)
+        ):
+            return Listing("events", time=time, event=of)
+        case HowMany(of=Event(actor=Ego(), object=Pronoun(form="who") | Wanted()) as of):
+            return Listing("events", time=WholeRide(), event=replace(of, object=None))
+        case When(of=Happens(event=Event(actor=Ego(), object=Wanted()) as of)):
+            return Listing("events", time=of.time, event=replace(of, object=None, time=Unsaid()))
+        case HowMany(
+            of=Described(doing=Event(action="wait", actor=Ego(), object=Wanted()) as deed) as of
+        ) if deed.tense == "past":
+            let = replace(deed, action="give-way", modal=None)
+            return replace(spoken, of=replace(of, doing=let))
+    return None

@@ -1,0 +1,96 @@
+"""Recalling: questions that set what came against what was expected, or ask on what it rests.
+
+"Did he go where you thought?" is one question, and so is "who had priority, and on what basis?".
+"""
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    HowKnow,
+    HowSure,
+    Listing,
+    Question,
+    Where,
+    Whether,
+    Which,
+    Whither,
+)
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Is,
+    Pronoun,
+    Proposition,
+    Related,
+)
+
+_PRIORITY = frozenset({"has-priority-over", "must-yield-to"})
+
+
+def recalled(before: Act, later: Act) -> Act | None:
+    """Read two acts as one question about what was expected; None where they are none."""
+    question = later.question if isinstance(later, Ask) else None
+    asked = before.question if isinstance(before, Ask) else None
+    found = _as_expected(asked, question) or _grounds(asked, question) or _guessed(asked, question)
+    if found is None and isinstance(before, Claim):
+        found = _as_expected(Whether(before.that, tag=True), question)
+        found = found or _changed(before.that, question)
+    return None if found is None else Ask(found)
+
+
+def _as_expected(asked: Question | None, later: Question | None) -> Question | None:
+    """Read "did he do what you expected?", "is he going where we are going?"."""
+    match asked, later:
+        case Whether(
+            that=Happens(event=Event(action="do" | "go", object=None, side=None) as event)
+        ), (Listing(of="beliefs", about=None) | Where(of=Ego()) | Whither(actor=Ego())) if (
+            not isinstance(event.actor, Ego)
+        ):
+            if event.tense in ("past", "perfect") and not isinstance(later, Whither):
+                return Whether(Is("right", event.actor, tense="past"))
+            if isinstance(later, Whither):
+                return Whether(Related("with", event.actor, tense=event.tense))
+    return None
+
+
+def _grounds(asked: Question | None, later: Question | None) -> Question | None:
+    """Read "who had priority, and on what basis?": the second asks what the first rests on."""
+    match asked, later:
+        case (
+            (
+                Which(such=Related(relation=relation) as of)
+                | Whether(that=Related(relation=relation) as of)
+            ),
+            HowKnow(of=None),
+        ) if relation in _PRIORITY:
+            return HowKnow(of)
+        case Which(
+            such=Happens(event=Event(action="go", manner=("first",), object=other))
+        ), HowKnow(of=None):
+            return HowKnow(Related("has-priority-over", Ego(), other or Everyone()))
+    return None
+
+
+def _guessed(asked: Question | None, later: Question | None) -> Question | None:
+    """Read "which one are we letting go, is it the red one?" as one question."""
+    match asked, later:
+        case Which(such=such), Whether(that=Related(relation="same-as", thing=Pronoun())) if (
+            such is not None
+        ):
+            return asked
+    return None
+
+
+def _changed(told: Proposition, later: Question | None) -> Question | None:
+    """Read "so it went left. When did your belief change?" as asked of what is told."""
+    match told, later:
+        case Happens(event=event), HowSure(of=None, changed=True) if not isinstance(
+            event.actor, Ego
+        ):
+            return structs.replace(later, of=told)
+    return None
