@@ -229,7 +229,7 @@ def test_the_decision_behind_a_plan_made_again_is_found() -> None:
 
 
 def test_refusals_and_small_talk_rest_on_nothing() -> None:
-    for text in ("Why did you fly?", "Hello!", "Why did you turn left?"):
+    for text in ("Why did you fly?", "Hello!", "Why did you stop?"):
         reply = asked("s1-0", text)
         assert not has_evidence(reply)
         assert traces_of(reply) == ()
