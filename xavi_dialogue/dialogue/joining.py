@@ -25,7 +25,7 @@ _ENDINGS: Final = re.compile(r"(?:ing|ed|es|s|e)$")
 def joined(utterances: Sequence[Utterance]) -> Utterance:
     """Join what is said of several results; what was said is not said again.
 
-    Several results are told in `AT_MOST` sentences, or in one for each where they are more.
+    Word several results in `AT_MOST` sentences, or in one each where there are more results.
     """
     rows: list[tuple[str, ...]] = []
     known: set[str] = set()

@@ -80,7 +80,7 @@ def _guessed(first: Act, later: Act) -> Question | None:
 
 
 def _other(first: Proposition, later: Act) -> Proposition | None:
-    """Tell what a later question or order says of whoever was spoken of."""
+    """Tell what a later question or order says of the vehicle spoken of."""
     match later:
         case Ask(question=Whether(that=that)):
             return that

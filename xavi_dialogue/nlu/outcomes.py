@@ -4,6 +4,7 @@ Who reads the planner's own words for its options, and of collisions in what it 
 with whom these were, be it told or asked.
 """
 
+import re
 from itertools import pairwise
 from typing import Final
 
@@ -57,6 +58,16 @@ _IMAGINED: Final = frozenset(
      "visits", "imagined", "simulated")
 )  # fmt: skip
 _OF: Final = frozenset(("under", "of", "for", "in", "on", "with"))
+#: What may stand between: the sentence is left to the grammar where any other word is in it.
+_BETWEEN: Final = frozenset(
+    ("a", "all", "an", "and", "any", "are", "at", "been", "both", "by", "came", "come", "comes",
+     "could", "couple", "did", "do", "does", "end", "ended", "ending", "ends", "every", "few",
+     "from", "had", "has", "have", "i", "if", "is", "it", "its", "many", "most", "now", "one",
+     "out", "of", "see", "shows", "show", "some", "that", "the", "their", "there", "these", "this",
+     "those", "to", "vehicle", "was", "we", "were", "what", "which", "who", "whom", "with",
+     "would", "you", "your", "s", "car", "against", "option", "plain", "plan", "branch", "starts")
+)  # fmt: skip
+_NUMBER: Final = re.compile(r"#?v?\d+(?:\.\d+)?%?s?")
 _REASON: Final = frozenset(("why", "how", "if", "suppose"))
 _COLLIDE: Final = Event("collide", object=Wanted(), tense="present", modal="would")
 
@@ -69,6 +80,8 @@ def struck_by(typed: Typed) -> Reading | None:
     reason = words[:-2] if plain_if else words
     if not named or _STRUCK.isdisjoint(words) or not _REASON.isdisjoint(reason):
         return None
+    if not all(map(_is_known, words)):
+        return None
     plain = _IMAGINED.isdisjoint(words)
     if plain and not any("-" in words[index] for index in named):
         return None
@@ -78,6 +91,12 @@ def struck_by(typed: Typed) -> Reading | None:
     asked = Ask(WhatIf(Happens(event), Which(Wanted(), Happens(_COLLIDE))))
     shares = tuple(TokenShare(word, word, "meaning", "outcome", 0) for word in words)
     return Reading((asked,), shares, COST)
+
+
+def _is_known(word: str) -> bool:
+    """Say whether a word has its part in such a sentence."""
+    known = word in _OPTIONS or word in _STRUCK or word in _IMAGINED or word in _OF
+    return known or word in _BETWEEN or _NUMBER.fullmatch(word) is not None
 
 
 def _time(words: tuple[str, ...]) -> Time:

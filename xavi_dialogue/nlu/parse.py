@@ -24,7 +24,6 @@ from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
 from xavi_dialogue.nlu.alternatives import chosen_between
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
 from xavi_dialogue.nlu.compose.tree import leaves_of
-from xavi_dialogue.nlu.elsewhere import echoes, elsewhere
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
@@ -105,9 +104,7 @@ def _read(text: str) -> tuple[Reading, ...]:
     ends: list[str] = []
     for index, sentence in enumerate(parts):
         budget.reserve = max(SPARED * (len(parts) - 1 - index), budget.steps - MAX_STEPS)
-        if before is not None and (
-            (before.end != "?" and _is_tag(sentence)) or echoes(before, sentence)
-        ):
+        if before is not None and before.end != "?" and _is_tag(sentence):
             before = appended(before, sentence)
             rows[-1] = _sentence(before, budget)
         else:
@@ -133,7 +130,7 @@ def _is_tag(typed: Typed) -> bool:
 
 def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     """Give the readings of one sentence, likeliest first; at least one."""
-    other = elsewhere(typed) or struck_by(typed) or on_screen(typed)
+    other = struck_by(typed) or on_screen(typed)
     if other is not None:
         return (other,)
     known = lexicon()

@@ -77,7 +77,7 @@ def ruled(asked: Asked, of: Related) -> Priority | None:
 
 
 def _under_way(asked: Asked, event: Event, time: Time) -> Verdict | None:
-    """Tell that somebody does so now, of which no chance is to be told; None: he does not."""
+    """Tell that somebody does so now, which needs no chance; None: it does not."""
     if event.tense == "past" or instant(asked, time, "present") < asked.now - SHORT:
         return None
     found = occasion(asked, replace(event, tense="present"))

@@ -27,7 +27,7 @@ def closeness(
         past: whether it is asked of what lies behind; else of now and what is to come.
     """
     near = about.widened() if about.instant else about
-    seen = near if past else Window(asked.now, asked.now)  # what is told as of now is of now
+    seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
     who = nearest_vehicle(asked, seen) if vehicle is None else vehicle
     risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
     if who is None:

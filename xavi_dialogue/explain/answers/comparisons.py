@@ -175,7 +175,7 @@ def _compared(of: Compares, asked: Asked) -> Finding:
 
 
 def _as_told(one: float, other: float) -> float:
-    """Tell by how much two speeds are the same: what is told as one figure is, all else is not."""
+    """Tell by how much two speeds are the same: they are where they round to one figure."""
     return abs(one - other) if round(KMH * one) == round(KMH * other) else 0.0
 
 

@@ -17,7 +17,7 @@ from xavi_dialogue.explain.history.ride import planned, prediction
 
 EXPECTED = 0.5  # probability from which something was expected
 MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
-OPEN = 0.1  # probability from which something else is told beside what is asked about
+OPEN = 0.1  # probability from which an answer adds another alternative
 CLEAR = 0.6  # from which one may be said to have been wrong
 BEFORE = 10.0  # [s] before an event that a prediction of it can be from
 
@@ -164,14 +164,6 @@ def besides(belief: Belief | None, event: Event) -> tuple[Expectation, ...]:
     found = () if belief is None else belief.expectations
     others = (e for e in found if e.probability >= OPEN and matches(e, event) is False)
     return tuple(e for e in others if event.action not in e.actions)
-
-
-def belief_before(asked: Asked, event: Event, came: Episode | None, at: float) -> Belief | None:
-    """Tell what was believed of the actor just before an event; else at a time [s]."""
-    vehicle = number(event.actor)
-    if vehicle is None:
-        return None
-    return asked.world.belief(vehicle, came.begin if came is not None else at)
 
 
 def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belief | None:

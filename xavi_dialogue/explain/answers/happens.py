@@ -78,7 +78,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
 
 
 def _moves(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody is going: whoever is in motion is, however he came to be."""
+    """Tell whether somebody is going: everybody in motion is."""
     plain = event.action in ("go", "move") and event.object is None and event.side is None
     if not plain or event.modal is not None or event.where is not None or event.manner:
         return None

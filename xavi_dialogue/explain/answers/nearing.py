@@ -12,7 +12,7 @@ from xavi_dialogue.explain.answers.occasions import occasion
 
 BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
 ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
-SINCE: Final = 1.0  # [s] over which it is told whether somebody comes closer
+SINCE: Final = 1.0  # [s] over which distances are compared to tell whether somebody comes closer
 CLOSER: Final = 0.2  # [m] by which he is closer then
 
 

@@ -23,7 +23,7 @@ from xavi_dialogue.explain.answers.findings import Finding, expected
 from xavi_dialogue.explain.answers.foreseen import chance
 from xavi_dialogue.explain.answers.naming import look_of, somebodies
 
-LIKELY = 0.5  # probability from which it is told who of several is going to do something
+LIKELY = 0.5  # probability from which one of several counts as going to do something
 STEADY = 0.3  # [m/s2] below which a speed is held
 LATELY = 10.0  # [s] for which one that was lost from view may still be around
 

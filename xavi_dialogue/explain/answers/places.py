@@ -16,20 +16,19 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Road,
     Thing,
-    Time,
     Vehicle,
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.foreseen import came_of
-from xavi_dialogue.explain.answers.moments import SHORT, instant, is_ahead, is_past
+from xavi_dialogue.explain.answers.moments import SHORT, instant
 from xavi_dialogue.explain.answers.naming import check_sense, first_look, looks, somebodies
 from xavi_dialogue.explain.answers.occasions import taken_place
 from xavi_dialogue.explain.answers.plans import current_plan, plan_ahead
 from xavi_dialogue.explain.causes.announced import announced
 
-TOLD = 2  # vehicles of which it is told where they have gone
+TOLD = 2  # most vehicles whose whereabouts one answer gives
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
 #: What somebody did of whom it is asked where he has gone.
 LEAVING: frozenset[ActionName] = frozenset(
@@ -282,8 +281,3 @@ def _to_junction(asked: Asked, thing: Thing, distance: float, at: float) -> Meas
 
 def _aim(attribute: Attribute) -> Destination | None:
     return Destination() if attribute in ("distance-to-go", "time-to-go") else None
-
-
-def was_past(asked: Asked, time: Time, tense: str) -> bool:
-    """Tell whether a place is asked of the past."""
-    return is_past(asked, time, tense) and not is_ahead(asked, time, tense)

@@ -85,18 +85,6 @@ def impact_of(crash: RideEvent) -> Episode:
     return Episode(Ego(), "collide", crash.sim_time, crash.sim_time, object=other)
 
 
-def foreseen_risk(ride: Ride, crash: RideEvent) -> float | None:
-    """Tell how probable the last decision before a collision held it; None: not foreseen at all."""
-    trace = ride.at(crash.sim_time - 2.0 * ROUNDING)
-    if trace is None or crash.vehicle is None:
-        return None
-    try:
-        plan = factual(ride.model(trace), trace)
-    except Unanswered:
-        return None
-    return min(plan.collisions().get(crash.vehicle, 0.0), 1.0)
-
-
 def _occurs(mishap: ActionName, until: float) -> Occurs:
     """Tells whether it happens in a rollout up to a time [s]."""
 

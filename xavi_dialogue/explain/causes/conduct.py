@@ -3,9 +3,8 @@
 from collections.abc import Sequence
 
 from planner.trace import GoalPrediction, PlanTrace, TrajectoryPrediction
-from sim.scene import EGO
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice
-from xavi_dialogue.domain.answers import NoSuchVehicle, NotRecorded
+from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.facts import Belief, Expectation
 from xavi_dialogue.domain.terms import Event, Lane, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -26,16 +25,6 @@ FORESEEN: dict[ActionName, ActionName] = {
     "follow": "continue",
     "come": "continue",
 }
-
-
-def check_known(ride: Ride, vehicle: int) -> None:
-    """Decline a vehicle that was never seen.
-
-    Raises:
-        Unanswered: it is unknown.
-    """
-    if vehicle not in ride.vehicles and vehicle != EGO:
-        raise Unanswered(NoSuchVehicle(Vehicle(vehicle), ride.now))
 
 
 def conduct_names(event: Event) -> tuple[ActionName, ...]:

@@ -29,7 +29,7 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
 ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
-JUST_OVER = 1.0  # [s] since when what is over is told as if it went on
+JUST_OVER = 1.0  # [s] within which an ended deed counts as going on
 FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
 AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
 SOON, FAR = 2.0, 5.0  # [s] after a decision within which it shows that one is slower for somebody

@@ -15,7 +15,6 @@ from xavi_dialogue.explain.history.ride import Ride, planned
 BRAKING = 1.5  # [m/s2] at which one slows down early and gently
 CLOSE = 5.0  # [m] below which a place is here
 MARGIN = 12.0  # [m] before a place at which one has slowed down for it
-ARRIVING = 15.0  # [m] from the destination
 AGAIN = 6.0  # [s] after a standstill in which one is still setting off
 STANDING = 0.3  # [m/s]
 SLACK = 0.5  # [m/s] by which a speed may exceed the limit

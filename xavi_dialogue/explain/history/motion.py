@@ -98,16 +98,6 @@ class Motion:
             return "steady"
         return "slowing" if rate < 0.0 else "speeding-up"
 
-    @property
-    def since_standing(self) -> float | None:
-        """Since when [s] it stands, as far as is known; None where it drives."""
-        still = None
-        for moment, speed in zip(reversed(self.time), reversed(self.speed), strict=True):
-            if speed >= STANDING:
-                break
-            still = moment
-        return still
-
     def sightings(self) -> tuple[Sighting, ...]:
         """What was done, in order of its start."""
         return self._sightings

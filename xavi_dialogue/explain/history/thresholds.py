@@ -50,4 +50,3 @@ BIG, SMALL = 6.5, 3.0  # [m] of length from which a vehicle is big, and below wh
 
 # comfort
 SMOOTHED = 0.6  # [s] over which jerk is taken
-UNEASY = 3.0  # [m/s3] of jerk from which it is felt

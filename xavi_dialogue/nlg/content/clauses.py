@@ -17,8 +17,6 @@ from xavi_dialogue.domain.terms import (
     Road,
     Thing,
     Unknown,
-    Vehicle,
-    Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Side
 from xavi_dialogue.nlg.content.tenses import PRESENT, event_tense, goes_on, moment_of
@@ -200,13 +198,6 @@ def relative_clause(event: Event, now: float) -> Clause:
     verb, rest = verb_phrase(event.action, event.actor, Pronoun("it"), event.side)
     rest = tuple(part for part in rest if isinstance(part, str))
     return replace(clause, verb=verb, rest=rest, lead="that")
-
-
-def same_actor(one: Thing, two: Thing) -> bool:
-    """Whether two things are the same somebody."""
-    if isinstance(one, Vehicles) and len(one.numbers) == 1:
-        one = Vehicle(one.numbers[0])
-    return one == two
 
 
 def state_word(state: str, too: bool = False) -> str:

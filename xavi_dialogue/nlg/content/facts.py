@@ -25,8 +25,7 @@ from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
 
 CHANGED = 1.4  # [m/s] change of speed from which it is told
-OBJECTLESS = frozenset(("slow-down", "brake", "speed-up", "stop"))
-TOLD = 0.1  # probability from which an alternative is told
+TOLD = 0.1  # probability from which an answer names an alternative
 BESIDES = 2  # likely alternatives that are told
 MOST_PASSED = 2  # exits of a roundabout that are counted
 LONG = 1.5  # [s] from which it is told how long somebody stood or waited

@@ -123,7 +123,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     vehicle = answer.vehicle
     judged = answer.asked in ("safe", "dangerous")
     if closest is not None and (closest.value or 0.0) > FAR and judged and answer.past:
-        vehicle = None  # whoever was nearest had nothing to do with us
+        vehicle = None  # the nearest vehicle had nothing to do with us
     at = closest.time if closest is not None and answer.past else None
     first = message(
         "CLOSENESS",

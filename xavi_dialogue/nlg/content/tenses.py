@@ -9,7 +9,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense
 PRESENT = 1.0  # [s] what is so long past still counts as now ...
 #: What is seen at once to be over.
 SEEN_OVER = frozenset(("brake", "slow-down", "speed-up", "stop", "stand", "wait", "give-way"))
-OLD = 6.0  # [s] since when something past is told with its time
+OLD = 6.0  # [s] from which a past event is given its time
 NAMED = 0.3  # [s] ... unless that time was named
 
 

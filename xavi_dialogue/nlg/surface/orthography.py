@@ -22,11 +22,6 @@ def capitalise(text: str) -> str:
     return _SENTENCE_START.sub(lambda m: m[1] + m[2].upper(), text)
 
 
-def count_words(text: str) -> int:
-    """Words as a reader counts them: what stands between spaces."""
-    return len(text.split())
-
-
 def count_sentences(text: str) -> int:
     """Sentences, at least one in any text."""
     return max(1, len(_SENTENCE.findall(text)))

@@ -179,7 +179,7 @@ class Asking(What, WhichOne):
         return HowDecide(of)
 
     def _avoided(self, clause: Clause, event: Event) -> Proposition | None:
-        """Find what is avoided: a deed of whoever avoids it."""
+        """Find what is avoided: a deed of the one who avoids it."""
         governed = None if clause.gerund is None else self.propositions.as_event(clause.gerund)
         named = (governed, *(sem for sem, _ in clause.objects))
         deed = next((sem for sem in named if isinstance(sem, Event)), None)

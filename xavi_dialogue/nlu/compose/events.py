@@ -34,7 +34,6 @@ _SIDED: dict[tuple[str, str], str] = {
     ("change-lane", "left"): "change-left",
     ("change-lane", "right"): "change-right",
 }
-_LANE_MOVES = frozenset({"change-left", "change-right", "change-lane"})
 _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "between", "with": "with",
            "like": "same-as"}  # fmt: skip
 

@@ -52,7 +52,6 @@ _TELLING = frozenset(
         "show",
     }
 )
-_STYLES = {"simple": "simpler", "short": "shorter", "long": "longer"}
 Found = list[tuple[tuple[Act, ...], float]]
 
 

@@ -94,7 +94,7 @@ def placed(relation: str, thing: Thing, to: Thing) -> Thing:
 
 
 def nearest(value: Related, wanted: Thing) -> Thing:
-    """Describe whoever is nearest to us, in the direction that is said."""
+    """Describe the vehicle nearest to us in a direction."""
     kind = getattr(wanted, "kind", "vehicle")
     return placed(value.relation, Described(cast(Any, kind), extreme="nearest"), value.to)
 

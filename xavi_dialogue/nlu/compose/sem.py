@@ -22,9 +22,7 @@ from xavi_dialogue.domain.terms import (
     Record,
     Road,
     Thing,
-    Time,
     Unknown,
-    Unsaid,
     Vehicle,
     Vehicles,
     Wanted,
@@ -163,6 +161,3 @@ def alternative(sem: object) -> Thing | None:
     """Give the second of two things of which one is meant: "the bus or the lorry"."""
     pair = isinstance(sem, Group) and sem.join == "or" and len(sem.members) == ALTERNATIVES
     return as_thing(sem.members[1]) if pair and isinstance(sem, Group) else None
-
-
-NO_TIME: Time = Unsaid()

@@ -91,7 +91,6 @@ STATES = frozenset(
         "busy",
     ]
 )
-_SPECIAL = frozenset({"likely", "unlikely", "raining"})
 _COMPARED: dict[str, tuple[str, str]] = {
     "fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
     "far": ("distance", "more"), "big": ("size", "more"), "small": ("size", "less"),

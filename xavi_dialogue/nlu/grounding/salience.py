@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Mention
 from xavi_dialogue.domain.meaning import Ask, Claim
 from xavi_dialogue.domain.rewriting import parts
-from xavi_dialogue.domain.terms import At, Ego, Event, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import At, Event, Thing, Vehicle, Vehicles
 
 DECAY: Final = 0.6  # of salience with each turn
 FRESH: Final = 1.5  # more salience within the turn, so that it outdoes the turn before
@@ -112,8 +112,3 @@ def named_time(done: GroundedAct, now: float) -> tuple[float, float] | None:
     if span is None or not span.said or span.end >= now - JUST:
         return None
     return span.begin, span.end
-
-
-def is_spoken_of(discourse: Discourse, thing: Thing) -> bool:
-    """Tell whether a thing was mentioned lately."""
-    return isinstance(thing, Ego) or any(m.thing == thing for m in discourse.mentions)

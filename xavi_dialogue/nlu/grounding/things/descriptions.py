@@ -109,7 +109,7 @@ _ANY: Final = ("vehicle", "car")
 
 
 def is_such(thing: Thing, such: Thing, g: Grounder, window: Window) -> bool:
-    """Tell whether a vehicle fits a description, whoever else fits it."""
+    """Tell whether a vehicle fits a description that others may fit too."""
     if not isinstance(thing, Vehicle) or not isinstance(such, Described):
         return False
     match = _search(such, g, window, None).match(thing.number, 0.0)

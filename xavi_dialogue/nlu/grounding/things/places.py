@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from planner.road import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Exit, Junction, Lane, Thing, Vehicle
+from xavi_dialogue.domain.terms import Ego, Junction, Lane, Vehicle
 from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
 
 APART: Final = 4.0  # [s] between episodes at two different places
@@ -128,11 +128,6 @@ def lane(thing: Lane, g: Grounder, window: Window) -> Lane:
         return thing
     of = g.thing(thing.of, window)
     return replace(thing, of=None if isinstance(of, Ego) else of)
-
-
-def is_place(thing: Thing | None) -> bool:
-    """Tell whether a thing is a place on our way."""
-    return isinstance(thing, Junction | Exit | Lane)
 
 
 def presence(context: Context, vehicle: Vehicle) -> tuple[float, float] | None:
