@@ -2,13 +2,15 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from planner.actions import Situation
+from planner.fitting import fitted
 from planner.forward import DT
 from planner.recognise import Belief, Trajectory, recognise
+from planner.reward import COSTS
 from planner.road_facts import road_facts
 from planner.rollout import Task
 from planner.search import Root, Search, Simulated
@@ -24,7 +26,6 @@ from planner.trace import (
     Track,
     TrajectoryPrediction,
     VehiclePrediction,
-    fitted,
 )
 from planner.tracks import Observed, lanes_at
 from planner.trajectory import Array, Roads
@@ -61,6 +62,7 @@ class Moment:
     history: Mapping[int, Track]
     root: Root
     unseen: Mapping[int, float] = field(default_factory=dict)  # [s] hidden ones were seen last
+    unpaced: frozenset[int] = frozenset()  # whose pace was that of somebody who is not there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,7 +88,10 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
         moment.scene, key=lambda vehicle: math.dist(moment.scene[vehicle].position, here)
     )
     tracks = [
-        observed(vehicle, moment.history[vehicle], moment.scene[vehicle])
+        replace(
+            observed(vehicle, moment.history[vehicle], moment.scene[vehicle]),
+            paced=vehicle not in moment.unpaced,
+        )
         for vehicle in sorted(nearest[: 1 + CROWD])
     ]
     return recognise(frame.roads, tracks, frame.settings, moment.time, EGO)
@@ -148,6 +153,7 @@ def record(
         unseen=dict(sorted(moment.unseen.items())),
         waypoint=None if search.task.goal == frame.goal else search.task.goal,
         road=road_facts(frame.roads, moment.scene, moment.root, plan, frame.goal, view),
+        costs=COSTS,
     )
     return fitted(trace)
 
@@ -179,6 +185,7 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 reward=one.reward,
                 collided_with=one.legs[-1].collided_with if one.legs else None,
                 held_up=one.held_up,
+                terms={term: round(cost, 4) for term, cost in one.terms.items()},
             )
         )
     return tuple(found)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planner.trace import SAMPLE_PERIOD, Action, Component, Outcome
+from planner.trace import SAMPLE_PERIOD, Action, Component, Costs, Outcome, RewardTerm
 from planner.trajectory import Array
 
 #: What a drive costs, in seconds of travelling time: time as it is, and for each of the others
@@ -55,22 +55,38 @@ def absent() -> dict[Component, float | None]:
 EFFORT: dict[Action, float] = {"stop": 2.0, "change-left": 1.0, "change-right": 1.0}
 
 
-def cost(parts: dict[Component, float]) -> float:
-    """What a trajectory costs [s]."""
-    comfort = (WEIGHTS[name] * value for name, value in parts.items() if name != "time")
-    return parts["time"] * (WEIGHTS["time"] + sum(comfort))
+#: What every trace records of this.
+COSTS = Costs(WEIGHTS, PENALTY, EFFORT)
 
 
-def reward(outcome: Outcome, parts: dict[Component, float], left: float, effort: float) -> float:
-    """The reward of a rollout, in (negative) seconds of travelling time.
+def terms(
+    outcome: Outcome, parts: dict[Component, float], left: float, effort: float
+) -> dict[RewardTerm, float]:
+    """Take what a rollout costs apart, in seconds of travelling time.
 
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
         left: [s] that the rest of the way costs where nobody is in the way.
         effort: [s] that its actions cost by themselves.
+
+    Returns:
+        The terms [s] that are not 0; minus the reward is their sum.
     """
-    if outcome in ("collision", "dead"):
-        return -PENALTY[outcome]
-    late = PENALTY["termination"] + left if outcome == "termination" else 0.0
-    return -cost(parts) - late - effort
+    if outcome == "collision":
+        return {"collision": PENALTY[outcome]}
+    if outcome == "dead":
+        return {"dead": PENALTY[outcome]}
+    time = parts["time"]
+    found: dict[RewardTerm, float] = {"time": WEIGHTS["time"] * time, "effort": effort}
+    for name, value in parts.items():
+        if name != "time":
+            found[name] = WEIGHTS[name] * value * time
+    if outcome == "termination":
+        found |= {"late": PENALTY[outcome], "left": left}
+    return {term: cost for term, cost in found.items() if cost != 0.0}
+
+
+def reward(costs: dict[RewardTerm, float]) -> float:
+    """Tell the reward of a rollout, in (negative) seconds of travelling time, from its terms."""
+    return -sum(costs.values())

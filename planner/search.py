@@ -13,7 +13,7 @@ from planner.actions import ActionPlan, Situation, expand
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
-from planner.reward import EFFORT, absent, reward
+from planner.reward import EFFORT, absent, reward, terms
 from planner.rollout import Leg, Task, held_up, summarise, take
 from planner.routes import Refusal
 from planner.trace import (
@@ -24,6 +24,7 @@ from planner.trace import (
     NotApplicable,
     Outcome,
     PlannedAction,
+    RewardTerm,
     Sample,
     Settings,
 )
@@ -56,6 +57,7 @@ class Simulated:
     outcome: Outcome
     components: dict[Component, float | None]
     reward: float
+    terms: dict[RewardTerm, float]  # [s] that the reward is made of
     held_up: tuple[HeldUp, ...]
 
     @property
@@ -194,10 +196,13 @@ class Search:
         if found is None:
             parts = summarise(self.task, legs)
             effort = sum(EFFORT.get(leg.action, 0.0) for leg in legs)
-            gained = round(reward(outcome, parts, self._left(legs), effort), 3)
+            spent = terms(outcome, parts, self._left(legs), effort)
+            gained = round(reward(spent), 3)
             stretches = held_up(legs, self.task.start)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
-            found = Simulated(forced, samples, tuple(legs), outcome, shown, gained, stretches)
+            found = Simulated(
+                forced, samples, tuple(legs), outcome, shown, gained, spent, stretches
+            )
             self._known[key] = found
         return replace(found, forced=forced)
 

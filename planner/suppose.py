@@ -101,24 +101,25 @@ def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
 
 def _named(goals: Sequence[Goal], name: str) -> Goal | Refusal:
     """The goal of a kind, or at an edge."""
-    found = [goal for goal in goals if name in (goal.kind, _edge(goal))]
+    found = [goal for goal in goals if name in (goal.kind, edge_of(goal))]
     if not found and name in STRAIGHT:
         found = [goal for goal in goals if goal.kind in STRAIGHT]
     if len(found) == 1:
         return found[0]
     if found:
-        edges = ", ".join(str(_edge(goal)) for goal in found)
+        edges = ", ".join(str(edge_of(goal)) for goal in found)
         return Refusal(f"several of its goals are {name}; name the edge: {edges}")
     kinds = ", ".join(goal.kind for goal in goals)
     return Refusal(f"{name} is none of its goals; these are {kinds}")
 
 
 def _belief_in(known: Sequence[Belief], goal: Goal) -> Belief | None:
-    wanted = (goal.kind, _edge(goal))
-    return next((b for b in known if (b.goal.kind, _edge(b.goal)) == wanted), None)
+    wanted = (goal.kind, edge_of(goal))
+    return next((b for b in known if (b.goal.kind, edge_of(b.goal)) == wanted), None)
 
 
-def _edge(goal: Goal) -> str | None:
+def edge_of(goal: Goal) -> str | None:
+    """Name the edge of a goal; None for stopping."""
     return None if goal.target is None else goal.target.edge
 
 
@@ -181,8 +182,8 @@ def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) ->
     """
     lanes, last = prospect.task.roads.network.lanes, legs[-1]
     edges = [lanes[lane].edge for leg in legs for lane in leg.lanes]
-    passed = [goal for goal in goals if _edge(goal) in edges]
-    passed.sort(key=lambda goal: edges.index(str(_edge(goal))))
+    passed = [goal for goal in goals if edge_of(goal) in edges]
+    passed.sort(key=lambda goal: edges.index(str(edge_of(goal))))
     if last.action == "stop":
         standing = [goal for goal in goals if goal.target is None]
         return (*passed, *(standing or [Goal("stop", PLACES["stop"], None, 1.0)]))

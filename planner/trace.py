@@ -19,7 +19,6 @@ SCHEMA = "xavi.plan_trace/2"
 READABLE = ("xavi.plan_trace/1", SCHEMA)  # the older ones lack what was added since
 LARGEST = 1e6  # of a component, in its unit; nothing that a car does is beyond it
 MAX_BYTES = 256 * 1024
-IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
 
 Action = Literal[
@@ -40,6 +39,10 @@ Component = Literal[
     "curvature",  # [1/m] mean absolute value
 ]
 HoldUp = Literal["leader", "right-of-way", "cut-in", "blocked"]
+#: What the reward of a rollout is made of. A collision and leaving the way to the goal (dead) cost
+#: what they cost, and nothing else; out of time costs a penalty (late), and the rest of the way
+#: (left).
+RewardTerm = Literal[Component, "effort", "late", "left", "collision", "dead"]
 
 ACTIONS: tuple[Action, ...] = (
     "continue",
@@ -59,6 +62,22 @@ UNITS: dict[Component, str] = {
     "angular-acceleration": "rad/s2",
     "curvature": "1/m",
 }
+
+
+class Costs(msgspec.Struct, frozen=True):
+    """What the reward counts, in seconds of travelling time; see planner.reward."""
+
+    weights: dict[Component, float]  # per unit of a component's total over the drive
+    penalties: dict[Outcome, float]  # [s] of the outcomes that have one
+    effort: dict[Action, float]  # [s] of the actions that cost something by themselves
+
+
+#: By which traces were reckoned that do not hold their costs.
+FORMER = Costs(
+    {"time": 1.0, "jerk": 0.05, "angular-acceleration": 4.0, "curvature": 20.0},
+    {"collision": 200.0, "dead": 150.0, "termination": 10.0},
+    {"stop": 2.0, "change-left": 1.0, "change-right": 1.0},
+)
 
 
 class Settings(msgspec.Struct, frozen=True):
@@ -148,12 +167,12 @@ class TimedAction(msgspec.Struct, frozen=True):
     start: float  # [s] simulation time
 
 
-class Rollout(msgspec.Struct, frozen=True):
+class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     """One simulation of the search.
 
     Many rollouts drive the very same line at the same speeds. It is recorded once: the later
     ones carry `same_as`, the index of the first, and null path and speed. In a crowd, where a
-    trace would grow beyond MAX_BYTES, further rollouts go without their line (see `fitted`).
+    trace would grow beyond MAX_BYTES, further rollouts go without their line (see planner.fitting).
     """
 
     index: int
@@ -165,9 +184,10 @@ class Rollout(msgspec.Struct, frozen=True):
     same_as: int | None
     outcome: Outcome
     components: dict[Component, float | None]  # all null unless the outcome is done
-    reward: float
+    reward: float  # [s] minus the sum of the terms, to the millisecond
     collided_with: int | None
     held_up: tuple[HeldUp, ...]
+    terms: dict[RewardTerm, float] = {}  # [s] that are not 0; empty in traces without costs
 
 
 class NotApplicable(msgspec.Struct, frozen=True):
@@ -190,11 +210,19 @@ class WhatIf(msgspec.Struct, frozen=True):
     """What is changed when a decision is planned again; see planner.whatif."""
 
     actions: tuple[Action, ...] = ()  # that the ego takes first
-    removed: int | None = None  # a vehicle that is not there
+    removed: int | tuple[int, ...] | None = None  # a vehicle that is not there, or several
     vehicle: int | None = None  # another vehicle that acts as supposed:
     goal: str | None = None  # where it goes: the kind of a goal, or its edge
     vehicle_actions: tuple[Action, ...] = ()  # what it does first
     rollouts: int = 40  # drawn with the ego's forced actions
+    faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
+
+    @property
+    def gone(self) -> frozenset[int]:
+        """The vehicles that are not there."""
+        if self.removed is None:
+            return frozenset()
+        return frozenset((self.removed,) if isinstance(self.removed, int) else self.removed)
 
 
 class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
@@ -219,6 +247,12 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
     road: RoadFacts | None = None  # where everybody is on it, and what the ego comes to
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
+    costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
+
+    @property
+    def reckoned(self) -> Costs:
+        """By what its rewards were reckoned."""
+        return self.costs or FORMER
 
     @cached_property
     def trace_id(self) -> str:
@@ -236,48 +270,6 @@ def encode(trace: PlanTrace) -> bytes:
     Vehicles stand in increasing order of their names, as in `Scene`.
     """
     return msgspec.json.encode(trace)
-
-
-def fitted(trace: PlanTrace) -> PlanTrace:
-    """The trace without the lines that it has no room for.
-
-    Where it is larger than MAX_BYTES, the less probable predictions lose path, speed and who
-    holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
-    what rollouts came to, and why, always stays.
-    """
-    for below in IMPROBABLE:
-        if len(encode(trace)) > MAX_BYTES:
-            trace = _without_lines(trace, below)
-    excess = len(encode(trace)) - MAX_BYTES
-    if excess <= 0:
-        return trace
-    rollouts = list(trace.rollouts)
-    for k in range(len(rollouts) - 1, -1, -1):
-        if excess > 0 and rollouts[k].path is not None:
-            bare = msgspec.structs.replace(rollouts[k], path=None, speed=None)
-            excess -= len(msgspec.json.encode(rollouts[k])) - len(msgspec.json.encode(bare))
-            rollouts[k] = bare
-    trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
-    return trace if excess <= 0 else _without_lines(trace, 1.0)
-
-
-def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
-    """The trace without the predicted lines that are at most as probable as `below`."""
-
-    def stripped(goal: GoalPrediction) -> GoalPrediction:
-        ways = (
-            msgspec.structs.replace(way, path=(), speed=(), held_up=())
-            if goal.probability * way.probability <= below
-            else way
-            for way in goal.trajectories
-        )
-        return msgspec.structs.replace(goal, trajectories=tuple(ways))
-
-    predictions = tuple(
-        VehiclePrediction(known.vehicle, tuple(map(stripped, known.goals)))
-        for known in trace.predictions
-    )
-    return msgspec.structs.replace(trace, predictions=predictions)
 
 
 def decode(data: bytes) -> PlanTrace:

@@ -37,6 +37,7 @@ class Observed:
     position: Array  # [m] [N, 2]
     heading: Array  # [rad] [N]
     speed: Array  # [m/s] [N]
+    paced: bool = True  # False: how fast it drove says nothing of how fast it wants to drive
 
     @property
     def elapsed(self) -> int:
@@ -55,7 +56,9 @@ class Observed:
         Who has driven steadily for a while, and never faster, has got to the speed it wants.
         """
         lately = self.speed[-STEADY:]
-        if self.elapsed < STEADY or float(np.ptp(lately)) > RIPPLE or lately[-1] < LEAST_PACE:
+        if not self.paced or self.elapsed < STEADY or float(np.ptp(lately)) > RIPPLE:
+            return math.inf
+        if lately[-1] < LEAST_PACE:
             return math.inf
         return float(np.max(self.speed)) + RIPPLE
 
@@ -72,11 +75,11 @@ class Observed:
 def queued(tracks: Sequence[Observed]) -> list[Observed]:
     """Those who stand first, in a queue from its head on; then the others in their order."""
     standing = [track for track in tracks if track.standing]
-    standing.sort(key=lambda track: sum(_ahead(track, other) for other in standing))
+    standing.sort(key=lambda track: sum(leads(track, other) for other in standing))
     return standing + [track for track in tracks if not track.standing]
 
 
-def _ahead(track: Observed, other: Observed) -> bool:
+def leads(track: Observed, other: Observed) -> bool:
     """Whether another is before a vehicle in its track."""
     dx, dy = other.position[-1] - track.position[-1]
     cos, sin = math.cos(track.heading[-1]), math.sin(track.heading[-1])

@@ -1,30 +1,41 @@
 """Planning again from a recorded decision with something changed.
 
-The ego may be told what to do first, a vehicle taken away, and another supposed to have a goal
-or to do certain things. Everything that is needed stands in the trace, so a replayed ride can be
-asked as well as a live one. The same request gives the same trace.
+The ego may be told what to do first, vehicles taken away, and another supposed to have a goal,
+to do certain things or to drive faster. Everything that is needed stands in the trace, so a
+replayed ride can be asked as well as a live one. The same request gives the same trace.
+
+What is inferred of those who stay is inferred from the world as it was, with everybody in it, and
+only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So
+they keep the probabilities of their goals; and who drove slowly behind one that is taken away is
+not held to want to drive so.
 
     WhatIfError        the question cannot be planned from this trace
     ├── NotInView      the vehicle is not in the trace's scene
     └── Inapplicable   what is supposed of it cannot be
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import msgspec
 
-from planner.decide import Frame, Moment, predict, prepare, record, rollouts, root_at
+from planner.decide import Frame, Moment, observed, predict, prepare, record, rollouts, root_at
+from planner.fitting import fitted
 from planner.recognise import Belief
 from planner.resume import resume
 from planner.routes import Refusal
 from planner.search import Root
-from planner.suppose import suppose
-from planner.trace import PlanTrace, WhatIf, fitted
+from planner.suppose import edge_of, suppose
+from planner.trace import PlanTrace, Track, VehiclePrediction, WhatIf
+from planner.tracks import Observed, leads
 from planner.trajectory import Roads
 from sim.network import Network
-from sim.scene import EGO
+from sim.scene import EGO, VehicleState
 
 __all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "replan"]
+
+HEADWAY, GAP = 1.5, 5.0  # [s], [m] to the one ahead up to which a vehicle is held up by it
+RECOGNISED = 0.5  # probability of the goals that must still be possible to keep what was inferred
 
 
 class WhatIfError(Exception):
@@ -55,9 +66,9 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
         Inapplicable: a vehicle cannot have that goal or do those things.
     """
     _check(trace, network, request)
-    frame, moment = _restore(trace, Roads(network), request.removed)
-    beliefs = _beliefs(frame, moment, request)
-    changed = request.removed is not None or request.vehicle is not None
+    frame, moment = _restore(trace, Roads(network), request)
+    beliefs = _beliefs(frame, moment, request, trace.predictions)
+    changed = bool(request.gone) or request.vehicle is not None
     if changed:
         search = prepare(frame, moment, beliefs)
         search.run()
@@ -97,24 +108,25 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
     depth = trace.settings.depth
     if max(len(request.actions), len(request.vehicle_actions)) > depth:
         raise WhatIfError(f"at most {depth} actions in a row are planned")
-    supposed = request.goal is not None or bool(request.vehicle_actions)
+    faster = isinstance(request.faster, float)
+    supposed = request.goal is not None or bool(request.vehicle_actions) or faster
     if supposed and request.vehicle is None:
-        raise WhatIfError("a goal or actions are supposed, but of no vehicle")
+        raise WhatIfError("a goal, actions or a speed are supposed, but of no vehicle")
     if request.vehicle is not None and not supposed:
         raise WhatIfError(f"nothing is supposed of vehicle {request.vehicle}")
-    if request.removed == EGO:
+    if EGO in request.gone:
         raise WhatIfError("the ego cannot be removed; name another vehicle")
     if request.vehicle == EGO:
         raise WhatIfError("the ego's goal stands; force its actions instead")
-    if request.removed is not None and request.removed == request.vehicle:
-        raise WhatIfError(f"vehicle {request.removed} cannot be removed and do something")
-    for vehicle in (request.removed, request.vehicle):
+    if request.vehicle in request.gone:
+        raise WhatIfError(f"vehicle {request.vehicle} cannot be removed and do something")
+    for vehicle in (*sorted(request.gone), request.vehicle):
         if vehicle is not None and vehicle not in trace.scene:
             raise NotInView(f"vehicle {vehicle} was not in view at {trace.sim_time} s")
 
 
-def _restore(trace: PlanTrace, roads: Roads, gone: int | None) -> tuple[Frame, Moment]:
-    """The frame and moment of a recorded decision, without the removed vehicle."""
+def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
+    """The frame and moment of a recorded decision, with what is changed in its scene."""
     here = root_at(roads, trace.scene[EGO], trace.sim_time)
     if here is None:
         raise WhatIfError(f"the ego was on no lane at {trace.sim_time} s")
@@ -123,25 +135,81 @@ def _restore(trace: PlanTrace, roads: Roads, gone: int | None) -> tuple[Frame, M
         action = "" if trace.under_way is None else trace.under_way.action
         raise WhatIfError(f"{action} was under way at {trace.sim_time} s; {rest.reason}")
     frame = Frame(roads, trace.goal, trace.settings, trace.seed, trace.vehicle)
+    gone = request.gone
+    scene = {vehicle: state for vehicle, state in trace.scene.items() if vehicle not in gone}
+    history = {vehicle: track for vehicle, track in trace.history.items() if vehicle not in gone}
+    one = request.vehicle
+    if one is not None and isinstance(request.faster, float):
+        scene[one], history[one] = _hastened(scene[one], history[one], request.faster)
     moment = Moment(
         trace.decision,
         trace.sim_time,
-        {vehicle: state for vehicle, state in trace.scene.items() if vehicle != gone},
-        {vehicle: track for vehicle, track in trace.history.items() if vehicle != gone},
+        scene,
+        history,
         Root(here, rest),
-        {vehicle: since for vehicle, since in trace.unseen.items() if vehicle != gone},
+        {vehicle: since for vehicle, since in trace.unseen.items() if vehicle not in gone},
+        frozenset(_followers(trace, gone)),
     )
     return frame, moment
 
 
-def _beliefs(frame: Frame, moment: Moment, request: WhatIf) -> dict[int, Sequence[Belief]]:
+def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[VehicleState, Track]:
+    """A vehicle that is where it is, but drives faster by so much [m/s], and did."""
+    speeds = tuple(max(speed + faster, 0.0) for speed in track.speed)
+    return (
+        replace(state, speed=max(state.speed + faster, 0.0)),
+        msgspec.structs.replace(track, speed=speeds),
+    )
+
+
+def _followers(trace: PlanTrace, gone: frozenset[int]) -> Iterator[int]:
+    """Those whose speed was that of one who is taken away: who follow it, and who follow these."""
+    if not gone:
+        return
+    tracks = {v: observed(v, trace.history[v], state) for v, state in trace.scene.items()}
+    before, rest = set(gone), set(tracks) - gone - {EGO}
+    while True:
+        found = {v for v in rest if any(_follows(tracks[v], tracks[w]) for w in before)}
+        if not found:
+            return
+        yield from sorted(found)
+        before, rest = found, rest - found
+
+
+def _follows(track: Observed, other: Observed) -> bool:
+    """Whether a vehicle drives behind another, no farther than one does who cannot go faster."""
+    dx, dy = other.position[-1] - track.position[-1]
+    gap = float((dx * dx + dy * dy) ** 0.5) - other.length
+    return leads(track, other) and gap <= HEADWAY * float(track.speed[-1]) + GAP
+
+
+def _beliefs(
+    frame: Frame, moment: Moment, request: WhatIf, recorded: Sequence[VehiclePrediction]
+) -> dict[int, Sequence[Belief]]:
     """What the others may be up to, with what is supposed of one of them."""
     beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
+    if request.gone or isinstance(request.faster, float):
+        known_goals = {known.vehicle: known for known in recorded}
+        beliefs = {
+            one: _as_inferred(found, known_goals[one]) if one in known_goals else found
+            for one, found in beliefs.items()
+        }
     vehicle = request.vehicle
-    if vehicle is None:
+    if vehicle is None or isinstance(request.faster, float):
         return beliefs
     known = beliefs.get(vehicle, ())
     supposed = suppose(frame, moment, known, vehicle, request.goal, request.vehicle_actions)
     if isinstance(supposed, Refusal):
         raise Inapplicable(f"vehicle {vehicle}: {supposed.reason}")
     return {**beliefs, vehicle: (supposed,)}
+
+
+def _as_inferred(found: Sequence[Belief], recorded: VehiclePrediction) -> Sequence[Belief]:
+    """Beliefs with the goals' probabilities as they were recorded, where most of these remain."""
+    chances = {(goal.kind, goal.edge): goal.probability for goal in recorded.goals}
+    known = [chances.get((b.goal.kind, edge_of(b.goal)), 0.0) for b in found]
+    mass = sum(known)
+    if mass < RECOGNISED:
+        return found
+    pairs = zip(found, known, strict=True)
+    return tuple(replace(b, probability=chance / mass) for b, chance in pairs if chance > 0.0)

@@ -118,21 +118,34 @@ def influence(trace):
         return
     sides = [oracle.intervene(trace, dict(enumerate(option.plan, 1)))[1] for option in options]
     shuffles = []
-    for k, side in enumerate(sides):
-        rng = np.random.default_rng((trace.seed, trace.decision, k))
-        rows = sum(row[3] for _, row in side)
-        keys = rng.random((rows, influence_module.PERMUTATIONS))
-        shuffles.append(np.argsort(keys, axis=0))
+    for side in sides:
+        keys = [_keys(trace, row) for _, row in side]
+        shuffles.append(np.argsort(np.vstack(keys), axis=0))
     found = influence_module.influence(model)
     assert [f.bits for f in found] == sorted((f.bits for f in found), reverse=True)
+    ranked = sorted(one.chance for one in found)
+    steps = [min((len(ranked) - k) * p, 1.0) for k, p in enumerate(ranked)]
     for one in found:
-        bits, null = oracle.influence(trace, one.vehicle, sides, shuffles)
+        assert one.adjusted == close(max(steps[: ranked.index(one.chance) + 1]))
+    for one in found:
+        bits = oracle.influence(trace, one.vehicle, sides)
         assert one.bits == pytest.approx(max(bits, 0.0), abs=1e-6)
-        if one.null is None:
-            assert bits < influence_module.MIN_BITS + 1e-6
-        else:
-            assert one.null == pytest.approx(sorted(null)[int(0.95 * len(null))], abs=1e-6)
+        if bits < influence_module.MIN_BITS + 1e-6:
+            continue
+        here, null = oracle.chance_information(trace, one.vehicle, sides, shuffles)
+        clear = [x for x in null if abs(x - here) > 1e-7]
+        least = 1 + sum(x > here for x in clear)
+        total = influence_module.PERMUTATIONS + 1
+        assert least / total <= one.chance + 1e-9
+        assert one.chance <= (least + len(null) - len(clear)) / total + 1e-9
         assert sum(c.probability for c in one.choices) == close(1.0)
+
+
+def _keys(trace, row):
+    """The random numbers that belong to a sample, by which draws are shuffled."""
+    flat = [number for choice in sorted(row[1]) for number in choice]
+    rng = np.random.default_rng((trace.seed, trace.decision, *flat))
+    return rng.random((row[3], influence_module.PERMUTATIONS))
 
 
 def seen(trace, actions, choices, outcome):

@@ -233,39 +233,58 @@ def marginal(rows, key):
     return found
 
 
-def influence(trace, vehicle, sides, shuffles=None, beta=1.0):
-    """Mutual information [bit] of option and choice, and those under shuffled residuals.
+def influence(trace, vehicle, sides, beta=1.0):
+    """Mutual information [bit] of option and choice.
 
-    sides: [(weight, row)] per option; shuffles: per option a [N, P] array of permutations.
-    The action values come from a weighted least-squares fit of the rewards.
+    sides: [(weight, row)] per option. The action values come from a weighted least-squares fit of
+    the rewards.
     """
+    chances, names = _choices_of(trace, vehicle)
+    return _information([_fit(side, names, vehicle, chances) for side in sides], chances, beta)
+
+
+def chance_information(trace, vehicle, sides, shuffles, beta=1.0):
+    """The statistic of the randomisation test, and the same under shuffled draws.
+
+    shuffles: per option a [N, P] array of permutations of its draws.
+    """
+    chances, names = _choices_of(trace, vehicle)
+
+    def told(column):
+        columns = []
+        for side, shuffled in zip(sides, shuffles, strict=True):
+            order = None if column is None else shuffled[:, column]
+            columns.append(_means(side, names, vehicle, chances, order))
+        return _information(columns, chances, beta)
+
+    return told(None), [told(column) for column in range(shuffles[0].shape[1])]
+
+
+def _choices_of(trace, vehicle):
     chances = {}
     for joint, p in prior_of(trace).items():
         choice = next((g, t) for v, g, t in joint if v == vehicle)
         chances[choice] = chances.get(choice, 0.0) + p
-    names = sorted({one for joint in prior_of(trace) for one in joint})
-    tables = [[_fit(side, names, vehicle, chances)] for side in sides]
-    for k, side in enumerate(sides if shuffles is not None else []):
-        for column in range(shuffles[k].shape[1]):
-            tables[k].append(_fit(side, names, vehicle, chances, shuffles[k][:, column]))
-    bits = []
-    for columns in zip(*tables, strict=True):
-        total, pooled, rows = 0.0, [0.0] * len(sides), []
-        for c, chance in enumerate(chances.values()):
-            top = max(column[c] for column in columns)
-            odds = [math.exp(beta * (column[c] - top)) for column in columns]
-            rows.append([odd / sum(odds) for odd in odds])
-            pooled = [a + chance * b for a, b in zip(pooled, rows[-1], strict=True)]
-        for chance, row in zip(chances.values(), rows, strict=True):
-            total += chance * sum(
-                p * math.log2(p / q) for p, q in zip(row, pooled, strict=True) if p > 0.0
-            )
-        bits.append(total)
-    return bits[0], bits[1:]
+    return chances, sorted({one for joint in prior_of(trace) for one in joint})
 
 
-def _fit(side, names, vehicle, chances, shuffle=None):
-    """Q(o, c) for every choice c of a vehicle, the other vehicles held as they are."""
+def _information(columns, chances, beta):
+    """Mutual information [bit]; columns: per option the action value of each choice."""
+    total, pooled, rows = 0.0, [0.0] * len(columns), []
+    for c, chance in enumerate(chances.values()):
+        top = max(column[c] for column in columns)
+        odds = [math.exp(beta * (column[c] - top)) for column in columns]
+        rows.append([odd / sum(odds) for odd in odds])
+        pooled = [a + chance * b for a, b in zip(pooled, rows[-1], strict=True)]
+    for chance, row in zip(chances.values(), rows, strict=True):
+        total += chance * sum(
+            p * math.log2(p / q) for p, q in zip(row, pooled, strict=True) if p > 0.0
+        )
+    return total
+
+
+def _rows(side, names, vehicle, chances):
+    """Per draw: reward, weight, the others' choices with a constant, and the vehicle's own."""
     y, w, other, own = [], [], [], []
     for weight, row in side:
         for _ in range(row[3]):
@@ -273,14 +292,29 @@ def _fit(side, names, vehicle, chances, shuffle=None):
             w.append(weight / row[3])
             other.append([1.0] + [float(n in row[1]) for n in names if n[0] != vehicle])
             own.append([float((vehicle, *c) in row[1]) for c in chances])
-    y, root = np.array(y), np.sqrt(np.array(w))[:, None]
-    other, own = np.array(other), np.array(own)
-    base = np.linalg.lstsq(root * other, root[:, 0] * y, rcond=1e-6)[0]
-    mean = float(np.sum(root[:, 0] ** 2 * y))
-    if shuffle is not None:
-        y = other @ base + (y - other @ base)[shuffle]
+    return np.array(y), np.array(w), np.array(other), np.array(own)
+
+
+def _fit(side, names, vehicle, chances):
+    """Q(o, c) for every choice c of a vehicle, the other vehicles held as they are."""
+    y, w, other, own = _rows(side, names, vehicle, chances)
+    root = np.sqrt(w)[:, None]
     beyond = own - other @ np.linalg.lstsq(root * other, root * own, rcond=1e-6)[0]
     beyond[np.abs(beyond) < 1e-9] = 0.0
     slopes = np.linalg.lstsq(root * beyond, root[:, 0] * y, rcond=1e-6)[0]
+    return _about(float(np.sum(w * y)), slopes, chances)
+
+
+def _means(side, names, vehicle, chances, order):
+    """The same from plain means, by choice, of what the others' choices leave of the rewards."""
+    y, w, other, own = _rows(side, names, vehicle, chances)
+    rest = y - other @ np.linalg.lstsq(other, y, rcond=1e-6)[0]
+    rest = rest if order is None else rest[order]
+    means = [float(np.mean(rest[mine > 0.5])) if np.any(mine > 0.5) else 0.0 for mine in own.T]
+    return _about(float(np.sum(w * y)), means, chances)
+
+
+def _about(mean, slopes, chances):
+    """Action values about a mean, of which the slopes' own mean is none."""
     centre = sum(p * slope for p, slope in zip(chances.values(), slopes, strict=True))
     return [mean + float(slope - centre) for slope in slopes]

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.traces import Aim, End, Way, World, random_world, s1_world, s2_world, trace_of
-from xavi_dialogue.causal.influence import divergence, influence
+from xavi_dialogue.causal.influence import divergence, holm, influence
 from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.causal.paper import PaperNetwork
 
@@ -95,6 +95,43 @@ def test_false_alarms_are_rare_even_where_others_interact():
         if vehicle > 2 and found.significant
     ]
     assert len(alarms) <= 10  # 5 % of 100 in the long run; 10 is exceeded in 1 % of such counts
+
+
+KINDS = ("stop", "continue", "exit-left", "exit-right")
+NULLS = 150  # records of one number of draws
+
+
+def one_that_never_matters(seed, nulls, draws):
+    """Whether any of some vehicles is told to matter that never do, in a record of chance."""
+    dice = random.Random(f"null/{seed}/{nulls}")
+
+    def aims(count):
+        cuts = [dice.randint(2, 9) for _ in range(count)]
+        return tuple(
+            Aim(KINDS[k], cut / sum(cuts), (Way((KINDS[k],)),)) for k, cut in enumerate(cuts)
+        )
+
+    def simulate(plan, chosen):  # 1 and 2 matter, each in the light of the other
+        state = random.Random(f"{seed}/{plan}/{chosen[1]}/{chosen[2]}")
+        return End(time=round(max(16.0 + state.gauss(0.0, 2.0), 1.0), 3)), 1
+
+    everybody = {v: aims(4 if v < 3 else dice.randint(2, 3)) for v in range(1, nulls + 3)}
+    world = World(everybody, (("change-left",), ("continue",)), simulate)
+    found = contrast(world, ("change-left",), ("continue",), draws=draws, seed=seed)
+    return any(one.significant for vehicle, one in found.items() if vehicle > 2)
+
+
+@pytest.mark.parametrize("draws", [8, 12, 20])
+def test_false_alarms_in_the_family_are_five_percent_at_most_from_eight_draws_on(draws):
+    alarms = sum(one_that_never_matters(seed, 2 + seed % 3, draws) for seed in range(NULLS))
+    assert alarms <= 13  # at 5 % of 150 more than 13 come in 2.3 % of such counts
+
+
+def test_p_values_are_adjusted_step_by_step_as_by_holm():
+    # Holm 1979: 0.01 of 4 is 0.04; 0.03 of 3 is 0.09; 0.04 of 2 is 0.08, below the one before.
+    assert holm([0.04, 0.01, 0.03, 0.5]) == pytest.approx((0.09, 0.04, 0.09, 0.5))
+    assert holm([]) == ()
+    assert holm([0.6, 0.7]) == (1.0, 1.0)
 
 
 def test_divergence_is_zero_only_for_equal_distributions():

@@ -57,6 +57,10 @@ def value(owner, name, new):
     return lambda patch: patch.setattr(owner, name, new)
 
 
+def unshuffled(_, rest):
+    return np.repeat(rest[:, None], influence.PERMUTATIONS, axis=1)
+
+
 def swapped(found):
     """What was found of each vehicle, laid at the door of the next."""
     names = list(found)
@@ -230,7 +234,8 @@ MUTANTS = {
         influences,
     ),
     "the others are not adjusted for": (wrap(influence._Draws, "fit", unadjusted), influences),
-    "the null is its median": (value(influence, "NULL_POINT", 0.5), influences),
+    "many tests are taken for one": (value(influence, "holm", tuple), influences),
+    "draws are not shuffled": (value(influence._Draws, "permuted", unshuffled), influences),
 }
 
 

@@ -10,8 +10,8 @@ import msgspec
 import pytest
 
 from planner.decide import decide
+from planner.fitting import IMPROBABLE, fitted
 from planner.trace import (
-    IMPROBABLE,
     MAX_BYTES,
     SCHEMA,
     PlanTrace,
@@ -19,7 +19,6 @@ from planner.trace import (
     TraceError,
     decode,
     encode,
-    fitted,
 )
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 

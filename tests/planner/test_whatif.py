@@ -167,3 +167,62 @@ def test_an_ego_off_the_road_is_refused(trace: PlanTrace, network: Network) -> N
     lost = msgspec.structs.replace(trace, scene={**trace.scene, 0: away})
     with pytest.raises(WhatIfError, match="on no lane"):
         replan(lost, network, WhatIf())
+
+
+def test_several_vehicles_can_be_removed(trace: PlanTrace, network: Network) -> None:
+    without = replan(trace, network, WhatIf(removed=(1, 4)))
+    assert set(without.scene) == {0}
+    assert WhatIf(removed=(1, 4)).gone == {1, 4}
+    assert WhatIf(removed=1).gone == {1}
+    assert WhatIf().gone == frozenset()
+    with pytest.raises(NotInView):
+        replan(trace, network, WhatIf(removed=(1, 9)))
+    with pytest.raises(WhatIfError, match="the ego cannot be removed"):
+        replan(trace, network, WhatIf(removed=(0, 1)))
+
+
+def test_those_who_stay_keep_the_probabilities_of_their_goals(
+    trace: PlanTrace, network: Network
+) -> None:
+    without = replan(trace, network, WhatIf(removed=4))
+    before, after = (next(p for p in t.predictions if p.vehicle == 1) for t in (trace, without))
+    believed = {(g.kind, g.edge): g.probability for g in before.goals}
+    assert {(g.kind, g.edge) for g in after.goals} == set(believed)
+    for goal in after.goals:
+        assert goal.probability == pytest.approx(believed[goal.kind, goal.edge], abs=1e-5)
+
+
+def test_a_vehicle_may_be_supposed_to_drive_faster(trace: PlanTrace, network: Network) -> None:
+    faster = replan(trace, network, WhatIf(vehicle=1, faster=5.0))
+    assert faster.scene[1].speed == pytest.approx(trace.scene[1].speed + 5.0)
+    assert faster.scene[1].position == trace.scene[1].position
+    slower = replan(trace, network, WhatIf(vehicle=1, faster=-50.0))
+    assert slower.scene[1].speed == 0.0
+    with pytest.raises(WhatIfError, match="of no vehicle"):
+        replan(trace, network, WhatIf(faster=5.0))
+
+
+def queue(gap: float) -> PlanTrace:
+    """A decision behind two who drive steadily at 6 m/s, so far apart [m]."""
+    line = roads("s1").line(("main_in_0",))
+    near = before_end("s1", "main_in_0", 70.0)
+    scene = {
+        0: still("s1", ("main_in_0",), before_end("s1", "main_in_0", 95.0)),
+        1: driven(line, near - 6.0 * 0.2 * 20, [6.0] * 20),
+        2: driven(line, near + gap + 5.0 - 6.0 * 0.2 * 20, [6.0] * 20),
+    }
+    return decide(frame("s1", QUICK, seed=5), moment("s1", scene, time=4.0, number=5)).trace
+
+
+def fastest(trace: PlanTrace, vehicle: int) -> float:
+    """The highest speed [m/s] that a vehicle is expected to reach."""
+    known = next(p for p in trace.predictions if p.vehicle == vehicle)
+    return max(max(way.speed) for goal in known.goals for way in goal.trajectories)
+
+
+def test_who_is_held_up_drives_on_where_the_one_ahead_is_taken_away(network: Network) -> None:
+    close = queue(7.0)
+    assert fastest(close, 1) < 7.5
+    assert fastest(replan(close, network, WhatIf(removed=2)), 1) > 8.0
+    apart = queue(30.0)  # too far to be held up: it wants to drive so
+    assert fastest(replan(apart, network, WhatIf(removed=2)), 1) < 7.5

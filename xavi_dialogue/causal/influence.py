@@ -4,15 +4,23 @@ Per option o and choice c of vehicle i (its goal and trajectory), the action val
 expected reward of o given c. The other vehicles are adjusted for by an additive model fitted to
 the rollouts of o, so that a chance coincidence of two vehicles' samples is not laid at the wrong
 door. Then p(o | c) is the softmax of Q(o, c), and the influence is the mutual information of
-option and choice, in bits. How much of it chance alone would produce is found by permuting the
-residuals of a model without vehicle i among the rollouts (Freedman and Lane 1983).
+option and choice, in bits.
 
-A vehicle whose measure does not exceed the 95 % point of that null has no influence. Within a
-vehicle, choices are ordered by the measure of XAVI (Gyevnar et al. 2022, Equation 9), smoothed.
+How much of it chance alone would produce is found by permutation: what a model of the other
+vehicles leaves of the reward is shuffled among the draws, which is to say among the choices of
+vehicle i. These were drawn without regard to anybody else. So where the reward does not depend
+on them, all assignments are as probable, and the test is exact for any number of draws (Fisher's
+randomisation test; Edgington and Onghena 2007). The statistic is the mutual information again,
+of the plain means of what is left, each draw counting as one. Options share their shuffles where
+they share their samples.
+
+Several vehicles are tested at once, so the probability that any of those without influence is
+told to have one is kept to 5 % by the step-down procedure of Holm (1979). Within a vehicle,
+choices are ordered by the measure of XAVI (Gyevnar et al. 2022, Equation 9), smoothed.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +30,8 @@ from xavi_dialogue.causal.model import CausalModel, Choice, Intervention, Joint
 Array = NDArray[np.float64]
 
 RATIONALITY = 1.0  # [1/s] beta of the softmax; rewards count in seconds
-PERMUTATIONS = 199
-NULL_POINT = 0.95
+PERMUTATIONS = 499
+FALSE_ALARMS = 0.05  # probability that any vehicle without influence is told to have one
 MIN_BITS = 0.01  # a measure below this is none at all
 SMOOTHING = 1e-3  # added to every probability of a divergence
 RANK = 1e-6  # singular values below this share of the largest count as zero
@@ -45,14 +53,15 @@ class Influence:
 
     vehicle: int
     bits: float  # mutual information of option and the vehicle's choice
-    null: float | None  # its 95 % point by chance alone; None where it is none at all anyway
+    chance: float  # p-value: of so much by chance alone; 1 where it is none at all anyway
     options: tuple[float, ...]  # p(o), averaged over the vehicle's choices
     choices: tuple[ChoiceInfluence, ...]  # least divergent first; ties: the likelier first
+    adjusted: float = 1.0  # the p-value by Holm, for all vehicles that were tested
 
     @property
     def significant(self) -> bool:
         """Whether it exceeds what chance would produce."""
-        return self.null is not None and self.bits > self.null + 1e-9
+        return self.adjusted <= FALSE_ALARMS
 
 
 def influence(
@@ -70,56 +79,23 @@ def influence(
         options = [intervention for intervention in found if intervention is not None]
     if len(options) < 2:
         return ()
-    draws = [_Draws(model, option, k) for k, option in enumerate(options)]
+    draws = [_Draws(model, option) for option in options]
     measured = [_measure(model, vehicle, draws) for vehicle in model.vehicles]
-    return tuple(sorted(measured, key=lambda i: (-i.bits, i.vehicle)))
+    adjusted = holm([one.chance for one in measured])
+    tested = [replace(one, adjusted=p) for one, p in zip(measured, adjusted, strict=True)]
+    return tuple(sorted(tested, key=lambda i: (-i.bits, i.vehicle)))
 
 
-class _Draws:
-    """The rollouts of one option as data: a row for each of its K distinct samples.
+def holm(chances: Sequence[float]) -> tuple[float, ...]:
+    """Adjust p-values for their number, in their order: the step-down procedure of Holm (1979).
 
-    Draws of one sample have equal rows, so that fitting the distinct ones by their weight is
-    fitting all N draws; only the permutations are of draws.
+    The k-th smallest of m is multiplied by m - k + 1; none is smaller than one before it.
     """
-
-    def __init__(self, model: CausalModel, option: Intervention, number: int) -> None:
-        joints = [result.joint for result in option.results]
-        draws = np.array([result.draws for result in option.results])
-        self.rewards: Array = np.array([result.rollout.reward for result in option.results])
-        self.root: Array = np.sqrt(np.array(option.weights))  # [K] root of the weights
-        self.columns = {
-            vehicle: _one_hot(joints, vehicle, tuple(model.choices(vehicle)))
-            for vehicle in model.vehicles
-        }
-        rng = np.random.default_rng((model.trace.seed, model.trace.decision, number))
-        shuffled = np.argsort(rng.random((int(np.sum(draws)), PERMUTATIONS)), axis=0)
-        self._draws: Array = draws[:, None]  # [K, 1]
-        self._firsts: NDArray[np.int64] = np.cumsum(draws) - draws  # [K] first draw of each
-        self._sources = np.repeat(np.arange(len(draws)), draws)[shuffled]  # [N, PERMUTATIONS]
-
-    def fit(self, vehicle: int) -> "_Fit":
-        """The additive model, with what one vehicle's choices add to the others'."""
-        mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
-        if wanted.shape[1] == 1:  # it has no choice
-            return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
-        ones = np.ones((len(self.rewards), 1))
-        others = [columns for name, columns in self.columns.items() if name != vehicle]
-        design = np.hstack([ones, *(columns for columns in others if columns.shape[1] > 1)])
-        root = self.root[:, None]
-        targets = np.hstack([wanted, self.rewards[:, None]])
-        fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root * targets)
-        rest = targets - design @ fitted
-        rest[np.abs(rest) < 1e-9] = 0.0
-        residual = rest[:, -1]
-        if not np.any(residual):
-            return _Fit(mean, np.zeros(wanted.T.shape), residual)
-        slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
-        return _Fit(mean, slopes, residual)
-
-    def permuted(self, residual: Array) -> Array:
-        """Residuals [K] shuffled among the draws, in the mean of each sample [K, P]."""
-        found: Array = np.add.reduceat(residual[self._sources], self._firsts, axis=0)
-        return found / self._draws
+    adjusted, largest = [1.0] * len(chances), 0.0
+    for rank, k in enumerate(sorted(range(len(chances)), key=lambda k: chances[k])):
+        largest = max(largest, min(chances[k] * (len(chances) - rank), 1.0))
+        adjusted[k] = largest
+    return tuple(adjusted)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,20 +112,75 @@ class _Fit:
         return np.asarray(self.mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
 
 
+class _Draws:
+    """The rollouts of one option as data: a row for each of its K distinct samples.
+
+    Draws of one sample have equal rows, so that fitting the distinct ones by their weight is
+    fitting all N draws; only the permutations are of draws.
+    """
+
+    def __init__(self, model: CausalModel, option: Intervention) -> None:
+        joints = [result.joint for result in option.results]
+        draws = np.array([result.draws for result in option.results])
+        self.rewards: Array = np.array([result.rollout.reward for result in option.results])
+        self.root: Array = np.sqrt(np.array(option.weights))  # [K] root of the weights
+        self.columns = {
+            vehicle: _one_hot(joints, vehicle, tuple(model.choices(vehicle)))
+            for vehicle in model.vehicles
+        }
+        keys = [_keys(model, joint, int(n)) for joint, n in zip(joints, draws, strict=True)]
+        shuffled = np.argsort(np.vstack(keys), axis=0)
+        self._draws: Array = draws[:, None]  # [K, 1]
+        self._firsts: NDArray[np.int64] = np.cumsum(draws) - draws  # [K] first draw of each
+        self._sources = np.repeat(np.arange(len(draws)), draws)[shuffled]  # [N, PERMUTATIONS]
+
+    def fit(self, vehicle: int) -> _Fit:
+        """The additive model, with what one vehicle's choices add to the others'."""
+        mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
+        if wanted.shape[1] == 1:  # it has no choice
+            return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
+        design, root = self._others(vehicle), self.root[:, None]
+        targets = np.hstack([wanted, self.rewards[:, None]])
+        fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root * targets)
+        rest = targets - design @ fitted
+        rest[np.abs(rest) < 1e-9] = 0.0
+        residual = rest[:, -1]
+        if not np.any(residual):
+            return _Fit(mean, np.zeros(wanted.T.shape), residual)
+        slopes = np.linalg.pinv(root * rest[:, :-1], rcond=RANK) * self.root
+        return _Fit(mean, slopes, residual)
+
+    def _others(self, vehicle: int) -> Array:
+        """The choices of the other vehicles [K, M], and a constant."""
+        others = [columns for name, columns in self.columns.items() if name != vehicle]
+        varied = (columns for columns in others if columns.shape[1] > 1)
+        return np.hstack([np.ones((len(self.rewards), 1)), *varied])
+
+    def plain(self, vehicle: int) -> _Fit:
+        """Fit the others' choices alone, and take means of the rest; each draw counts as one."""
+        design, root, own = self._others(vehicle), np.sqrt(self._draws), self.columns[vehicle]
+        fitted = np.linalg.pinv(root * design, rcond=RANK) @ (root[:, 0] * self.rewards)
+        rest = self.rewards - design @ fitted
+        rest[np.abs(rest) < 1e-9] = 0.0
+        counts = own * self._draws  # [K, choices]
+        means = counts / np.maximum(np.sum(counts, axis=0), 1.0)
+        return _Fit(float(np.sum(self.root**2 * self.rewards)), means.T, rest)
+
+    def permuted(self, residual: Array) -> Array:
+        """Residuals [K] shuffled among the draws, in the mean of each sample [K, P]."""
+        found: Array = np.add.reduceat(residual[self._sources], self._firsts, axis=0)
+        return found / self._draws
+
+
 def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influence:
     choices = model.choices(vehicle)
     prior = np.array(list(choices.values()))
     fits = [option.fit(vehicle) for option in draws]
     observed = [fit.values(fit.residual[:, None], prior) for fit in fits]
     found, chances, pooled = _information(np.stack(observed, axis=1), prior)
-    null = None
+    chance = 1.0
     if found[0] >= MIN_BITS:
-        shuffled = [
-            fit.values(option.permuted(fit.residual), prior)
-            for option, fit in zip(draws, fits, strict=True)
-        ]
-        bits, _, _ = _information(np.stack(shuffled, axis=1), prior)
-        null = float(np.sort(bits)[int(NULL_POINT * PERMUTATIONS)])
+        chance = _chance(vehicle, draws, prior)
     details = [
         ChoiceInfluence(
             choice,
@@ -163,9 +194,28 @@ def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influ
     return Influence(
         vehicle,
         max(float(found[0]), 0.0),
-        null,
+        chance,
         tuple(pooled[0].tolist()),
         tuple(details),
+    )
+
+
+def _chance(vehicle: int, draws: Sequence[_Draws], prior: Array) -> float:
+    """The probability of so much information, or more, if the vehicle's choices were shuffled."""
+    plain = [option.plain(vehicle) for option in draws]
+    pairs = list(zip(draws, plain, strict=True))
+    shuffled = [fit.values(option.permuted(fit.residual), prior) for option, fit in pairs]
+    seen = [fit.values(fit.residual[:, None], prior) for fit in plain]
+    null, _, _ = _information(np.stack(shuffled, axis=1), prior)
+    here, _, _ = _information(np.stack(seen, axis=1), prior)
+    return float(1 + np.count_nonzero(null >= here[0] - 1e-9)) / (PERMUTATIONS + 1)
+
+
+def _keys(model: CausalModel, joint: Joint, draws: int) -> Array:
+    """Random numbers [draws, PERMUTATIONS] that belong to a sample, whatever the option."""
+    flat = [number for choice in joint for number in choice]
+    return np.random.default_rng((model.trace.seed, model.trace.decision, *flat)).random(
+        (draws, PERMUTATIONS)
     )
 
 
