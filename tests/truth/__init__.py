@@ -1,1 +1,1 @@
-"""Answers checked statement by statement against scenes and traces, without explain or nlg."""
+"""Tests of the reader of answers, which checks them against what was seen and decided."""

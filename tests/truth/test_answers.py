@@ -3,8 +3,8 @@
 import pytest
 
 from sim import scenario
-from tests.truth.checker import checked
-from tests.truth.ridden import Ridden, ridden
+from xavi_dialogue.app.bench.truth.checker import checked
+from xavi_dialogue.app.bench.truth.ridden import Ridden, ridden
 from xavi_dialogue.app.local import Conversation, make_mind, planner_for
 from xavi_dialogue.app.ride import clock, network_of, start
 
@@ -74,7 +74,7 @@ def test_no_statement_is_false(asked: tuple[Ridden, Answers]) -> None:
 
 def test_most_sentences_are_checked(asked: tuple[Ridden, Answers]) -> None:
     ride, answers = asked
-    met = [met for at, q, a in answers for _, met in checked(ride, at, q, a)[1]]
+    met = [one.met for at, q, a in answers for one in checked(ride, at, q, a)[1]]
     assert sum(met) >= COVERED * len(met)
 
 

@@ -1,22 +1,20 @@
 """Causes: which deed is asked about, how answers are judged, and a world from end to end."""
 
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
 from planner.events import Event
-from xavi_dialogue.app.bench.asking import Question, Ridden, question, ride
-from xavi_dialogue.app.bench.causes import Case, examine, report
-from xavi_dialogue.app.bench.necessity import (
-    Removal,
-    compared,
-    delay,
-    plan_changes,
-    ride_changes,
-)
-from xavi_dialogue.app.bench.worlds.generate import generate, kind_of
-from xavi_dialogue.app.ride import network_of
+from tests.traces import s1_ride
+from xavi_dialogue.app.bench.asking import Question, Ridden, question, slowing
+from xavi_dialogue.app.bench.causes import EXPECTED, examine
+from xavi_dialogue.app.bench.naming import longest, named_by, nearest
+from xavi_dialogue.app.bench.removal import Deeds, agrees
+from xavi_dialogue.app.bench.scores import Case, report, score
+from xavi_dialogue.app.bench.worlds.generate import kind_of
+from xavi_dialogue.app.bench.worlds.values import KINDS
+from xavi_dialogue.domain.answers import TooLittle
 from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.domain.terms import Event as Deed
 from xavi_dialogue.domain.terms import Happens, Not
@@ -98,99 +96,152 @@ def test_the_record_ends_when_it_is_asked() -> None:
     assert ride.manoeuvres == ("change-left",)
 
 
-def test_rides_differ_in_arrival_ending_or_manoeuvres() -> None:
-    ride = ridden(10, 10, 10, 10)
-    later = ridden(10, 10, 10, 10, 10)
-    assert not ride_changes(ride, ride)
-    assert ride_changes(ride, later)
-    assert delay(ride, later) == pytest.approx(1.0)
-    assert ride_changes(ride, replace(ride, ending="duration"))
-    assert delay(ride, replace(ride, ending="duration")) is None
-    assert ride_changes(ride, replace(ride, events=change(3.0)))
+def test_slowing_down_as_alone_is_asked_about_where_it_is_most() -> None:
+    bend = ridden(10, 10, 5, 4, 8, 10, 10)
+    found = slowing(bend, bend)
+    assert found is not None
+    assert (found.deed, found.usual, round(found.moment)) == ("slow-down", True, 3)
+    assert slowing(ALONE, ALONE) is None
 
 
-def case(seed: int, named: tuple[int, ...], **known: object) -> Case:
-    """A leader-world in which vehicle 1 was planted."""
-    values = {"planted": 1, "named": named, "asked": "slow-down", **known}
-    return Case(seed, "leader", **values)  # type: ignore[arg-type]
+SLOWED = ridden(10, 10, 8, 4, 4, 4, 8, 10, 10, 10, 10)
+FREE = ridden(*[10] * 12)
+HALF = ridden(10, 10, 9, 7, 7, 7, 9, 10, 10, 10)
 
 
-def test_precision_counts_names_and_recall_answers() -> None:
-    found = report([case(0, (1,)), case(6, (1, 2)), case(12, (2,)), case(18, ())])
-    row = found.rows[0]
-    assert (row.precision.hits, row.precision.n) == (2, 4)
-    assert (row.recall.hits, row.recall.n) == (2, 4)
-    assert [one.seed for one in found.wrong] == [6, 12, 18]
-    assert found.rows[-1].kind == "all"
-    assert found.asked == {"slow-down": 4}
+def deeds(without: Callable[[frozenset[int]], Ridden], asked: Question | None = None) -> Deeds:
+    """Slowing down in a world of vehicles 1 to 4; 4 is a bystander."""
+    wanted = asked or question(SLOWED, FREE)
+    return Deeds(wanted, SLOWED, FREE, frozenset((1, 2, 3, 4)), without)
 
 
-def test_recall_is_told_for_those_worlds_too_in_which_our_own_ride_hangs_on_it() -> None:
-    cases = [case(0, (1,), nearest=1), case(6, (), matters=False, nearest=2), case(12, ())]
-    row = report(cases).rows[0]
-    assert (row.recall.hits, row.recall.n) == (1, 3)
-    found = row.recall_where_it_matters
-    assert (found.hits, found.n) == (1, 2)
-    assert (row.nearest.hits, row.nearest.n) == (1, 3)
-    assert "of no matter to our own ride" in report(cases).wrong[0].what
+def gone(*groups: set[int]) -> Callable[[frozenset[int]], Ridden]:
+    """Rides in which one slows down, but without any of some groups."""
+    return lambda away: FREE if any(group <= away for group in groups) else SLOWED
 
 
-def test_refusals_and_failures_are_counted_apart() -> None:
-    cases = [case(0, (1,)), case(6, (), refused="trace-gap"), case(12, (), error="it broke")]
-    row = report(cases).rows[0]
-    assert (row.worlds, row.failed, row.refused) == (3, 1, 1)
-    assert (row.recall.hits, row.recall.n) == (1, 1)
-    assert row.matters.n == 2
-    whats = [one.what for one in report(cases).wrong]
-    assert "trace-gap" in whats[0]
-    assert "it broke" in whats[1]
-    assert report(cases).wrong[0].reproduce == "xavi bench causes --worlds 1 --seed 6"
+def test_a_deed_vanishes_stays_or_neither() -> None:
+    assert deeds(gone({1})).vanishes({1}) is True
+    assert deeds(gone({1})).vanishes({2}) is False
+    assert deeds(lambda _: HALF).vanishes({2}) is None
+    assert deeds(gone()).vanishes({1, 2, 3, 4}) is True  # which is driving alone
+    assert deeds(gone()).vanishes(()) is False
 
 
-def test_necessity_is_told_for_named_and_unnamed_and_where_it_could_be_tried() -> None:
-    removals = (Removal(1, True, True, True), Removal(2, False, None, False))
-    shares = {s.name: (s.hits, s.n) for s in report([case(0, (1,), removals=removals)]).necessity}
-    assert shares == {
-        "named: the plan": (1, 1),
-        "named: the ride": (1, 1),
-        "not named: the plan": (0, 0),
-        "not named: the ride": (0, 1),
-    }
+def test_a_lane_change_vanishes_where_it_is_not_made() -> None:
+    whole = replace(SLOWED, events=change(6.0))
+    asked = Question("change-left", 6.0)
+    others = frozenset((1, 2))
+    found = Deeds(asked, whole, FREE, others, lambda away: FREE if 1 in away else whole)
+    assert found.vanishes({1}) is True
+    assert found.vanishes({2}) is False
 
 
-def test_the_table_names_what_went_wrong() -> None:
-    text = report([case(0, (2,)), case(6, (1,))]).table()
-    assert "named 2" in text
-    assert "xavi bench causes --worlds 1 --seed 0" in text
+def test_what_is_done_alone_as_well_hangs_on_nobody() -> None:
+    asked = Question("slow-down", question(SLOWED, FREE).now, usual=True)
+    found = Deeds(asked, SLOWED, SLOWED, frozenset((1,)), gone())
+    assert found.vanishes({1}) is False
+    assert found.holds(())
+    assert not found.holds({1})
+
+
+def test_a_set_holds_where_the_deed_vanishes_without_it_and_stays_with_it_alone() -> None:
+    one = deeds(gone({1}))
+    assert one.holds({1})
+    assert not one.holds({2})
+    assert not one.holds(())
+    either = deeds(gone({1, 2}))
+    assert either.holds({1, 2})
+    assert not either.holds({1})
+    both = deeds(gone({1}, {2}))
+    assert both.holds({1, 2})
+    assert not both.holds({1})  # with it alone the deed is gone
+
+
+@pytest.mark.parametrize(
+    ("kind", "planted", "idle", "groups"),
+    [
+        ("one", (1,), (), [{1}]),
+        ("both", (1, 2), (), [{1}, {2}]),
+        ("either", (1, 2), (), [{1, 2}]),
+        ("pre-empted", (1, 2), (), [{1, 2}]),
+        ("distractor", (1,), (2,), [{1}]),
+    ],
+)
+def test_a_world_is_of_its_kind_where_removal_shows_it(kind, planted, idle, groups) -> None:
+    assert agrees(deeds(gone(*groups)), planted, idle, EXPECTED[kind])
+    assert not agrees(deeds(gone(*groups, {4})), planted, idle, EXPECTED[kind])  # a bystander
+    assert not agrees(deeds(gone()), planted, idle, EXPECTED[kind])
+    assert not agrees(deeds(lambda _: HALF), planted, idle, EXPECTED[kind])
+
+
+def case(
+    seed: int, named: tuple[int, ...], causes: tuple[int, ...] = (1,), **known: object
+) -> Case:
+    """A world in which a vehicle is named by us, and vehicle 7 by a rival."""
+    claims, holds = {"ours": named, "hold-up": (7,)}, {"ours": named == causes, "hold-up": False}
+    values = {"causes": causes, "claims": claims, "holds": holds, "told": "one", **known}
+    return Case(seed, kind_of(seed), "straight", **values)  # type: ignore[arg-type]
+
+
+def test_names_are_scored_against_those_that_matter() -> None:
+    cases = [case(0, (1,)), case(1, (1,), (1, 2)), case(2, (1, 3), (1, 2))]
+    found = score(cases, "ours")
+    assert (found.precision, found.recall) == (3 / 4, 3 / 5)
+    assert found.f1 == pytest.approx(2 * 3 / (4 + 5))
+    assert found.holds == pytest.approx(1 / 3)
+    assert score(cases, "hold-up").f1 == 0.0
+
+
+def test_naming_nobody_is_right_where_nobody_matters_and_wrong_elsewhere() -> None:
+    assert score([case(5, (), ())], "ours").f1 == 1.0
+    assert score([case(5, (2,), ())], "ours").f1 == 0.0
+    missed = score([case(0, ())], "ours")
+    assert (missed.precision, missed.recall) == (0.0, 0.0)
+
+
+def test_a_refusal_lowers_recall_alone() -> None:
+    found = score([case(0, (1,)), case(6, (), refused="trace-gap")], "ours")
+    assert (found.precision, found.recall) == (1.0, 0.5)
+
+
+def test_targets_are_met_only_with_the_lead_over_the_better_rival() -> None:
+    right = [case(k, (1,)) for k in range(6)]
+    assert report(right).met
+    rival = [
+        case(0, (1,), claims={"ours": (1,), "hold-up": (1,)}, holds={"ours": True, "hold-up": True})
+    ]
+    assert not report(rival).met
+    assert not report([case(0, (2,))]).met
+    assert not report([case(0, (1,), error="it broke")]).met
+
+
+def test_the_table_tells_each_kind_and_what_went_wrong() -> None:
+    text = report([case(0, (2,)), case(6, (1,)), case(1, (), error="it broke")]).table()
+    assert "one, continue at 0.0 s, hangs on 1: named 2 (one)" in text
+    assert "xavi bench causes --worlds 1 --seed 0 --roads straight" in text
     assert "--seed 6" not in text
-    assert "none" in report([case(6, (1,))]).table()
+    assert "it broke" in text
+    assert "missed" in text
+
+
+def test_rivals_count_seconds_and_metres() -> None:
+    trace = s1_ride().traces[1]
+    assert longest(trace) == (1,)
+    assert len(nearest(trace)) == 1
+    assert named_by(TooLittle("no-influence")) == ()
 
 
 @pytest.mark.slow
-def test_a_world_is_driven_asked_about_and_driven_without_the_named() -> None:
-    found = examine((0, None))
+@pytest.mark.parametrize("seed", [0, 3])
+def test_a_world_is_driven_asked_about_and_driven_without_the_named(seed: int) -> None:
+    found = examine((seed, "straight", None))
     assert found.error is None
-    assert found.kind == kind_of(0)
-    assert found.planted > 0
-    assert found.matters
-    assert found.asked in ("stop", "slow-down")
+    assert found.kind == KINDS[seed % len(KINDS)]
     assert found.refused is None
-    assert {removal.vehicle for removal in found.removals if removal.named} == set(found.named)
-    assert examine((0, None)) == found
-
-
-@pytest.mark.slow
-def test_a_decision_hangs_on_the_planted_vehicle_and_on_nobody_out_of_view(tmp_path: Path) -> None:
-    planted = generate(0, tmp_path / "world")
-    network, name = network_of(planted.scenario), planted.world.planted
-    traces = ride(planted.scenario, network).traces
-    trace = min((t for t in traces if name in t.scene), key=lambda t: t.scene[0].speed)
-    assert plan_changes(trace, network, name) is True
-    assert plan_changes(trace, network, 99) is None
-    others = set(trace.scene) - {0, name}
-    assert set(compared(trace, (name,), 0)) <= others
-    assert len(compared(trace, (name,), 0)) == min(1, len(others))
-    assert compared(trace, (), 0) == ()
+    assert found.claims["ours"] == found.causes
+    assert found.holds["ours"]
+    assert 0 < found.replans <= 8
 
 
 @pytest.mark.slow
@@ -200,7 +251,6 @@ def test_what_goes_wrong_in_a_world_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     def broken(*_: object) -> None:
         raise ValueError("no such road")
 
-    monkeypatch.setattr(causes, "generate", broken)
-    found = examine((3, None))
+    monkeypatch.setattr(causes, "draw", broken)
+    found = examine((3, "straight", None))
     assert found.error == "ValueError: no such road"
-    assert not found.answered

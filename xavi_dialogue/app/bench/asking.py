@@ -6,7 +6,6 @@ giving way, where it did so about then; stopping, where it stood; else slowing d
 nothing of all this happened, the foil `continue` is asked about.
 """
 
-import math
 from bisect import bisect_left
 from collections import Counter
 from dataclasses import dataclass
@@ -19,7 +18,6 @@ from planner.trace import PlanTrace
 from planner.whatif import WhatIfError
 from sim.network import Network
 from sim.scenario import Scenario
-from sim.scene import EGO
 from xavi_dialogue.app.local import Replan
 from xavi_dialogue.app.ride import Ending, clock, start
 from xavi_dialogue.dialogue.explanation import evidence_of
@@ -74,6 +72,12 @@ class Question:
 
     deed: Deed
     now: float  # [s]
+    usual: bool = False  # it is done alone as well
+
+    @property
+    def moment(self) -> float:
+        """When [s] it is most marked."""
+        return self.now - LATER
 
     @property
     def act(self) -> GroundedAct:
@@ -121,11 +125,21 @@ def question(ridden: Ridden, alone: Ridden) -> Question:
     if slowest is None:
         return Question("continue", ridden.time[-1])
     moment = ridden.time[slowest]
-    now = min(moment + LATER, ridden.time[-1])
+    now = moment + LATER
     waits = (e.sim_time for e in ridden.events if e.kind == "gave-way")
     if any(moment - ABOUT[0] <= time <= moment + ABOUT[1] for time in waits):
         return Question("give-way", now)
     return Question("stop" if ridden.speed[slowest] < STANDING else "slow-down", now)
+
+
+def slowing(ridden: Ridden, alone: Ridden) -> Question | None:
+    """Find where the ego has slowed down most, as it does alone; None where it does not."""
+    fall = [_lately(ridden, k) - ridden.speed[k] for k in range(len(ridden.speed))]
+    inside = bisect_left(ridden.gone, alone.gone[-1])
+    most = max(range(1, inside), key=lambda k: round(fall[k], 1), default=0)
+    if fall[most] < 2.0 * FALLEN:
+        return None
+    return Question("slow-down", ridden.time[most] + LATER, usual=True)
 
 
 def ask(
@@ -155,13 +169,6 @@ def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrac
     named = () if evidence is None else evidence.traces
     known = [trace for trace in ridden.traces if trace.sim_time <= now]
     return next((trace for trace in known if trace.trace_id in named), known[-1])
-
-
-def nearest(trace: PlanTrace) -> int | None:
-    """Return the vehicle nearest to the ego in a decision."""
-    here = trace.scene[EGO].position
-    others = [vehicle for vehicle in trace.scene if vehicle != EGO]
-    return min(others, key=lambda v: math.dist(trace.scene[v].position, here), default=None)
 
 
 def _slowest(ridden: Ridden, alone: Ridden) -> int | None:

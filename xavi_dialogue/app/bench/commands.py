@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import typer
 
@@ -10,6 +10,7 @@ from xavi_dialogue.app.bench.chosen import ours, processes, there
 
 if TYPE_CHECKING:
     from xavi_dialogue.app.bench.figures import Report
+    from xavi_dialogue.app.bench.sufficiency import SufficiencyReport
 
 Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # is told where notes go
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
@@ -27,6 +28,8 @@ OneRide = Annotated[
 ]
 RIDE = Path("transcripts/rides/s1-0.ride.jsonl.gz")
 QUESTIONS = Path("tests/nlu/questions")
+INTENTS = Path("tests/nlu/intents")
+WEIGHTS = Path("grammars/intents.json")
 Questions = Annotated[Path, typer.Option(help="Folder of the folders learn and blind.")]
 Page = Annotated[
     Path | None,
@@ -83,12 +86,13 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
     def _causes(
         worlds: Annotated[int, typer.Option(min=1, help="How many.")] = 60,
         seed: Annotated[int, typer.Option(min=0, help="Of the first; the next one follows.")] = 0,
+        roads: Annotated[Literal["straight", "bent"], typer.Option(help="Kind.")] = "straight",
         jobs: Jobs = None,
         keep: Annotated[Path | None, typer.Option(help="Leave their folders there.")] = None,
         as_json: AsJson = False,
     ) -> None:
-        """Whether the causes named are those planted, in worlds drawn at random."""
-        show(lambda note: causes(worlds, seed, jobs, keep, note), as_json)
+        """Whether the deed vanishes without those named, in worlds drawn at random."""
+        show(lambda note: causes(worlds, seed, roads, jobs, keep, note), as_json)
 
     @group.command("fidelity")
     def _fidelity(
@@ -102,6 +106,33 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
         """What is said of foils, beside what SUMO makes of them from the same state."""
         chosen = range(seeds) if seed is None else (seed,)
         show(lambda note: fidelity(scenario, chosen, every, jobs, note), as_json)
+
+    @group.command("sufficiency")
+    def _sufficiency(
+        scenario: Scenarios = None,
+        seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 3,
+        seed: Annotated[int | None, typer.Option(min=0, help="Only this one.")] = None,
+        every: Annotated[int, typer.Option(min=1, help="1: each decision; 2: every other.")] = 3,
+        jobs: Jobs = None,
+        as_json: AsJson = False,
+    ) -> None:
+        """Whether the reasons told carry the decision, read off the words alone."""
+        chosen = range(seeds) if seed is None else (seed,)
+        found: list[SufficiencyReport] = []
+
+        def measured(note: Callable[[str], None]) -> "Report":
+            found.append(sufficiency(scenario, chosen, every, jobs, note))
+            return found[0]
+
+        show(measured, as_json)
+        if not found[0].met:
+            raise typer.Exit(1)
+
+    _of_time(group, show)
+
+
+def _of_time(group: typer.Typer, show: Show) -> None:
+    """Add the commands that time what is said and shown."""
 
     @group.command("explain")
     def _explain(
@@ -142,6 +173,20 @@ def _of_parsing(group: typer.Typer, show: Show) -> None:
     ) -> None:
         """How often questions are understood, and how long that takes, hostile texts included."""
         show(lambda note: parse(questions, ride, note), as_json)
+
+    @group.command("intents")
+    def _intents(
+        texts: Annotated[
+            Path, typer.Option(exists=True, file_okay=False, help="Folder of annotated texts.")
+        ] = INTENTS,
+        learn: Annotated[
+            bool, typer.Option("--learn", help="Learn from all of them and keep the weights.")
+        ] = False,
+        as_json: AsJson = False,
+    ) -> None:
+        """What texts as a whole ask, and how often that is told right."""
+        keep = WEIGHTS if learn else None
+        show(lambda note: intents(texts, keep, note), as_json)
 
     @group.command("unknown")
     def _unknown(
@@ -200,12 +245,17 @@ def recognise(
 
 
 def causes(
-    worlds: int, seed: int, jobs: int | None, keep: Path | None, note: Callable[[str], None]
+    worlds: int,
+    seed: int,
+    roads: Literal["straight", "bent"],
+    jobs: int | None,
+    keep: Path | None,
+    note: Callable[[str], None],
 ) -> "Report":
-    """Measure causes in worlds where one was planted."""
+    """Measure causes in worlds where some were planted."""
     from xavi_dialogue.app.bench.causes import measure
 
-    return measure(worlds, seed, processes(jobs), keep, note)
+    return measure(worlds, seed, roads, processes(jobs), keep, note)
 
 
 def fidelity(
@@ -222,6 +272,20 @@ def fidelity(
 
     chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
     return replace(measure(chosen, seeds, every, processes(jobs), note), left_out=left_out)
+
+
+def sufficiency(
+    scenarios: list[str] | None,
+    seeds: Sequence[int],
+    every: int,
+    jobs: int | None,
+    note: Callable[[str], None],
+) -> "SufficiencyReport":
+    """Judge the reasons told in scenarios, or in all of ours."""
+    from xavi_dialogue.app.bench.sufficiency import measure
+
+    chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
+    return measure(chosen, seeds, every, processes(jobs), note, left_out)
 
 
 def explain(rides: Path, write: Path | None, note: Callable[[str], None]) -> "Report":
@@ -254,6 +318,13 @@ def parse(questions: Path, ride: Path, note: Callable[[str], None]) -> "Report":
     from xavi_dialogue.app.bench.parse import measure
 
     return measure(questions, ride, note)
+
+
+def intents(texts: Path, keep: Path | None, note: Callable[[str], None]) -> "Report":
+    """Tell intents of texts, and learn to."""
+    from xavi_dialogue.app.bench.intents import measure
+
+    return measure(texts, keep, note)
 
 
 def unknown(

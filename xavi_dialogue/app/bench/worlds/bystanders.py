@@ -14,8 +14,8 @@ FOREVER = 300.0  # [s]
 
 def bystanders(draw: Random, sketch: Sketch) -> list[Vehicle]:
     """From none to eight of them, each with a place of its own."""
-    there = [sketch.ego, sketch.planted] + ([sketch.occluder] if sketch.occluder else [])
-    wanted = draw.randint(0, MOST - (sketch.occluder is not None))
+    there = [sketch.ego, *sketch.cast]
+    wanted = draw.randint(0, MOST + 1 - len(sketch.cast))
     found: list[Vehicle] = []
     for _ in range(wanted * TRIES):
         one = draw.choice(PLACES)(draw, sketch)
@@ -102,7 +102,7 @@ def _past(draw: Random, sketch: Sketch) -> Vehicle | None:
 
 def _ways(sketch: Sketch) -> set[str]:
     """The edges that matter to the story."""
-    return {*sketch.ego.route, *sketch.planted.route}
+    return {*sketch.ego.route, *(edge for one in sketch.cast for edge in one.route)}
 
 
 def _opposite(sketch: Sketch) -> set[str]:

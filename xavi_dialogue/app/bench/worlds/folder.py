@@ -59,7 +59,8 @@ def _write_roads(roads: Roads, folder: Path) -> None:
         ends = {"id": edge.id, "from": edge.start, "to": edge.end}
         rest = {"priority": f"{edge.priority}", "numLanes": f"{edge.lanes}"}
         size = {"speed": f"{edge.speed}", "width": f"{LANE_WIDTH}", "spreadType": "right"}
-        ET.SubElement(edges, "edge", {**ends, **rest, **size})
+        line = {"shape": " ".join(f"{x:.2f},{y:.2f}" for x, y in edge.shape)} if edge.shape else {}
+        ET.SubElement(edges, "edge", {**ends, **rest, **size, **line})
     for element, end in ((nodes, "nod"), (edges, "edg"), (ET.Element("connections"), "con")):
         _save(element, folder / f"{NAME}.{end}.xml")
 
@@ -103,7 +104,8 @@ def _table(world: World) -> str:
     last = world.roads.edges[world.ego.route[-1]]
     junction = 12.0 if len(world.ego.route) > 1 else 0.0
     place = min(last.length - junction - END, 120.0 if junction else last.length)
-    story = f"{world.kind}: vehicle {world.planted} alone matters to the ego."
+    names = " and ".join(map(str, world.planted)) or "nobody"
+    story = f"{world.kind}: what the ego does hangs on {names}."
     return "\n".join(
         [
             f'name = "{world.kind}-{world.seed}"',

@@ -1,6 +1,7 @@
 """Road networks at random: a straight road, or one that a minor road joins or crosses."""
 
 import math
+from dataclasses import replace
 from random import Random
 
 from xavi_dialogue.app.bench.worlds.values import Edge, Node, Roads
@@ -8,6 +9,8 @@ from xavi_dialogue.app.bench.worlds.values import Edge, Node, Roads
 LIMITS = (8.33, 11.11, 13.89, 16.67)  # [m/s] of a main road
 MINOR_LIMITS = (8.33, 11.11)  # [m/s]
 MAIN, MINOR = 10, 3  # priorities
+SKEW = math.radians(25.0)  # by which an arm may lie beside its compass point
+BOW, POINTS = (0.4, 0.9), 16  # [rad] that an arc turns by, and the pieces it is made of
 ASIDE = (22.0, 40.0)  # [m] between the main road and one that meets it nowhere
 
 
@@ -53,6 +56,52 @@ def crossing(draw: Random, lanes: int = 1, arms: tuple[str, ...] = ()) -> Roads:
     if minor == ["north"]:
         ends = (side * 22.0, -off), (side * 150.0, -off)
     return _turned(draw, *_with_aside(draw, nodes, edges, *ends))
+
+
+def bent(draw: Random, roads: Roads) -> Roads:
+    """Bend roads: one without a junction is an arc, and arms meet at angles that are not right.
+
+    The road that meets none is moved away, so that it still does.
+    """
+    nodes = {node.id: node for node in roads.nodes}
+    if "J" in nodes:
+        angles = {arm: draw.uniform(-SKEW, SKEW) for arm in ("west", "east", "south", "north")}
+        turned = [
+            _about(node, angles[node.id]) if node.id in angles else node for node in nodes.values()
+        ]
+        return Roads(tuple(_away(node) for node in turned), roads.edges)
+    bow = draw.choice((-1.0, 1.0)) * draw.uniform(*BOW)
+    edges = {name: _arc(nodes, edge, bow) for name, edge in roads.edges.items()}
+    return Roads(roads.nodes, edges)
+
+
+def _about(node: Node, angle: float) -> Node:
+    """A node turned about the junction."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return Node(node.id, node.x * cos - node.y * sin, node.x * sin + node.y * cos, node.end)
+
+
+def _away(node: Node) -> Node:
+    """A node of the road beside, three times as far away."""
+    far = 3.0 if node.id.startswith("aside") else 1.0
+    return Node(node.id, far * node.x, far * node.y, node.end)
+
+
+def _arc(nodes: dict[str, Node], edge: Edge, bow: float) -> Edge:
+    """An edge along an arc that turns by an angle [rad] to the left of the way there."""
+    a, b = nodes[edge.start], nodes[edge.end]
+    forth = edge.id in ("main", "aside_there")
+    chord = math.dist((a.x, a.y), (b.x, b.y))
+    along = ((b.x - a.x) / chord, (b.y - a.y) / chord)
+    side = 1.0 if forth else -1.0
+    radius = chord / (2.0 * math.sin(abs(bow) / 2.0))
+    points = []
+    for k in range(POINTS + 1):
+        turn = bow * (k / POINTS - 0.5)
+        x = chord / 2.0 + radius * math.sin(abs(bow) * (k / POINTS - 0.5))
+        y = math.copysign(radius * (math.cos(turn) - math.cos(bow / 2.0)), bow * side)
+        points.append((a.x + along[0] * x - along[1] * y, a.y + along[1] * x + along[0] * y))
+    return replace(edge, shape=tuple(points))
 
 
 def _both_ways(

@@ -1,12 +1,13 @@
-"""What a world is made of: roads, vehicles, and which of these matters to the ego."""
+"""What a world is made of: roads, vehicles, and which of these matter to the ego."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-Kind: TypeAlias = Literal["leader", "leader-2", "cross", "merge", "oncoming", "occluder"]
+Kind: TypeAlias = Literal["one", "both", "either", "pre-empted", "distractor", "none"]
+Family: TypeAlias = Literal["straight", "bent"]  # of roads
 Shape: TypeAlias = Literal["car", "van", "truck", "bus", "motorcycle"]
 
-KINDS: tuple[Kind, ...] = ("leader", "leader-2", "cross", "merge", "oncoming", "occluder")
+KINDS: tuple[Kind, ...] = ("one", "both", "either", "pre-empted", "distractor", "none")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +31,7 @@ class Edge:
     speed: float  # [m/s] limit
     priority: int
     length: float  # [m] between the nodes
+    shape: tuple[tuple[float, float], ...] = ()  # [m] points of its line, if it is not straight
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +74,13 @@ class Sketch:
 
     roads: Roads
     ego: Vehicle
-    planted: Vehicle
-    occluder: Vehicle | None = None
+    planted: tuple[Vehicle, ...]  # what the ego does hangs on these
+    idle: tuple[Vehicle, ...] = ()  # in its way, or hiding others, and of no matter
+
+    @property
+    def cast(self) -> tuple[Vehicle, ...]:
+        """All who are in the story."""
+        return self.planted + self.idle
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,5 +92,5 @@ class World:
     roads: Roads
     ego: Vehicle
     others: dict[int, Vehicle]  # by name
-    planted: int
-    occluder: int | None
+    planted: tuple[int, ...]
+    idle: tuple[int, ...]

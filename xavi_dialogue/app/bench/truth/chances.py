@@ -5,26 +5,10 @@ import re
 from collections.abc import Iterator
 
 from planner.trace import Action, PlanTrace, Rollout, Sample
-from tests.truth.context import Fault, Said, claim
+from xavi_dialogue.app.bench.truth.context import Fault, Said, claim
+from xavi_dialogue.app.bench.truth.phrases import acts
 
-ACTS: tuple[tuple[str, frozenset[str]], ...] = (
-    (r"turn(?:ed|ing|s)? right", frozenset({"exit-right"})),
-    (r"turn(?:ed|ing|s)? left", frozenset({"exit-left"})),
-    (r"(?:go|going|goes|gone|went) straight on", frozenset({"exit-straight", "continue"})),
-    (r"(?:leave|leaving|left) (?:the|there)", frozenset({"exit-right", "exit-straight"})),
-    (r"continu\w+ to the next exit", frozenset({"continue-next-exit"})),
-    (r"stop(?:ped|ping|s)?\b", frozenset({"stop"})),
-    (r"(?:mov|chang)\w+ to the left", frozenset({"change-left"})),
-    (r"(?:mov|chang)\w+ to the right", frozenset({"change-right"})),
-    (r"stay(?:ed|ing)? in my lane", frozenset({"continue"})),
-)  # fmt: skip
 CHANCE = r"(?P<under>under |over )?(?P<chance>\d+) %"
-
-
-def acts(text: str) -> list[frozenset[str]]:
-    """The macro actions that a phrase names, in order."""
-    found = [(m.start(), kinds) for p, kinds in ACTS for m in re.finditer(p, text)]
-    return [kinds for _, kinds in sorted(found, key=lambda one: one[0])]
 
 
 def chances(trace: PlanTrace, vehicle: int, kinds: frozenset[str]) -> Iterator[float]:
@@ -45,6 +29,7 @@ def chances(trace: PlanTrace, vehicle: int, kinds: frozenset[str]) -> Iterator[f
 
 
 def told_as(match: re.Match[str], value: float, off: float = 1.1) -> bool:
+    """Tell whether a percentage told is that of a value [%]."""
     told = float(match["chance"])
     if match["under"] == "under ":
         return value < told + 0.5
@@ -60,6 +45,8 @@ def told_as(match: re.Match[str], value: float, off: float = 1.1) -> bool:
 def expected(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Whether a vehicle is, or was, expected to act so with that chance."""
     kinds = acts(match["act"])
+    if said.decision is not None:
+        return  # `blames` has it, by that decision
     if not kinds or re.search(r"collision|collide", said.text):
         return
     past = bool(re.search(r"\b(expected|thought|would|was a chance|was possible)\b", said.text))
@@ -73,6 +60,7 @@ def expected(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"chance that (?P<who>V\d+|it) (?:will|would) (?P<act>[^;:.]*?) (?:at|is|was) {CHANCE}")
 def chance_put(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a chance that is put on what a vehicle will do."""
     kinds = acts(match["act"])
     if not kinds or re.search(r"\b(not|that|let|pull|cut)\b", match["act"]):
         return
@@ -129,6 +117,9 @@ def _as_planned(trace: PlanTrace) -> list[Rollout]:
     r"risk of a collision(?: with (?P<who>V\d+|it))?"
 )
 def risk_of_option(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the risk of an option, by the drives of the decisions about that time."""
+    if said.decision is not None:
+        return  # `consequences` has it, by that decision
     foil = re.split(r"because|though|, but", match["foil"])[-1]
     kinds = acts(foil)
     if not kinds:
@@ -164,6 +155,9 @@ def _risk(
     r" for what I (?P<be>did|do)\b"
 )
 def risk_of_plan(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the risk of what was done, by the drives of the decisions about that time."""
+    if said.decision is not None:
+        return
     past = match["be"] == "did"
     start, end = said.when(past) if past else (said.now, said.now)
     traces = said.ride.decided(start - 1.0 if past else start, end)

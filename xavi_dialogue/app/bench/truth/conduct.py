@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
-from tests.truth.context import Fault, Said, claim, near, rounded
+from xavi_dialogue.app.bench.truth.context import Fault, Said, claim, near, rounded
 
 
 @claim(
@@ -38,6 +38,7 @@ def _party(said: Said, vehicle: int, other: int, time: float) -> bool:
 
 @claim(r"I am waiting for (?P<whom>V\d+)", r"I (?:have to|am ready to) let (?P<whom>V\d+) go first")
 def we_wait(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that whoever we wait for has not passed, and that we are slow."""
     known = [v for v in said.who(match["whom"]) if _party(said, EGO, v, said.now)]
     speed = min(said.speeds("we", (said.now - 1.0, said.now)), default=0.0)
     if not known:
@@ -67,6 +68,7 @@ def ready_to_give_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<who>V\d+) ha(?P<be>s|d) right of way, so I ha(?:ve|d) to give way",
 )
 def right_of_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check who goes first by the roads."""
     first = "ego" if "yes" in match.groupdict() else "vehicle"
     past = "had" in match[0]
     traces = said.ride.decided(0.0 if past else said.now, said.now)
@@ -83,6 +85,7 @@ def right_of_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"there (?P<be>is|was) no lane to the (?P<side>left|right)")
 def no_lane(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that there is no lane on that side."""
     past = match["be"] == "was"
     start = 0.0 if past else said.now
     reasons = [f"no lane to the {match['side']}", "only lane"]
@@ -99,6 +102,7 @@ def no_lane(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Ww]e are in the (?P<lane>right|left|middle|only) lane(?: of (?P<count>\w+))?")
 def lane_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check which lane we are in."""
     place = said.ride.place(EGO, said.now)
     if place is None or place.lane is None:
         return
@@ -112,6 +116,7 @@ MANOEUVRES = {"moved to the left": "change-left", "moved to the right": "change-
 
 @claim(r"I (?P<did>moved to the left|moved to the right)(?: lane)?(?P<rest>[^.;]*)")
 def lane_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that we changed lanes so."""
     action, at = MANOEUVRES[match["did"]], said.told(match["rest"])
     start, end = (0.0, said.now) if at is None else (at[0] - 6.0, at[1] + 6.0)
     done = [e for e in said.ride.events if e.action == action and start <= e.sim_time <= end]
@@ -121,6 +126,7 @@ def lane_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"I (?P<did>braked|stopped)(?: hard)?(?P<rest> at \d+:\d\d| about [\w. ]+? seconds? ago)")
 def braked_at(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that we braked or stood at the time told."""
     at = said.told(match["rest"])
     if at is None:
         return
@@ -156,6 +162,7 @@ def delay_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?:doing|driving at|driving steadily at) (?P<speed>\d+) km/h, over the limit")
 def over_limit(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a speed is over the limit."""
     limit = re.search(r"limit of (\d+)", said.text)
     if limit and float(match["speed"]) <= float(limit[1]):
         yield Fault("yes and no", match[0])
@@ -163,6 +170,7 @@ def over_limit(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"there is nobody (?P<where>ahead of|behind) us|[Nn]obody is (?P<also>ahead of|behind) us")
 def nobody(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that nobody is ahead of us, or behind us, in our lane."""
     where = match["where"] or match["also"]
     for vehicle in said.ride.moments[said.ride.index(said.now)].scene.vehicles:
         seen = said.ride.offset(EGO, vehicle, said.now) if vehicle != EGO else None
@@ -174,6 +182,7 @@ def nobody(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?:about )?(?P<time>\d+(?:\.\d+)?) seconds?, at (?P<clock>\d+:\d\d)")
 def arrival(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a clock time fits the time to it."""
     minute, second = match["clock"].split(":")
     at = 60.0 * int(minute) + int(second)
     if not near(at, [said.now + float(match["time"])], 2.6):

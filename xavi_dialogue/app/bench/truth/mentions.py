@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from sim.scene import EGO, VehicleState
-from tests.truth.ridden import Ridden
+from xavi_dialogue.app.bench.truth.ridden import Ridden
 
 COLOURS = "white|grey|black|red|orange|yellow|green|blue|purple|brown"
 KINDS = {

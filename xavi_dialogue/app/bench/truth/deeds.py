@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from sim.scene import EGO
-from tests.truth.chances import risks, told_as
-from tests.truth.context import Fault, Said, claim, near, rounded
+from xavi_dialogue.app.bench.truth.chances import risks, told_as
+from xavi_dialogue.app.bench.truth.context import Fault, Said, claim, near, rounded
 
 DOING = {
     "moving to the left lane": "change-left",
@@ -33,6 +33,7 @@ def under_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"I (?P<how>{'|'.join(DONE)})(?P<rest> at \d+:\d\d| about [\w. ]+? seconds? ago)")
 def turned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that we turned so at the time told."""
     at = said.told(match["rest"])
     if at is None:
         return
@@ -46,6 +47,7 @@ def turned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>I|V\d+) did not (?:brake|slow down)\.")
 def did_not_brake(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that nobody braked hard where it is denied."""
     who = said.who(match["who"])
     span = said.ride.span(said.now - JUST, said.now)
     states = [s for v in who for t in span if (s := said.ride.state(v, t)) is not None]
@@ -56,6 +58,7 @@ def did_not_brake(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+|[Ii]t) overtook us(?P<rest> at \d+:\d\d| about [\w. ]+? seconds? ago|)")
 def overtook(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a vehicle came past us from behind."""
     at = said.told(match["rest"]) or said.told() or (0.0, said.now)
     for vehicle in said.who(match["who"]):
         seen = [said.ride.offset(EGO, vehicle, t) for t in said.ride.span(at[0] - 8.0, at[1] + 8.0)]
@@ -67,6 +70,7 @@ def overtook(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+|[Ii]t) is indicating (?P<side>left|right)")
 def indicates(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the lights that a vehicle shows."""
     span = (said.now - 1.1, said.now)
     if not said.some(match["who"], span, lambda v, t: match["side"] in _lights(said, v, t)):
         yield Fault("indicating", match[0])
@@ -79,6 +83,7 @@ def _lights(said: Said, vehicle: int, time: float) -> tuple[str, ...]:
 
 @claim(r"[Ss]o far we have driven about (?P<far>\d+) metres in (?P<time>\d+) seconds")
 def driven(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check how far and how long we have driven."""
     times = said.ride.span(0.0, said.now)
     spots = [s.position for t in times if (s := said.ride.state(EGO, t)) is not None]
     arc = sum(math.dist(a, b) for a, b in pairwise(spots))
@@ -90,6 +95,7 @@ def driven(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Tt]he (?P<which>highest|lowest) speed was (?P<speed>\d+) km/h, at (?P<clock>\d+:\d\d)")
 def extreme(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the highest or lowest speed, and its time."""
     found = said.speeds("we", (0.0, said.now))
     value = max(found) if match["which"] == "highest" else min(found)
     at = said.told(match["clock"])
@@ -118,6 +124,7 @@ def let_go(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<under>under |over )?(?P<chance>\d+) %"
 )
 def risk_planned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the risk of the plan at the time of planning."""
     traces = [t for t in said.ride.decided(0.0, said.now) if t.plan]
     values = [x for t in traces for x in risks(t, frozenset({t.plan[0].action}), ())]
     if not any(told_as(match, value, 2.0) for value in values):
@@ -126,6 +133,8 @@ def risk_planned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"I am following (?P<who>V\d+)(?: at (?P<speed>\d+) km/h)?")
 def follows(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that we follow a vehicle ahead."""
+
     def leads(vehicle: int, time: float) -> bool:
         seen = said.ride.offset(EGO, vehicle, time)
         return seen is not None and seen[0] > 2.0 and abs(seen[2]) < 1.2
@@ -155,6 +164,7 @@ def nobody_there(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Tt]he gap between us and (?P<who>V\d+) is about (?P<far>[\d.]+) metres?")
 def gap_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check the gap to a vehicle."""
     gaps = [g for v in said.who(match["who"]) if (g := said.ride.gap(EGO, v, said.now)) is not None]
     if not near(float(match["far"]), gaps, 1.5 + 0.15 * float(match["far"])):
         yield Fault("distance", f"{match[0]}: {rounded(gaps)}")
@@ -162,6 +172,7 @@ def gap_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+) is (?P<speed>\d+) km/h (?P<how>faster|slower) than us")
 def faster_by(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check by how much a vehicle is faster or slower than us."""
     ours = said.speeds("we", (said.now - 0.15, said.now))
     theirs = said.speeds(match["who"], (said.now - 0.15, said.now))
     sign = 1.0 if match["how"] == "faster" else -1.0

@@ -3,10 +3,13 @@
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 from sim.scene import EGO
-from tests.truth.mentions import Mention
-from tests.truth.ridden import Ridden
+from xavi_dialogue.app.bench.truth.decision import Decision
+from xavi_dialogue.app.bench.truth.mentions import Mention
+from xavi_dialogue.app.bench.truth.reckoning import Actions, Term
+from xavi_dialogue.app.bench.truth.ridden import Ridden
 
 KMH = 3.6
 CLOSE = 2.6  # [km/h] what a speed told may be off
@@ -15,7 +18,7 @@ NUMBERS = {
     "eight": 8, "nine": 9, "ten": 10, "eleven": 11, "twelve": 12,
 }  # fmt: skip
 CLOCK = re.compile(r"\b(\d+):(\d\d)\b")
-AGO = re.compile(r"about (\d+(?:\.\d+)?|half a) seconds? ago")
+AGO = re.compile(r"[Aa]bout (\d+(?:\.\d+)?|half a) seconds? ago")
 WHO = r"(?P<who>V\d+|[Ww]e|I|[Ii]t)"
 
 
@@ -29,6 +32,7 @@ class Said:
     text: str  # with V0, V1, ... for vehicles
     mentions: tuple[Mention, ...]  # of the whole answer
     before: str  # what was said before it
+    decision: Decision | None = None  # that the answer tells of, where it is known
 
     def who(self, name: str) -> tuple[int, ...]:
         """The vehicles that a name may stand for."""
@@ -99,7 +103,15 @@ class Fault:
     detail: str
 
 
-Check = Callable[[Said, re.Match[str]], Iterator[Fault]]
+@dataclass(frozen=True)
+class Told:
+    """What is told of a foil: a term of the reward, that it is close, or that it is better."""
+
+    term: Term | Literal["close", "better"]
+    foil: Actions
+
+
+Check = Callable[[Said, re.Match[str]], Iterator[Fault | Told]]
 RULES: list[tuple[re.Pattern[str], Check]] = []
 
 
@@ -119,4 +131,5 @@ def near(told: float, found: list[float], off: float = CLOSE) -> bool:
 
 
 def rounded(found: list[float]) -> str:
+    """Show the range of values in the report."""
     return f"{min(found):.1f}..{max(found):.1f}" if found else "never"

@@ -5,8 +5,17 @@ import re
 from collections.abc import Iterator
 
 from sim.scene import EGO
-from tests.truth.context import KMH, NUMBERS, WHO, Fault, Said, claim, near, rounded
-from tests.truth.mentions import placed
+from xavi_dialogue.app.bench.truth.context import (
+    KMH,
+    NUMBERS,
+    WHO,
+    Fault,
+    Said,
+    claim,
+    near,
+    rounded,
+)
+from xavi_dialogue.app.bench.truth.mentions import placed
 
 BE = r"(?P<be>is|are|was|were)"
 SPEED = r"(?P<speed>\d+) km/h"
@@ -14,6 +23,7 @@ FAR = r"(?:about )?(?P<far>\d+(?:\.\d+)?) metres?"
 
 
 def past(match: re.Match[str]) -> bool:
+    """Tell whether a statement is about the past."""
     return match["be"] in ("was", "were")
 
 
@@ -23,6 +33,7 @@ def past(match: re.Match[str]) -> bool:
     rf" at|speeding up, now at) {SPEED}",
 )
 def speed_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a speed, now or then."""
     then = past(match)
     found = said.speeds(match["who"], said.when(then))
     if not near(float(match["speed"]), found):
@@ -54,6 +65,7 @@ def sets_the_pace(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     rf"{WHO} (?P<be>braked|sped up) from (?P<low>\d+) to (?P<high>\d+) km/h(?P<rest>[^;.]*)",
 )
 def change_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a change of speed of anybody."""
     low, high = float(match["low"]), float(match["high"])
     rest = match.groupdict().get("rest") or ""
     if match["be"] in ("is", "are", "am"):
@@ -72,6 +84,7 @@ def change_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?:I am|we are) (?P<how>braking|speeding up) from (?P<low>\d+) to (?P<high>\d+) km/h")
 def own_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check our change of speed that is under way."""
     found = said.speeds("we", (said.now - 0.15, said.now))
     if not near(float(match["high"]), found):
         yield Fault("speed now", f"{match[0]}: {rounded(found)}")
@@ -84,6 +97,7 @@ def own_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     rf"{WHO} {BE} (?:[^;:.]*, )?{FAR} away(?! from V)",
 )
 def distance_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a distance to a vehicle."""
     if match["who"] in ("We", "we", "I"):
         return
     told = float(match["far"])
@@ -105,6 +119,7 @@ def distance_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<rest>[^;.]*)",
 )
 def closest_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check how close a vehicle came."""
     told, at = float(match["far"]), said.told(match["rest"])
     lowest = [
         min(
@@ -133,6 +148,7 @@ def closest_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<way> in our way)?"
 )
 def stands(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a vehicle stands, and in our way where it is told."""
     span = said.when(past(match))
 
     def still(vehicle: int, time: float) -> bool:
@@ -154,6 +170,7 @@ def stands(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<how>braking|speeding up|standing still|driving steadily)"
 )
 def now_doing(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check what a vehicle does now."""
     span = (said.now - 0.8, said.now)
     if "whether" in said.text:
         return
@@ -203,6 +220,7 @@ def place_of(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?: on the \w+)?|on our \w+|coming from the \w+|coming towards us)"
 )
 def place_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check where a vehicle is told to be."""
     span = said.when(past(match))
     if not said.some(match["who"], span, lambda v, t: placed(said.ride, v, match["place"], t)):
         yield Fault("place", match[0])
@@ -214,6 +232,7 @@ def place_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?:standing still|doing (?P<ours>\d+) km/h)"
 )
 def faster(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a yes or no on who is faster, by the speeds told with it."""
     its, ours = int(match["its"] or 0), int(match["ours"] or 0)
     if (match["yes"] == "Yes") != (its > ours):
         yield Fault("yes and no", match[0])
@@ -224,6 +243,7 @@ def faster(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"and it is (?:only )?about (?P<far>[\d.]+) metres ahead"
 )
 def stopping(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check what we need to stop, and how far it is to there."""
     if not near(float(match["speed"]), said.speeds("we", (said.now - 0.15, said.now))):
         yield Fault("speed now", match[0])
     gaps = [g for v in said.last() if (g := said.ride.gap(EGO, v, said.now)) is not None]
@@ -235,6 +255,7 @@ def stopping(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"because the speed limit (?:here )?(?P<be>is|was|allows) (?P<limit>\d+) km/h")
 def at_the_limit(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a speed limit is why we drive so: that we are about at it."""
     ours = said.speeds("we", said.when(past(match)))
     if not near(float(match["limit"]), ours, 5.0):
         yield Fault("limit no reason", f"{match[0]}: {rounded(ours)}")
@@ -242,6 +263,7 @@ def at_the_limit(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"limit (?:here |there |of )?(?:(?:is|was|of|allows) )?(?P<limit>\d+) km/h")
 def limit_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check a speed limit."""
     span = said.told() or (0.0 if "was" in match[0] else said.now - 1.5, said.now)
     places = [said.ride.place(v, t) for t in said.ride.span(*span) for v in (EGO, *said.last())]
     limits = [KMH * place.limit for place in places if place is not None]
@@ -265,6 +287,7 @@ def bend(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<count>one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve) vehicles?")
 def count_seen(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Count the vehicles in view."""
     if not re.search(r"^I (?:can )?see", said.text):
         return
     visible = len(said.ride.moments[said.ride.index(said.now)].scene.vehicles) - 1

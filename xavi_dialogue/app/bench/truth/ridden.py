@@ -101,12 +101,14 @@ class Ridden:
 
 
 def ridden(moments: Sequence[Moment]) -> Ridden:
+    """Put the moments of a ride in order for checks."""
     traces = [moment.trace for moment in moments if moment.trace is not None]
     events = [event for moment in moments for event in moment.events]
     return Ridden(moments, [clock(moment) for moment in moments], traces, events)
 
 
 def centre(state: VehicleState) -> Point:
+    """Return the centre of a vehicle [m]."""
     x, y = state.position
     half = state.length / 2.0
     return x - half * math.cos(state.heading), y - half * math.sin(state.heading)
