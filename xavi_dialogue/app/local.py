@@ -32,7 +32,7 @@ from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout, Reason
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.nlg.say import say
-from xavi_dialogue.nlu.parse import Parser
+from xavi_dialogue.nlu.interpret import interpret
 
 SESSION = "passenger"
 
@@ -51,9 +51,7 @@ class NoPlan(Exception):
 def make_mind() -> Mind:
     """Make the mind of our parser, our explanations and our words."""
     known = Recollection()
-    return Mind(
-        read=Parser().read, ground=known.ground, explain=known.explain, say=say, see=known.see
-    )
+    return Mind(read=interpret, ground=known.ground, explain=known.explain, say=say, see=known.see)
 
 
 def planner_for(network: Network) -> Replan:

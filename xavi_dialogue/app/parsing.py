@@ -7,6 +7,7 @@ import msgspec
 from xavi_dialogue.domain.meaning import Act, Reading, TokenShare
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.notation import acts_line, reading_line
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.nlu.projection import QueryFields, project_readings
@@ -51,7 +52,7 @@ def parse_text(
 ) -> tuple[str, bool]:
     """Return what a question means, for people or as JSON, and whether it was understood."""
     typed = one_line(text)
-    readings = Parser().read(typed)
+    readings = interpret(typed)
     best = readings[0]
     meaning = Meaning(
         text=typed,

@@ -7,6 +7,7 @@ from msgspec import structs
 from xavi_dialogue.domain.meaning import Act, Ask, Doing, Elliptic, Question, Request, Whether, Why
 from xavi_dialogue.domain.terms import (
     Both,
+    Compares,
     Destination,
     Ego,
     Event,
@@ -60,6 +61,8 @@ def _either(first: Act, later: Act) -> Question | None:
             return later.question if isinstance(later.question, Whether) else None
         case _:
             return None
+    if isinstance(contents[0], Compares) and _is_own_choice(later):
+        return Whether(contents[0])  # "is that the limit or just your taste?"
     other = _other(contents[-1], later)
     if other is None or isinstance(other, Not):
         return None
@@ -67,6 +70,12 @@ def _either(first: Act, later: Act) -> Question | None:
         return Whether(contents[0])
     of = Both((*contents, other), "or")
     return way_asked(of) or Whether(of)
+
+
+def _is_own_choice(later: Act) -> bool:
+    """Say whether no more is named than that it is our choice."""
+    event = later.event if isinstance(later, Elliptic) else None
+    return event is not None and event.action == "do" and isinstance(event.actor, Ego)
 
 
 def _guessed(first: Act, later: Act) -> Question | None:

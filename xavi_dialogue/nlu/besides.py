@@ -15,10 +15,12 @@ from xavi_dialogue.domain.meaning import (
     Elliptic,
     HowKnow,
     HowMuch,
+    Identify,
     Listing,
     Repair,
     Request,
     WhatIf,
+    Where,
     Whether,
     Which,
     Why,
@@ -37,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Not,
     Pronoun,
     Proposition,
     Relative,
@@ -166,8 +169,18 @@ def _is_told(before: Act, act: Act) -> bool:
     if asks_whom(before, act):
         return True
     match before, act:
-        case Ask(), Ask(question=Whether(that=Believed(content=That(), tense="present"))):
-            return True
+        case Ask(), Ask(
+            question=Whether(
+                that=Believed(content=That(), tense="present")
+                | Not(content=Believed(content=That(), tense="present"))
+            )
+        ):
+            return True  # "do you know?", "say so if you can't tell"
+        case Ask(question=WhatIf(then=None)), Ask(
+            question=Where(of=Pronoun(form="that"))
+            | Identify(thing=Described(doing=Event(action="do", modal="would")))
+        ):
+            return True  # "where would that have left us?", "what would that have done to us?"
         case Ask(question=HowMuch(extreme=extreme)), Elliptic(form="when", thing=None, event=None):
             return extreme is not None
         case Ask(question=Whether(that=Is(state="close"))), Ask(

@@ -10,10 +10,12 @@ from msgspec import structs
 from xavi_dialogue.domain.meaning import Act, Ask, HowMuch, Whether, Which, Why
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import Event, Happens, Is, Measured, Related, Time, Unsaid
+from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 Row = tuple[Act, ...] | None
+_SUPPOSING = ("IF", "WHATIF", "WHETHER")
 _LEADING = ("lead_time", "lead_clause")
 
 
@@ -32,6 +34,28 @@ def at_same_time(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
             row = tuple(_timed(act, time) for act in row)
         found.append(row)
     return found
+
+
+def in_its_world(units: Sequence[Node], rows: Sequence[Row]) -> Sequence[Row]:
+    """Leave out what would be done in a world that is supposed in words of which nothing is made.
+
+    "What would you do if it blew up" is not asked of the world as it is.
+    """
+    if not any(row == () and _first(unit) in _SUPPOSING
+               for unit, row in zip(units, rows, strict=True)):  # fmt: skip
+        return rows
+    return [() if _is_unreal(unit) else row for unit, row in zip(units, rows, strict=True)]
+
+
+def _first(unit: Node) -> str:
+    """Tell the word class of the first word of a unit."""
+    return next((leaf.category for leaf in leaves_of(unit)), "")
+
+
+def _is_unreal(unit: Node) -> bool:
+    """Say whether it is asked of a unit what would be."""
+    said = leaf_of(unit, "MODAL")
+    return said is not None and said.key in ("would", "could", "might")
 
 
 def _dated(act: Act) -> Measured | Event | Is | Related | None:

@@ -28,7 +28,7 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
-from xavi_dialogue.nlu.meanwhile import at_same_time
+from xavi_dialogue.nlu.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.outcomes import struck_by
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.screen import on_screen
@@ -263,7 +263,8 @@ def _along(
     for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        for row in at_same_time(path.units, chosen_between(path.units, combination)):
+        rows = at_same_time(path.units, chosen_between(path.units, combination))
+        for row in in_its_world(path.units, rows):
             owners.append(len(acts) - (row is None) if row or row is None else None)
             acts.extend(row or ())
         named = sum(unit.name == "topic" for unit in path.units)

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Elliptic,
     HowKnow,
+    HowSure,
     Identify,
     Question,
     Repair,
@@ -31,22 +32,23 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.blames import blamed_for
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.existence import if_alone
-from xavi_dialogue.nlu.compose.expecting import as_expected
+from xavi_dialogue.nlu.compose.expecting import as_expected, feared
 from xavi_dialogue.nlu.compose.fragments import Fragments
 from xavi_dialogue.nlu.compose.frames import is_short
 from xavi_dialogue.nlu.compose.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.orders import Orders
+from xavi_dialogue.nlu.compose.peaks import extreme_told
 from xavi_dialogue.nlu.compose.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Group, Notes, as_thing
-from xavi_dialogue.nlu.compose.severally import asked_each
+from xavi_dialogue.nlu.compose.severally import asked_each, of_rival
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
 from xavi_dialogue.nlu.compose.talk import called, says, talk_act
 from xavi_dialogue.nlu.compose.tally import among
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, words_of
-from xavi_dialogue.nlu.compose.whys import RUN_ON, lacking, runs_on
+from xavi_dialogue.nlu.compose.whys import RUN_ON, SWALLOWED, lacking, runs_on, swallows
 from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -88,6 +90,8 @@ class Composer(Statements):
             return called(unit.parts[0])
         said = [p for p in unit.parts if isinstance(p, Leaf) and p.category in _TALKING]
         act = talk_act(said[0] if said else cast(Leaf, unit.parts[0])) if unit.parts else None
+        if act is None and self.asks and words_of(unit).endswith("you sure"):
+            return [((Ask(HowSure()),), 0.0)]
         asked = isinstance(act, Social) and act.kind == "how-are-you"
         if asked and leaf_of(unit, "P"):  # "what is up with that van"
             return []
@@ -135,7 +139,10 @@ class Composer(Statements):
         each = asked_each(named, clause, clause.tense) if wh.kind == "what" else ()
         if each and clause.verb is None:
             return [(tuple(Ask(question) for question in each), 0.0)]
-        return [((Ask(question),), cost) for question, cost in found]
+        if (rival := of_rival(found, clause)) is not None:
+            return [((Ask(found[0][0]), Ask(rival)), found[0][1])]
+        extra = SWALLOWED * (wh.kind == "grade" and wh.key != "likely" and swallows(unit))
+        return [((Ask(question),), cost + extra) for question, cost in found]
 
     def _ask_both(self, unit: Node, wh: Node, also: Node) -> Found:
         """Read "when and why did you brake" as two questions of one clause."""
@@ -155,6 +162,10 @@ class Composer(Statements):
         clause = self.phrases.slots.fill(unit.parts)
         liked = clause.verb is not None and clause.verb.key in ("like", "love", "enjoy", "hate")
         liked = liked or "do you like" in words_of(unit)
+        if clause.feelings and clause.that is not None and isinstance(clause.subject, Ego):
+            dreaded = self.propositions.plain(clause.that)  # "were you worried he'd pull out"
+            if dreaded is not None:
+                return [((Ask(HowSure(feared(dreaded), clause.time)),), 0.0)]
         if (clause.feelings or (liked and clause.modal is None)) and _of_you(unit, clause):
             return [((Social("feelings"),), 0.1)]
         if says(clause) and clause.question is None:
@@ -166,7 +177,8 @@ class Composer(Statements):
             return []
         if (why := blamed_for(clause)) is not None:
             return [((Ask(why),), 0.0)]
-        special = as_expected(unit, clause) or if_alone(words_of(unit), clause)
+        special = extreme_told(clause) or as_expected(unit, clause)
+        special = special or if_alone(words_of(unit), clause)
         if special is not None:
             return [((Ask(special),), 0.0)]
         if supposes(unit, clause) and (supposed := self.questions.supposed(clause)) is not None:
@@ -191,6 +203,8 @@ class Composer(Statements):
         if short and self.asks:
             return []  # "if it had come out?"
         negated = _forbids(unit) != ceasing
+        if negated and leaf.key == "go" and clause.gerund is not None and not clause.particles:
+            clause = clause.gerund  # "don't go getting close"
         found = [(acts, cost + SHORT * short)
                  for acts, cost in self.orders.order(clause, negated=negated)]  # fmt: skip
         courteous = any(
@@ -215,7 +229,7 @@ class Composer(Statements):
 
     def _topic(self, unit: Node) -> Found:
         """Read what is named first and taken up by a pronoun of the next unit."""
-        things = ("np", "group", "accusative", "accusative_group")
+        things = ("np", "aliased", "group", "accusative", "accusative_group")
         named = [p for p in unit.parts if isinstance(p, Node) and p.name in things]
         sem = self.phrases.nouns.read(named[0])
         if leaf_of(unit, "TALLY"):
@@ -318,7 +332,8 @@ def _refrains(unit: Node) -> bool:
 
 def _is_not(part: Part) -> bool:
     """Say whether a part is "not"."""
-    return isinstance(part, Leaf) and part.category == "NOT"
+    late = isinstance(part, Node) and part.name == "late_not"
+    return late or (isinstance(part, Leaf) and part.category == "NOT")
 
 
 def _forbids(unit: Node) -> bool:

@@ -29,10 +29,11 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Time,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
-from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_speed, as_thing
 from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
 from xavi_dialogue.nlu.compose.tree import is_negated
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -91,6 +92,19 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
     return None
 
 
+def also_named(first: Sem, second: Sem) -> Sem:
+    """Give the one thing that is named twice: "v16, the red one", "the bus, a white one"."""
+    if not isinstance(first, Described) or not isinstance(second, Described):
+        return second if isinstance(second, Vehicle) else first
+    fields = {
+        name: value
+        for name in second.__struct_fields__
+        if (value := getattr(second, name)) != getattr(Described(), name)
+        and getattr(first, name) == getattr(Described(), name)
+    }
+    return cast(Sem, with_fields(first, **{**fields, "definite": True}))
+
+
 def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
     measured = sem.of
     if isinstance(other, Junction):
@@ -131,8 +145,7 @@ def exceeding(clause: Clause, event: Event) -> Proposition | None:
     if key not in _AMOUNTS or not isinstance(than, Quantity):
         return None
     speed = Measured("speed", event.actor, time=event.time, tense=event.tense)
-    if than.unit == "count":
-        than = Quantity(round(than.value / 3.6, 6), "m/s")  # nobody says "km/h"
+    than = as_speed(than)
     if event.modal in ("can", "could", "might") and event.tense == "present":
         return Compares(with_fields(speed, attribute="limit"), cast(Any, _AMOUNTS[key]), than)
     return Compares(speed, cast(Any, _AMOUNTS[key]), than)

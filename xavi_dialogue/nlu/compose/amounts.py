@@ -70,7 +70,8 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
         to = reference(clause)
         if sem.of.attribute == "distance" and to is None and remaining(clause, actor):
             return measured("distance-to-go", clause, Ego())
-        return measured(sem.of.attribute, clause, sem.of.to or actor, to=to)
+        whose = Ego() if isinstance(clause.subject, Measure) else actor
+        return measured(sem.of.attribute, clause, sem.of.to or whose, to=to)
     if isinstance(sem, Noun) and sem.key in ("side",):
         return measured("distance", clause, actor)
     aboard = value.to if isinstance(value, Related) and value.relation in ("near", "on") else None

@@ -20,7 +20,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.events import when
-from xavi_dialogue.nlu.compose.sem import as_thing
+from xavi_dialogue.nlu.compose.sem import as_speed, as_thing
 from xavi_dialogue.nlu.compose.trends import trend
 
 
@@ -99,8 +99,7 @@ def do(special: Special) -> Proposition:
         return Happens(sem)
     thing = as_thing(sem)
     if isinstance(sem, Quantity):
-        if sem.unit == "count":
-            sem = Quantity(round(sem.value / 3.6, 6), "m/s")  # nobody says "km/h"
+        sem = as_speed(sem)
         able = special.clause.modal in ("can", "could", "might", "should")
         if (able and tense_of(special) == "present") or "semi-allowed" in special.clause.aux:
             return Compares(Measured("limit"), "at-least", sem)  # "may we do 70?"

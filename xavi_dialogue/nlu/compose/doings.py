@@ -9,6 +9,7 @@ from xavi_dialogue.domain.meaning import (
     Question,
     Summarise,
     Where,
+    Why,
 )
 from xavi_dialogue.domain.terms import (
     Described,
@@ -29,6 +30,7 @@ from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.lasting import measured
 from xavi_dialogue.nlu.compose.others import is_vehicle
 from xavi_dialogue.nlu.compose.sem import Measure, as_thing
+from xavi_dialogue.nlu.compose.traits import LIGHTS
 from xavi_dialogue.nlu.compose.wh import Wh
 
 _TO_COME = frozenset({"would", "could", "should", "might"})
@@ -45,6 +47,10 @@ def doing(wh: Wh, clause: Clause, value: Special) -> Question:
         return measured("speed", clause, subject)
     if speed is not None:  # "what is he doing, speed-wise?"
         return measured("speed", clause, as_thing(clause.subject))
+    lit = next((p.sem.of.attribute for p in clause.complements if p.key == "with"
+                and isinstance(p.sem, Measure) and p.sem.of.attribute in LIGHTS), None)  # fmt: skip
+    if lit is not None and subject is not None:  # "what's he doing with that blinker?"
+        return Why(Happens(Event(LIGHTS[lit], subject, tense=_tense(clause))))
     undone = clause.modal == "could" and clause.tense == "past"
     if (undone or clause.modal == "should") and not isinstance(clause.subject, Wanted):
         return _instead(clause, clause.subject, value.content)

@@ -1,9 +1,10 @@
 """Effects: questions of what a deed would do, what it was for, and what it hangs on."""
 
-from typing import Any
+from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
     Doing,
+    HowMuch,
     HowSure,
     Question,
     WhatIf,
@@ -11,11 +12,12 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Pronoun, Proposition
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Measured, Pronoun, Proposition
 from xavi_dialogue.nlu.compose.adoption import as_of, timed
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.polar import Polar
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, as_thing
+from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.wh import Wh
 
 #: Verbs of which a deed is the subject: "what would braking have done".
@@ -113,6 +115,8 @@ def _of_deed(clause: Clause, deed: Event) -> Question | None:
         tense: Any = "past" if clause.tense == "past" else "present"
         return WhatIf(as_of(Happens(deed), tense), Doing(None, clause.time, tense))
     if key in _GAINS and clause.modal is None and deed is clause.subject:
+        if _in_time(clause):
+            return HowMuch(Measured("delay", event=deed, tense=cast(Any, clause.tense)))
         return Why(as_of(Happens(deed), clause.tense))
     if key:
         return None
@@ -123,3 +127,10 @@ def _of_deed(clause: Clause, deed: Event) -> Question | None:
     if not beside and not (about and deed is clause.subject):
         return None
     return Why(timed(as_of(Happens(deed), clause.tense), clause.time))
+
+
+def _in_time(clause: Clause) -> bool:
+    """Say whether it is time that is asked for: "what did it buy us in time"."""
+    named = (words_of(p.node).split()[-1:] for p in clause.complements if p.key == "in")
+    spent = any(words in (["time"], ["seconds"], ["minutes"]) for words in named)
+    return spent or "early" in clause.manner  # as "in time" is read

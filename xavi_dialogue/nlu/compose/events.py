@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.nlu.compose.clause import Clause
@@ -88,6 +89,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     if clause.passive:
         _agent_named(match)
     noun = isinstance(match.object, (Noun, Measure, Event))
+    noun |= action == "brake" and match.object == Pronoun("they")  # "you slammed them on"
     thing = None if noun else as_thing(match.object)
     side = clause.side
     if action in ("change-left", "change-right", "change-lane", "exit-left") and not (
@@ -122,6 +124,8 @@ def event_of(clause: Clause, match: Match) -> Event:
     if action == "leave" and "at" in match.phrases and not isinstance(thing, Exit | Junction):
         thing = Exit(thing.rank if isinstance(thing, Described) else None)
     manner = _manner(action, clause)
+    if action == "change-lane" and place is not None and isinstance(place.to, Lane):
+        (action, thing, side), place = _lane_move(action, place.to, side), None
     if _before_us(action, clause):
         manner, thing = [*manner, "first"], thing or Ego()
     if match.sense.manner:
@@ -133,7 +137,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     if action == "change-plan" and actor == Described(definite=False) and clause.passive:
         actor, thing = Ego(), None  # "why was it dropped?"
     if action == "go" and thing is None and place is None and _thither(actor, clause):
-        action = "head"
+        action = "head" if isinstance(actor, Ego) else "turn"
     return Event(
         cast(ActionName, action), actor, thing, cast(Any, side),
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
@@ -152,7 +156,11 @@ def _thither(actor: Thing, clause: Clause) -> bool:
     """Say whether it is told where we are going: "that is where we are going", "down there"."""
     there = any(key == "there" for key, _ in clause.bearings)
     to_come = clause.tense in ("present", "future") and clause.modal is None
-    return isinstance(actor, Ego) and to_come and (there or "where" in clause.focus)
+    off = bool(clause.particles) or any(
+        key == "there" and len(getattr(node, "words", ())) > 1 for key, node in clause.bearings
+    )
+    there = there and (off or isinstance(actor, Ego))  # "is he going down there too?"
+    return to_come and (there or ("where" in clause.focus and isinstance(actor, Ego)))
 
 
 def _manner(action: str, clause: Clause) -> list[Manner]:
@@ -248,13 +256,14 @@ def _taken(sem: Sem | None, side: str | None) -> tuple[str, str | None, Thing | 
 
 def when(clause: Clause, match: Match | None) -> Any:
     """Find the time: said as such, or by a place that is passed."""
-    if not isinstance(clause.time, Unsaid):
-        return clause.time
+    said = not isinstance(clause.time, Unsaid | WholeRide)
     phrases = match.left if match is not None else list(clause.complements)
     for phrase in list(phrases):
         key = phrase.key.removeprefix("bearing-") if phrase.key == "bearing-ahead" else phrase.key
         key = "before" if key == "ahead" else key
         found = place_time(key, phrase.sem)
+        if said and not isinstance(phrase.sem, Junction):
+            continue
         if found is None and phrase.key in ("before", "after", "since", "until", "during"):
             thing = phrase.sem
             if isinstance(thing, Pronoun):
@@ -267,7 +276,7 @@ def when(clause: Clause, match: Match | None) -> Any:
             if match is not None:
                 match.left.remove(phrase)
                 match.cost -= 0.3
-            return found
+            return clause.time if said else found
     return clause.time
 
 

@@ -3,7 +3,16 @@
 from typing import Final
 
 from xavi_dialogue.domain.meaning import Question, Whether
-from xavi_dialogue.domain.terms import Ego, Is
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    WholeRide,
+)
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import as_thing
 from xavi_dialogue.nlu.compose.tree import leaves_of
@@ -14,6 +23,24 @@ _BELIEVING: Final = frozenset(
     {"expect", "predict", "think", "forecast", "anticipate", "foresee", "believe", "reckon",
      "assume", "guess", "suppose", "figure"}
 )  # fmt: skip
+
+
+def feared(of: Proposition) -> Proposition:
+    """Take that somebody may not stop in time for a collision."""
+    event = of.content.event if isinstance(of, Not) and isinstance(of.content, Happens) else None
+    if event is None or event.action not in ("stop", "brake") or "early" not in event.manner:
+        return of
+    ours = isinstance(event.actor, Ego)
+    whom = event.object if ours else Ego()
+    return Happens(Event("collide", event.actor, whom, time=event.time, tense="future"))
+
+
+def hindsight(clause: Clause) -> Question | None:
+    """Read "what would you do differently": whether anything was amiss on the ride."""
+    ours = isinstance(clause.subject, Ego) and clause.modal in ("would", "could", "should")
+    if not ours or clause.infinitive is not None or "differently" not in clause.focus:
+        return None
+    return Whether(Is("wrong", Described(definite=False), time=WholeRide(), tense="past"))
 
 
 def as_expected(unit: Node, clause: Clause) -> Question | None:

@@ -71,6 +71,9 @@ class Fragments(BareQuestions):
             return [((Repair(cast(Any, style)),), 0.0)]
         if any(key == "rude" for key, _ in clause.adjectives) and not clause.objects:
             return [((Social("insult"),), 0.1)]
+        if self.composer.asks and clause.still and not clause.objects:
+            clause.subject, clause.aux = Ego(), ["be-present"]  # "still behind that van?"
+            return [((Ask(q),), cost) for q, cost in self.composer.questions.whether(clause)]
         felt = bodily(clause)
         if felt is not None:
             return [((felt,), 0.0)]
@@ -87,7 +90,8 @@ class Fragments(BareQuestions):
         if clause.focus & {"really", "seriously", "truly", "honestly"} and not clause.objects:
             return [((Elliptic(form="sure"),), 0.0)]
         sem: Sem | None = clause.objects[0][0] if clause.objects else None
-        if isinstance(sem, Quantity) and sem.unit == "count" and len(clause.objects) == 1:
+        counted = isinstance(sem, Quantity) and sem.unit == "count" and clause.condition is None
+        if counted and isinstance(sem, Quantity) and len(clause.objects) == 1:
             joined = any(isinstance(p, Leaf) and p.category == "AND" for p in unit.parts)
             if joined:  # "and 4?"
                 return [((Elliptic(Vehicle(int(sem.value))),), 0.0)]

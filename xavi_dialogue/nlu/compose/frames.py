@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.adoption import as_of, timed, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.pacing import at_pace
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import alternative, as_thing, is_thing
 
@@ -77,6 +78,7 @@ class Frames:
         """Read a supposition; that a thing is not there is that it does not exist."""
         bare = is_short(condition) and is_thing(condition.subject)
         found: Proposition | None = None if bare else self.propositions.plain(condition)
+        found = found if found is None else at_pace(condition, found)
         if found is None:
             thing = as_thing(condition.subject)
             if thing is None:

@@ -128,7 +128,7 @@ def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
     kind = traits.kind if head.key in ("car", "vehicle") and traits.kind else head.key
     if head.words == ("people",):
         plural = True
-    found = described(kind, traits, plural=plural)
+    found = described(kind, traits, plural=plural or traits.determiner == "every")
     if traits.determiner == "no":
         return Nobody(found)
     if head.words == ("one",) and traits.determiner in ("that", "this") and not special:

@@ -102,7 +102,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     for phrase in clause.complements:
         if phrase.key == "until" and phrase.sem is not None:
             return until(as_thing(phrase.sem))
-    if isinstance(value, Special) and value.name in ("cost", "delay", "save"):
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "gain"):
         return measured("delay", clause, actor)
     if isinstance(value, Special) and value.name in ("take-time", "last"):
         return _taking(clause, value, actor)

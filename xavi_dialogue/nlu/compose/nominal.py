@@ -72,6 +72,13 @@ def event_in(sem: Sem | None) -> Event | None:
     return structs.replace(inner, actor=structs.replace(sem, doing=None))
 
 
+def deed_of(sem: Sem | None) -> Event | None:
+    """Give the deed that is named, by nobody in particular: "the stop", "all that braking"."""
+    event = event_in(sem)
+    alone = event is not None and event.actor in (Described(), Described(plural=True))
+    return structs.replace(event, actor=Ego()) if alone and event is not None else event
+
+
 def done_by(event: Event, *named: Sem | None) -> Event:
     """Give a deed to the vehicle that it is said of: "vehicle 1 at 90 percent for turning"."""
     things = (as_thing(sem) for sem in named)
@@ -164,7 +171,7 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
     if sem.key == "reason":
         return Listing("reasons", thing, time)
     if sem.key in _LISTED:
-        if sem.key == "decision" and not sem.plural:
+        if sem.key == "decision" and not (sem.plural or sem.word.endswith("s")):
             return HowDecide(about)
         return Listing(cast(Any, _LISTED[sem.key]), _other_than_ego(thing), time)
     match sem.key:
@@ -177,8 +184,11 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return Doing(actor, time, "future")
         case "fault":
             return Fault(about, _other_than_ego(thing))
+        case "order" if isinstance(sem.of, Noun) and sem.of.key in _LISTED:
+            return _noun(sem.of, time, tense)  # "the sequence of your decisions"
         case "order":
-            return Listing("events", _other_than_ego(thing), time)
+            whose = None if isinstance(sem.of, Event | Noun) else _other_than_ego(thing)
+            return Listing("events", whose, time)
         case "evidence":
             return HowKnow(about)
         case "summary" | "ride":

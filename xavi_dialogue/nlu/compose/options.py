@@ -51,8 +51,9 @@ class Options(Effects):
             return Which(Wanted(), Happens(going))
         found = self.propositions.readings(clause)
         said = fact(found[0].value) if found and clause.verb is not None else None
+        open_to = getattr(getattr(said, "event", None), "object", None)
         others = all(is_thing(one) and not isinstance(one, Ego) for one in options)
-        if others and said is not None and not clause.comparisons:
+        if (others or open_to == Wanted()) and said is not None and not clause.comparisons:
             return Which(Wanted(), said, options)
         match fact(found[0].value) if found else None:
             case Related(relation="has-priority-over" | "must-yield-to") as related:

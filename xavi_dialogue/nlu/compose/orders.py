@@ -72,10 +72,6 @@ class Orders(Telling):
         value = self._best(clause)
         if isinstance(value, Special) and value.name == "quiz" and isinstance(clause.subject, Ego):
             return (Quizzing(),)
-        if isinstance(value, Special) and value.name == "mind" and clause.gerund is not None:
-            clause.gerund.question = clause.gerund.question or clause.question
-            found = self.order(clause.gerund, negated=False)
-            return found[0][0] if found else None
         if isinstance(value, Special) and value.name in _TELLING:
             if clause.question is not None:
                 return self.embedded(clause) or None
@@ -83,6 +79,7 @@ class Orders(Telling):
                 asked = self.asked_if(clause)  # "do you know if it is turning"
                 return None if asked is None else (Ask(asked),)
             modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
+            modal = modal or "semi-mind" in clause.aux
             if (
                 value.name
                 in (
@@ -101,12 +98,16 @@ class Orders(Telling):
             ):
                 return self.told(clause, value) or None
             return None
+        if _wavers(value):
+            return (Ask(Why(Happens(Event("change-plan", tense="perfect")))),)
         return self._requested(clause, value, refrain, please)
 
     def _requested(
         self, clause: Clause, value: Any, refrain: bool, please: bool
     ) -> tuple[Act, ...] | None:
         modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")
+        minded = "semi-mind" in clause.aux  # "would you mind moving over"
+        modal, refrain = modal or minded, refrain or minded
         if not modal or clause.has("have") or not isinstance(clause.subject, Ego):
             return None
         supposing = clause.condition is not None or clause.without is not None

@@ -2,8 +2,10 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import Peak
-from xavi_dialogue.domain.terms import Described, Ego, Wanted
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import HowMuch, Peak
+from xavi_dialogue.domain.terms import Described, Ego, Quantity, Wanted
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
 
@@ -28,6 +30,17 @@ def _most(sem: Sem) -> bool:
 
 _EXTREMES = {"slowest": "slowness", "fastest": "speed", "nearest": "closeness",
              "closest": "closeness", "longest": "waiting"}  # fmt: skip
+
+
+def extreme_told(clause: Clause) -> HowMuch | None:
+    """Read "the peak deceleration was about five" as asking for the peak, whatever it was."""
+    subject = clause.subject
+    if not isinstance(subject, Measure) or subject.extreme is None or clause.verb is not None:
+        return None
+    if not any(isinstance(sem, Quantity) for sem, _ in clause.objects):
+        return None
+    of = structs.replace(subject.of, time=clause.time, tense=cast(Any, clause.tense))
+    return HowMuch(of, subject.extreme)
 
 
 def peak_of(clause: Clause) -> Peak | None:

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Back,
     Ego,
     Event,
+    Pronoun,
     Proposition,
     Quantity,
     Unsaid,
@@ -23,6 +24,7 @@ from xavi_dialogue.nlu.compose.clause import (
     is_share,
     takes_name,
 )
+from xavi_dialogue.nlu.compose.positions import place_of
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.tally import often
 from xavi_dialogue.nlu.compose.things import Nouns
@@ -90,6 +92,10 @@ class Phrases(Adjuncts):
             clause.subject = outer.subject
         return clause
 
+    def _on_placed_first(self, node: Node, clause: Clause) -> None:
+        self.slots.fill(node.parts, clause)
+        clause.there = True  # "in front is a big brown truck"
+
     def _on_subject(self, node: Node, clause: Clause) -> None:
         inner = node.parts[0]
         if isinstance(inner, Leaf):
@@ -128,6 +134,7 @@ class Phrases(Adjuncts):
     _on_finite_short = _on_vp
     _on_inverted = _on_vp
     _on_pre_to = _on_vp
+    _on_late_not = _on_vp
     _on_aside = _on_vp
     _on_asked_whether = _on_vp
 
@@ -156,7 +163,12 @@ class Phrases(Adjuncts):
         leaf = cast(Leaf, node.parts[0])
         last = node.parts[1]
         if isinstance(last, Node) and last.name == "wh_np_clause":
-            clause.question = self.questions.embedded(last, clause)
+            inner = node_of(last, "finite") if node_of(last, "wh_where") else None
+            deed = None if inner is None else self.propositions.plain(self.clause(inner))
+            if (place := place_of(deed)) is None:
+                clause.question = self.questions.embedded(last, clause)
+            else:
+                clause.complements.append(Complement(leaf.key, place, node))
             return
         sem = self.inner(last)
         if isinstance(sem, SideOf):
@@ -238,7 +250,10 @@ class Phrases(Adjuncts):
         self._on_than(node, clause)
 
     def _on_than(self, node: Node, clause: Clause) -> None:
-        inner = cast(Node, node.parts[-1])
+        inner = node.parts[-1]
+        if isinstance(inner, Leaf):  # "compared to his"
+            clause.than = Pronoun("it") if inner.key == "his" else Ego()
+            return
         if inner.name == "when" or inner.name.startswith("time"):
             then = self.slots.fill((inner,), Clause(subject=clause.subject)).time
             clause.than_time = Ago(EARLIER) if then == Back("before") else then

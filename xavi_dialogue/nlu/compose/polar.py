@@ -43,7 +43,9 @@ from xavi_dialogue.nlu.compose.blames import blamed, cleft_cause, rival
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.comparing import Comparing
+from xavi_dialogue.nlu.compose.expecting import hindsight
 from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.pacing import not_rather, permitted
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -144,6 +146,10 @@ class Polar(Comparing):
             return [(Fault(That(), None if deems else judged(inner)), 0.0)]
         if _is_all(clause):
             return [(Doing(tense="future"), 0.0)]
+        if (amiss := hindsight(clause)) is not None:
+            return [(amiss, 0.0)]
+        if (limited := permitted(clause)) is not None:
+            return [(Whether(limited, tag), 0.0)]
         foreseen = _foreseen(clause)
         if foreseen is not None:
             return [(Whether(foreseen, tag), 0.0)]
@@ -200,6 +206,7 @@ class Polar(Comparing):
             if special is not None:
                 return special
         of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
+        of = not_rather(clause, of, self.propositions)
         avoidable = self._avoidable(clause, of)
         if avoidable is not None:
             return avoidable
@@ -216,6 +223,10 @@ class Polar(Comparing):
                 )
             ):  # "did we do something wrong?"
                 return Fault(That(), actor)
+            case Happens(event=Event(action="go", actor=Ego(), object=Pronoun()) as of_us) if (
+                of_us.side is not None
+            ):  # "so for this we go to the left?"
+                return Why(Happens(structs.replace(of_us, object=None)), suspect=Pronoun("that"))
             case Is(state="at-fault", thing=thing, event=event):
                 return Fault(Happens(event) if event is not None else None, thing)
             case Happens(

@@ -3,11 +3,14 @@
 from typing import Any
 
 from xavi_dialogue.domain.terms import (
+    Destination,
     Ego,
     Event,
+    Exit,
     Feature,
     Happens,
     Is,
+    Junction,
     Not,
     Pronoun,
     Proposition,
@@ -22,6 +25,17 @@ from xavi_dialogue.nlu.compose.tree import words_of
 #: What somebody has done who is so: "out" has come out.
 _MOVED: dict[str, ActionName] = {"out": "pull-out", "off": "leave", "in": "enter"}
 _OVER = frozenset(("through", "past", "over"))
+
+
+_PLACES: dict[str, Thing] = {
+    "leave": Exit(), "arrive": Destination(), "exit-left": Junction("junction", 1),
+    "exit-right": Junction("junction", 1), "turn": Junction("junction", 1),
+}  # fmt: skip
+
+
+def place_of(deed: Proposition | None) -> Thing | None:
+    """Give the place where a deed of ours is done: "where we get off", "where we turn"."""
+    return _PLACES.get(deed.event.action) if isinstance(deed, Happens) else None
 
 
 def by_particle(clause: Clause) -> Proposition | None:

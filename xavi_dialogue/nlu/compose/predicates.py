@@ -42,6 +42,7 @@ from xavi_dialogue.nlu.compose.sem import (
     Sem,
     SideOf,
     Specified,
+    as_speed,
     as_thing,
 )
 from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
@@ -49,6 +50,8 @@ from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
+_FACTS = frozenset({"it", "that", "this"})
+SLOWEST = 6  # [km/h] from which on a bare number said of a vehicle is its speed
 #: [km/h] numbers that are limits where nothing else is said.
 LIMITS = frozenset({20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0, 130.0})
 
@@ -92,14 +95,11 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Measure) and (kept := _kept(clause, sem, subject)) is not None:
         return [(Is("safe", kept, time=time, tense=tense), 0.0)]
     if isinstance(sem, Measure):
-        return [
-            (
-                Compares(
-                    Measured(sem.of.attribute, subject, time=time, tense=tense), "same", sem.of
-                ),
-                0.2,
-            )
-        ]
+        paced = sem.of.attribute == "limit" and isinstance(subject, Pronoun)
+        attribute: Any = "speed" if paced else sem.of.attribute  # "is that the limit?"
+        whose = Ego() if paced else subject
+        left = Measured(attribute, whose, time=time, tense=tense)
+        return [(Compares(left, "same", sem.of), 0.2)]
     if isinstance(sem, Quantity):
         return [(_numbered(clause, sem), 0.1)]
     if isinstance(sem, Noun):
@@ -248,14 +248,24 @@ def arrived(clause: Clause) -> Proposition:
 UNITS = {"m/s": "speed", "m": "distance", "s": "time", "%": "probability"}  # what they measure
 
 
+def _of_number(subject: object, value: float) -> str:
+    """Tell what a number is that is said of a subject: "it is thirty here", "we're 30"."""
+    if isinstance(subject, Pronoun) and subject.form in _FACTS:
+        return "limit" if value in LIMITS else "count"
+    moves = isinstance(subject, Ego | Vehicle | Described | Pronoun) and value >= SLOWEST
+    return "speed" if moves else "count"
+
+
 def _numbered(clause: Clause, sem: Quantity) -> Proposition:
     subject = clause.subject
     measured = subject.of if isinstance(subject, Measure) else None
     if measured is None:
         attribute = UNITS.get(sem.unit, "count")
-        if attribute == "count" and isinstance(subject, Pronoun) and sem.value in LIMITS:
-            limit = Measured("limit", time=clause.time)  # "isn't it thirty here?"
-            return Compares(limit, "same", Quantity(round(sem.value / 3.6, 6), "m/s"))
+        if attribute == "count":
+            attribute = _of_number(subject, sem.value)
+            sem = sem if attribute == "count" else as_speed(sem)
+        if attribute == "limit":
+            return Compares(Measured("limit", time=clause.time), "same", sem)
         measured = _measured(attribute, as_thing(subject) or Ego(), clause, clause.time)
     return Compares(measured, "same", sem)
 

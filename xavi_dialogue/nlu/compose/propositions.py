@@ -29,7 +29,7 @@ from xavi_dialogue.nlu.compose.events import event_of, when
 from xavi_dialogue.nlu.compose.patterns import senses
 from xavi_dialogue.nlu.compose.positions import by_event
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.senses import Match, match, offered
+from xavi_dialogue.nlu.compose.senses import Match, amiss, match, offered
 from xavi_dialogue.nlu.compose.specials import proposition_of
 from xavi_dialogue.nlu.compose.states import state_of
 from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
@@ -126,6 +126,7 @@ class Propositions:
 
     def _candidate(self, clause: Clause, one: Match) -> Candidate:
         adopt(one)
+        one.cost += amiss(clause, one)
         if one.sense.head.startswith("@"):
             value: Proposition | Special = self._special(clause, one)
         else:

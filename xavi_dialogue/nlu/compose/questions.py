@@ -22,7 +22,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.asking import Asking
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, wanted_pronoun
-from xavi_dialogue.nlu.compose.nominal import event_in, propose
+from xavi_dialogue.nlu.compose.expecting import hindsight
+from xavi_dialogue.nlu.compose.nominal import deed_of, event_in, propose
 from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives
 from xavi_dialogue.nlu.compose.peaks import peak_of
 from xavi_dialogue.nlu.compose.sem import (
@@ -37,7 +38,7 @@ from xavi_dialogue.nlu.compose.sem import (
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.trends import believed
 from xavi_dialogue.nlu.compose.wh import Wh
-from xavi_dialogue.nlu.compose.what import purpose
+from xavi_dialogue.nlu.compose.what import going_on, purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -149,6 +150,9 @@ class Questions(Options):
         """Fill a clause that a question word asks of, and build its questions."""
         clause.gap = self.gap_of(wh)
         self.phrases.slots.fill(tuple(parts), clause)
+        amiss = hindsight(clause) if wh.kind == "what" else None
+        if amiss is not None:
+            return [(amiss, 0.0)]
         return self.of(wh, clause)
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
@@ -162,10 +166,9 @@ class Questions(Options):
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
         if wh.kind == "what" and (for_what or purpose(clause)):
-            clause.gap, wh = None, Wh("why")
-            clause.complements = [c for c in clause.complements if c.sem is not None]
-            if clause.verb is None and isinstance(clause.subject, (Event, Pronoun)):
-                return [(Why(propose(clause.subject) or That()), 0.0)]
+            wh = Wh("why")
+            if (why := _what_for(clause)) is not None:
+                return [(why, 0.0)]
         emphatic = 0.0
         if clause.subject is None and not clause.there and clause.gap is not None:
             clause.subject, clause.gap = clause.gap, None
@@ -174,6 +177,8 @@ class Questions(Options):
                 emphatic += WEAK  # "which exit"
         if clause.subject is None and wh.kind in ("which", "count"):
             clause.subject = wh.sem if is_thing(wh.sem) or wh.kind == "count" else None
+        if wh.kind == "what" and isinstance(clause.subject, Measure) and _says_what(clause):
+            return []  # "what colour was the car" is no "what" of a colour that was a car
         options = alternatives(clause) if wh.kind in ("who", "what", "which") else None
         held = clause.subject.of if isinstance(clause.subject, Measure) else None
         chance = held is not None and held.attribute == "probability"
@@ -204,10 +209,8 @@ class Questions(Options):
         for value, cost in pairs:
             compared = self.compared(wh, clause, value)
             question = compared or self.asking.ask(wh, clause, value)
-            why = wh.kind == "why" and clause.subject is not None
-            governing = wh.kind in ("what", "who") and clause.that is not None
-            extra = WEAK if value is None and (why or governing) else 0.0
-            found.append((self.framed(question, clause, value), cost + extra + emphatic))
+            extra = emphatic + WEAK * _is_lost(wh, clause, value, question)
+            found.append((self.framed(question, clause, value), cost + extra))
         return found
 
     def _nominal(self, wh: Wh, clause: Clause) -> Question | None:
@@ -256,6 +259,32 @@ class Questions(Options):
             ):
                 return Happens(Event("do", thing))
         return None
+
+
+def _is_lost(wh: Wh, clause: Clause, value: Any, question: Question) -> bool:
+    """Say whether a question leaves out what the clause is of."""
+    why = wh.kind == "why" and clause.subject is not None
+    governing = wh.kind in ("what", "who") and clause.that is not None
+    governed = clause.that or clause.infinitive or clause.gerund
+    unsure = question == HowSure(None, clause.time) and governed is not None
+    return unsure or (value is None and (why or governing))
+
+
+def _what_for(clause: Clause) -> Why | None:
+    """Read "what was that stop for", "what is all that braking about"; None: ask of the verb."""
+    clause.gap = None
+    if going_on(clause):
+        clause.subject = Ego()
+    clause.particles = [leaf for leaf in clause.particles if leaf.key != "around"]
+    clause.complements = [c for c in clause.complements if c.sem is not None]
+    subject = deed_of(clause.subject) or clause.subject
+    named = clause.verb is None and isinstance(subject, Event | Pronoun)
+    return Why(propose(subject) or That()) if named else None
+
+
+def _says_what(clause: Clause) -> bool:
+    """Say whether a subject is said to be some thing."""
+    return clause.verb is None and any(is_thing(sem) for sem, _ in clause.objects)
 
 
 def wanted_only(clause: Clause) -> bool:

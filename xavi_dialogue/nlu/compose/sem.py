@@ -161,3 +161,8 @@ def alternative(sem: object) -> Thing | None:
     """Give the second of two things of which one is meant: "the bus or the lorry"."""
     pair = isinstance(sem, Group) and sem.join == "or" and len(sem.members) == ALTERNATIVES
     return as_thing(sem.members[1]) if pair and isinstance(sem, Group) else None
+
+
+def as_speed(said: Quantity) -> Quantity:
+    """Take a number without a unit for kilometres per hour, as people say it."""
+    return Quantity(round(said.value / 3.6, 6), "m/s") if said.unit == "count" else said

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import cast
 
-from xavi_dialogue.domain.meaning import Question
+from xavi_dialogue.domain.meaning import HowMuch, Question
 from xavi_dialogue.domain.terms import (
     Both,
     Ego,
@@ -11,6 +11,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Pronoun,
     Proposition,
+    Quantity,
     Related,
     Tense,
     Thing,
@@ -122,3 +123,20 @@ def _filled(measure: Measure, to: Thing | None) -> Measure:
 
 
 _MUTUAL = frozenset({"gap", "headway", "distance", "time-to-collision"})
+
+
+def of_rival(found: list[tuple[Question, float]], clause: Clause) -> Question | None:
+    """Ask for the same of whom it is compared to: "what is our speed compared to his"."""
+    question, other = found[0][0] if found else None, clause.than
+    if not isinstance(question, HowMuch) or question.of.attribute not in _OF_EACH:
+        return None
+    differs = question.of.to is not None or clause.comparisons
+    if differs or isinstance(other, Clause | Quantity | None):
+        return None
+    thing = as_thing(other)
+    if thing in (None, question.of.thing):
+        return None
+    return HowMuch(with_fields(question.of, thing=thing))
+
+
+_OF_EACH = frozenset({"speed", "acceleration", "deceleration", "size"})

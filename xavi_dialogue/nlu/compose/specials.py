@@ -217,6 +217,9 @@ def _seem(special: Special) -> Proposition:
         key = special.clause.adjectives[0][0]
         state: Any = key if key in STATES else "right"
         return Is(state, special.subject, time=time_of(special))
+    for state in ("close", "far"):
+        if state in special.clause.manner:  # "does it look close?"
+            return Is(cast(Any, state), special.subject, time=time_of(special))
     return Related("same-as", special.subject, as_thing(special.object) or Pronoun("that"))
 
 

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Happens,
     Is,
+    Lane,
     Measured,
     Nobody,
     Not,
@@ -41,6 +42,7 @@ from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.orders import Orders, wavers
+from xavi_dialogue.nlu.compose.peaks import extreme_told
 from xavi_dialogue.nlu.compose.phrases import Phrases
 from xavi_dialogue.nlu.compose.polar import judged
 from xavi_dialogue.nlu.compose.propositions import Propositions
@@ -79,10 +81,14 @@ class Statements:
         meant = self._meant(clause) or bodily(clause)
         if meant is not None:
             return [((meant,), 0.0)]
+        if "semi-mind" in clause.aux and not isinstance(clause.subject, Ego):
+            return [((Social("acknowledge"),), 0.0)]  # "I do not mind waiting"
         sore = clause.feelings[:1] if clause.verb is None and clause.question is not None else []
         if sore and sore[0] in _UPSET and isinstance(clause.subject, Passenger):
             felt = feeling_of(clause, None)
             return [((felt,), 0.0)] if felt is not None else []
+        if (peak := extreme_told(clause)) is not None:
+            return [((Ask(peak),), 0.0)]
         order = self.orders.stated(clause)
         if order is not None:
             return [(order, 0.0)]
@@ -144,6 +150,11 @@ class Statements:
             return (Ask(why),)
         if isinstance(value, Special) and isinstance(clause.subject, Passenger) and _thinks(value):
             of = Not(value.content) if value.content is not None else of
+        if isinstance(of, Believed) and isinstance(clause.subject, Unknown | Noun):
+            told = clause.modal is None and clause.tense == "present"
+            of = of.content  # "my wife thinks you are too slow"
+            if not told and not (tagged or self.asks):
+                return (Social("acknowledge"),)  # "my husband would have said they never look"
         of = _in_our_place(of, clause)
         wish = None if tagged or self.asks else wished(of, clause, wishing=wishing)
         if wish is not None:
@@ -197,7 +208,7 @@ def _disagrees(clause: Clause) -> bool:
     if clause.verb is None or clause.verb.form != "base" or clause.aux:
         return False
     named = clause.verb.words == ("speed",) and isinstance(clause.subject, (Vehicle, Event))
-    return named or isinstance(clause.subject, (Measure, Noun, Unknown))
+    return named or isinstance(clause.subject, (Lane, Measure, Noun, Unknown))
 
 
 _ASKING = ("asking", "likely", "agreeing", "wishing")

@@ -34,6 +34,7 @@ from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.events import when
 from xavi_dialogue.nlu.compose.existence import existing
 from xavi_dialogue.nlu.compose.followers import relation_of
+from xavi_dialogue.nlu.compose.pacing import pace_said
 from xavi_dialogue.nlu.compose.placing import LOOSE, placed
 from xavi_dialogue.nlu.compose.predicates import (
     UNITS,
@@ -169,6 +170,10 @@ def _found(clause: Clause) -> list[Found]:
         vague = isinstance(subject, Pronoun) and any(c.key == "for" for c in clause.complements)
         found = nominal(clause, clause.objects[0][0])
         return [(of, cost + FOR_WHOM) for of, cost in found] if vague else found
+    if is_thing(subject) and (said := pace_said(clause)) is not None:  # "we are down to 30"
+        who = cast(Thing, as_thing(subject))
+        return [(Compares(Measured("speed", who, time=clause.time, tense=tense_of(clause)),
+                          "same", said), 0.0)]  # fmt: skip
     if clause.because is not None and isinstance(subject, Pronoun):
         cause = None if isinstance(clause.because, Clause) else as_thing(clause.because)
         return [(Caused(cause) if cause is not None else That(), 0.0)]

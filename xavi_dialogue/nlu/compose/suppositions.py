@@ -155,10 +155,18 @@ def suppose(supposed: Proposition) -> Act:
 def supposes(unit: Node, clause: Clause) -> bool:
     """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact."""
     had = next((p for p in unit.parts if isinstance(p, Leaf) and p.category in _AUXILIARY), None)
-    timed = not isinstance(clause.time, Unsaid) or clause.focus or clause.manner
-    if had is None or had.category != "HAD" or clause.verb is None or timed:
+    if had is None or had.category != "HAD":
         return False
-    return clause.verb.key not in _NOTICING or not isinstance(clause.subject, Ego)
+    led = any(isinstance(p, Leaf) and p.category in ("AND", "BUT") for p in unit.parts)
+    if led and not {"already", "ever"} & {*clause.manner, *clause.focus}:  # "and had it moved off?"
+        timed, told = False, clause.verb is not None or bool(clause.comparisons)
+    else:
+        timed = bool(not isinstance(clause.time, Unsaid) or clause.focus or clause.manner)
+        told = clause.verb is not None
+    if timed or not told:
+        return False
+    noticed = clause.verb is not None and clause.verb.key in _NOTICING
+    return not noticed or not isinstance(clause.subject, Ego)
 
 
 def goes_on(unit: Node) -> bool:

@@ -19,11 +19,13 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Described,
+    Ego,
     Event,
     Happens,
     Junction,
     Passenger,
     Pronoun,
+    Proposition,
     Relative,
     That,
     Thing,
@@ -83,6 +85,9 @@ class Telling:
             return (Ask(question or HowMany(Described(plural=True))),)
         if name == "summarise":
             return (Ask(Summarise(_summary(sem), clause.time)),)
+        done = None if value.content is None else _all_done(sem, value.content)
+        if name in ("list", "summarise", "describe") and done is not None:
+            return (Ask(done),)
         if name == "list":
             return (Ask(_listing(sem, clause)),)
         if name == "describe":
@@ -122,7 +127,7 @@ class Telling:
             if supposed is not None:
                 return (Ask(WhatIf(supposed)),)  # "say he had braked"
         if value.content is not None and clause.that is not None:
-            return (Ask(Whether(value.content)),)
+            return (Ask(_all_done(sem, value.content) or Whether(value.content)),)
         if sem is None or isinstance(sem, (Passenger, Pronoun)):
             return (Repair("longer" if value.name == "tell" else "repeat"),)
         if isinstance(sem, Event):
@@ -164,6 +169,14 @@ class Telling:
             Happens(m) if isinstance(m, Event) else as_thing(m) for m in members if m is not None
         )
         return (Ask(Compare(cast(Any, tuple(o for o in options if o is not None)), "best")),)
+
+
+def _all_done(sem: Sem | None, content: Proposition) -> Listing | None:
+    """Read "everything that vehicle 1 did" as all its deeds."""
+    match sem, content:
+        case Noun(word="everything"), Happens(event=Event(action="do" | "happen") as event):
+            return Listing("events", None if event.actor == Ego() else event.actor, event.time)
+    return None
 
 
 def _summary(sem: Sem | None) -> Thing | Event | None:

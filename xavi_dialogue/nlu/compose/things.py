@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.adoption import also_named
 from xavi_dialogue.nlu.compose.followers import Followers, doing
 from xavi_dialogue.nlu.compose.heads import noun, rank_of
 from xavi_dialogue.nlu.compose.sem import (
@@ -46,6 +47,7 @@ _SCALES = {
     "kmh": ("m/s", 1 / 3.6),
     "mph": ("m/s", 0.44704),
     "ms": ("m/s", 1.0),
+    "ms2": ("m/s2", 1.0),
     "m": ("m", 1.0),
     "km": ("m", 1000.0),
     "mile": ("m", 1609.344),
@@ -68,6 +70,11 @@ class Nouns(Followers):
         """Read an `np`, a group of them, or what can stand for one."""
         if node.name in ("group", "accusative_group"):
             return self._group(node)
+        if node.name == "aliased":  # "v16, the red one on the right, ..."
+            cut = next(i for i, p in enumerate(node.parts) if _is_comma(p))
+            first = Node("np", node.parts[:cut], node.start, node.end, 0.0)
+            named = cast(Node, node_of(node, "named")).parts[0]
+            return also_named(self.read(first), self.read(cast(Node, named)))
         if node.name == "accusative":
             return self._pronoun(cast(Leaf, node.parts[0]), Traits())
         core = node.parts[0]
@@ -266,3 +273,8 @@ def _is_reason(core: Node) -> bool:
     """Say whether a noun phrase has a word for a reason at its head."""
     head = core.parts[-1] if core.parts else None
     return isinstance(head, Leaf) and (head.category, head.key) == ("ABS", "reason")
+
+
+def _is_comma(part: Part) -> bool:
+    """Say whether a part is a comma."""
+    return isinstance(part, Leaf) and part.category == "COMMA"

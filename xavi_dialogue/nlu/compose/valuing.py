@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.deeds import event_of, tense_of, time_of
+from xavi_dialogue.nlu.compose.expecting import feared
 from xavi_dialogue.nlu.compose.nominal import done_by, event_in
 from xavi_dialogue.nlu.compose.sem import as_thing
 
@@ -45,7 +46,7 @@ def believed(special: Special, about: Proposition) -> Proposition:
     inner = (clause, clause.that, clause.gerund, clause.infinitive)
     share = next((c.share for c in inner if c is not None and c.share is not None), None)
     if share is None or not isinstance(about, Happens):
-        return Believed(about, time, tense_of(special))
+        return Believed(feared(about), time, tense_of(special))
     if isinstance(time, Unsaid) and isinstance(about.event.time, At):
         time, about = about.event.time, Happens(with_fields(about.event, time=Unsaid()))
     measured = Measured("probability", about=about, time=time, tense=tense_of(special))

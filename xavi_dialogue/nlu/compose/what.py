@@ -6,6 +6,7 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     Fault,
     HowAvoid,
+    HowKnow,
     HowMuch,
     HowSure,
     Identify,
@@ -43,10 +44,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.doings import deed_asked, doing, happened
 from xavi_dialogue.nlu.compose.lasting import measured
-from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.nominal import asked_of, deed_of, propose
 from xavi_dialogue.nlu.compose.others import (
     is_idle,
     is_vehicle,
@@ -60,7 +61,7 @@ from xavi_dialogue.nlu.compose.others import (
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.reasoning import reasoned
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.wh import (
     Wh,
     content_of,
@@ -142,6 +143,9 @@ class What:
                 return Listing("vehicles", time=time)
             case "assign" | "give-priority" if isinstance(value.object, Wanted):
                 return HowSure(content_of(clause, value), time)  # "what did you give it?"
+            case "rest":
+                based = propose(clause.subject)  # "what is that based on?"
+                return HowKnow(None if based == That() else based)
             case "plan" if clause.tense == "past" and not isinstance(time, Unsaid):
                 return Listing("decisions", time=time)
             case "plan" | "want" if isinstance(value.object, Wanted) or value.object is None:
@@ -267,11 +271,27 @@ _SOUGHT = frozenset({"wait", "look", "head", "stand", "give way", "yield", "chec
 
 def purpose(clause: Clause) -> bool:
     """Say whether "what ... for" asks for the reason: "what did you brake for"."""
-    stranded = {phrase.key for phrase in clause.complements if phrase.sem is None}
-    deed = isinstance(clause.subject, (Event, Pronoun)) and clause.verb is None
+    stranded = {phrase.key for phrase in clause.complements if _is_stranded(phrase)}
+    deed = clause.verb is None and (
+        deed_of(clause.subject) is not None or isinstance(clause.subject, Pronoun)
+    )
+    deed = deed or going_on(clause)
     about = any(leaf.words == ("about",) for leaf in clause.particles)
     alone = "for" in stranded or (deed and (about or "about" in stranded))
     return alone and (clause.verb is None or clause.verb.key not in _SOUGHT)
+
+
+def going_on(clause: Clause) -> bool:
+    """Say whether "that" goes with a deed: "what was all that braking about"."""
+    verb, subject = clause.verb, clause.subject
+    pointed = isinstance(subject, Pronoun) and subject.form in ("that", "this")
+    return pointed and verb is not None and verb.category == "VING"
+
+
+def _is_stranded(phrase: Complement) -> bool:
+    """Say whether nothing stands behind a preposition, or when it is: "for this time"."""
+    said = words_of(phrase.node).split() if isinstance(phrase.sem, Noun) else []
+    return phrase.sem is None or said[-2:] in (["this", "time"], ["that", "time"])
 
 
 def _complete(event: Event) -> bool:

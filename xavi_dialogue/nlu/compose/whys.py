@@ -21,6 +21,7 @@ from xavi_dialogue.nlu.grammar.chart import Node
 
 COST = 0.1  # of a question without a verb
 RUN_ON = 0.6  # cost of taking a clause into such a question
+SWALLOWED = 1.6  # cost of taking one for a state: "how long are we, going to sit here is dull"
 #: How one brakes, by what is said of it.
 _MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly", "suddenly": "suddenly"}
 SPEEDS = 20  # from which a bare number may be a speed in km/h
@@ -72,6 +73,13 @@ def runs_on(unit: Node) -> bool:
         if isinstance(part, Node) and part.name == "that_clause"
     ]  # fmt: skip
     return any(index > 1 for index in clauses)
+
+
+def swallows(unit: Node) -> bool:
+    """Say whether a clause stands where a state should: "how long are we (that) ..."."""
+    states = [p for p in unit.parts if isinstance(p, Node) and p.name == "state"]
+    firsts = [state.parts[0] for state in states if state.parts]
+    return any(isinstance(part, Node) and part.name == "that_clause" for part in firsts)
 
 
 def lacking(clause: Clause) -> Act:

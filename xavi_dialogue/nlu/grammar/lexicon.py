@@ -26,6 +26,7 @@ ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
 MEASURED = 0.2  # cost of a bare verb that is the name of a measure too: "speed"
 OWNERS = ("my", "our", "your", "his", "her", "its", "their", "the")
 HEARD = 0.14  # cost of a number that sounds like another word: "two"
+DEEDS = 0.05  # cost of "decisions" as a deed rather than as what is listed
 PHRASE = 0.02  # what a phrase is cheaper by for each word after its first
 
 
@@ -114,7 +115,8 @@ def _add_class(trie: Trie, category: str, key: str, listed: str, nouns: set[str]
         words = (phrase[0].lstrip("*"), *phrase[1:])
         trie.add(words, Entry(category, key, "", cost))
         if category in NOUNS:
-            trie.add((*words[:-1], plural(words[-1])), Entry(category, key, "plural", cost))
+            several = cost + DEEDS * (category == "EVN" and key == "do")
+            trie.add((*words[:-1], plural(words[-1])), Entry(category, key, "plural", several))
         if category == "KIND" and len(words) == 1:
             nouns.add(words[0])
 

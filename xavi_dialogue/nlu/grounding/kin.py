@@ -28,7 +28,7 @@ KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
     "pass": ("overtake", "cross"),
     "merge": ("change-lane", "enter", "cut-in"),
     "cut-in": ("merge", "change-lane", "pull-out"),
-    "pull-out": ("enter", "cut-in", "go", *_SHIFTING),
+    "pull-out": ("enter", "leave", "cut-in", "go", "turn", *_SHIFTING),
     "change-lane": ("merge", "overtake"),
     "leave": ("exit-left", "exit-right", "exit-straight", "turn"),
     "enter": ("merge", "turn", "go"),

@@ -53,8 +53,12 @@ class Vocabulary:
 
 def skeleton(word: str) -> str:
     """Drop the vowels but a leading one: "vehicle" -> vhcl; doubled letters count once."""
-    bare = word[0] + word[1:].translate(_VOWELS)
-    return "".join(c for i, c in enumerate(bare) if i == 0 or bare[i - 1] != c)
+    return _undoubled(word[0] + word[1:].translate(_VOWELS))
+
+
+def _undoubled(word: str) -> str:
+    """Write doubled letters once."""
+    return "".join(c for i, c in enumerate(word) if i == 0 or word[i - 1] != c)
 
 
 def allowance(length: int) -> int:
@@ -75,6 +79,9 @@ def corrections(word: str, vocabulary: Vocabulary) -> tuple[tuple[tuple[str, ...
         found += [((full,), ERROR) for full in vocabulary.skeletons.get(skeleton(word), ())]
     if len(word) > _LONG and (parts := _split(word, vocabulary)):
         found.append((parts, ERROR))
+    doubled = [entry for entry in found if _undoubled(entry[0][0]) == _undoubled(word)]
+    if any(known[words[0]] == 0 for words, _ in doubled):
+        return tuple(doubled)  # "stil" is "still" rather than "stall"
     found.sort(key=lambda entry: (entry[1], -Prefix.similarity(word, entry[0][0]), entry[0]))
     best: list[tuple[tuple[str, ...], float]] = []
     for guess, cost in found:

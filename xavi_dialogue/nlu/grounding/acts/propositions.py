@@ -68,6 +68,8 @@ OF_EVENTS: Final = frozenset(
     ("necessary", "allowed", "worth-it", "wrong", "right", "better", "over", "possible", "normal",
      "comfortable", "uncomfortable", "safe", "dangerous", "close", "late"),
 )  # fmt: skip
+#: What a vehicle that is seen does anyway, and is not foreseen to do.
+_SHOWN: Final = frozenset(("pass", "come", "appear", "approach", "move", "disappear", "see"))
 _ONLY_EVENTS: Final = frozenset(("necessary", "worth-it", "over", "better"))
 
 
@@ -120,6 +122,13 @@ def proposition(
             content = g.proposition(spoken.content, "supposed", window)
             if isinstance(spoken.content, That):  # what came true or not, as it was foreseen
                 content = affirmed(content)
+            while isinstance(content, Believed):  # nobody asks what we believed that we believed
+                content = content.content
+            match spoken.content, content:  # "it shot past. Did you see it coming?"
+                case That(), Happens(event=Event(action=action, actor=Vehicle() as shown)) if (
+                    action in _SHOWN
+                ):
+                    return Related("can-see", Ego(), shown, Now(), "past")
             return replace(spoken, content=content, time=window.term)
 
 
@@ -263,6 +272,8 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     if spoken.state == "close" and spoken.tense == "present" and near is not None:
         g.notes.leaned = True
         return replace(spoken, thing=Vehicle(near))  # "that's tight, isn't it?"
+    if isinstance(spoken.time, WholeRide):
+        return replace(spoken, thing=None)  # "would you do anything differently?"
     if spoken.state in _ONLY_EVENTS or spoken.tense == "past":
         known = discussed(g.context)
     else:

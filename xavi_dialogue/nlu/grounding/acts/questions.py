@@ -38,9 +38,11 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Nobody,
     Now,
     Proposition,
     That,
+    Thing,
     Unsaid,
     Vehicle,
     Vehicles,
@@ -77,7 +79,7 @@ def _why(spoken: Why, g: Grounder) -> Why:
     of = g.proposition(spoken.of, "presupposed")
     instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
     event = first(of, Event)
-    blamed = spoken.suspect
+    blamed: Thing | None = None if isinstance(spoken.suspect, Nobody) else spoken.suspect
     if blamed is not None and isinstance(spoken.of, That) and asked_who(g.context):
         g.notes.cost += UNASKED
     if blamed is not None:

@@ -310,7 +310,8 @@ def something_wrong(spoken: Is, g: Grounder) -> Is | None:
     if spoken.state != "wrong" or spoken.thing not in _ANYTHING:
         return None
     g.notes.leaned = True
-    event = discussed(g.context) if spoken.tense != "present" else None
+    of_ride = spoken.tense == "present" or isinstance(spoken.time, WholeRide)
+    event = None if of_ride else discussed(g.context)
     return replace(spoken, state="dangerous", thing=None, event=event)
 
 

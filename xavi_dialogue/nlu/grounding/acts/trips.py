@@ -41,6 +41,7 @@ from xavi_dialogue.domain.terms import (
 
 SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
 _DELAYED: Final = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), time=WholeRide())))
+_ANYTHING: Final = Described(definite=False)
 _GOING: Final = frozenset(("go", "move", "turn"))
 _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 
@@ -55,8 +56,10 @@ def of_trip(spoken: Question) -> Question | None:
             return _DELAYED
         case Which(
             thing=Wanted(),
-            such=Happens(event=Event(action="go", actor=Wanted(), manner=("first",)) as of),
-        ) if of.tense == "past":
+            such=Happens(
+                event=Event(action="go", actor=Wanted(), object=Ego(), manner=("first",)) as of
+            ),
+        ) if of.tense == "past" and of.modal is None:
             return _DELAYED  # "who went before us?"
         case When(of=Compares(left=Measured(attribute="delay") as left)):
             return HowMuch(left)  # "what time did that cost us?"
@@ -89,6 +92,17 @@ def _whether(that: Any) -> Question | Happens | None:
             return Whether(Happens(Event("arrive", tense="perfect")))  # "are we done?"
         case Happens(event=Event(action="come", actor=Junction() as place)):
             return Whether(Exists(place))  # "is that a roundabout coming?"
+        case (
+            Exists(
+                thing=Described(
+                    kind="vehicle", doing=Event(action="do", actor=Ego(), object=Wanted())
+                )
+                | Described(kind="vehicle", such=Is(state="wrong", thing=Wanted()))
+            )
+            | Happens(event=Event(action="do", actor=Ego(), object=Described()))
+        ) if isinstance(that, Exists) or that.event.object == _ANYTHING:
+            # "is there anything you'd do differently?"
+            return Whether(Is("wrong", _ANYTHING, time=WholeRide(), tense="past"))
         case Happens(event=Event(action="happen", tense="future", object=None)):
             return Doing(tense="future")
     return None

@@ -253,6 +253,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
     match time.anchor:
         case Event(action="do", actor=Ego()):
             return _of_ours(g)
+        case Event(tense="present") if tense != "past" and time.relation in ("before", "until"):
+            return None  # "can he come out before we pass?"
         case Event() as event:
             return _of_event(event, tense, g)
         case Junction() as spoken:

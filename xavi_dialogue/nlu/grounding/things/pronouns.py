@@ -14,6 +14,7 @@ from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
 CLEAR: Final = 0.3  # salience from which a vehicle may be one of "both"
 PAIR: Final = 2
 LOST: Final = 0.1  # salience below which a pronoun does not reach back
+GONE: Final = 0.5  # the same for one that is not in view then
 MISFIT: Final = 0.62  # share of its salience that is left to who did not do what is said
 LEVEL: Final = 0.98  # ratio of two saliences that do not differ
 FROM_SCENE: Final = 0.1  # cost of a pronoun for which only the scene has a vehicle
@@ -31,8 +32,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         return Vehicles(spoken) if len(spoken) > 1 else Everyone()
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
-    weighed = _weighed(g, fits)
     moment = g.context.now if window.ahead else min(window.end, g.context.now)
+    weighed = _weighed(g, fits, moment)
     if weighed:
         return _salient(thing, g, weighed, moment)
     found = interacting(g.context, moment, fits)
@@ -82,11 +83,12 @@ def _group_leads(g: Grounder) -> bool:
     return False
 
 
-def _weighed(g: Grounder, fits: Fits | None) -> list[tuple[float, int]]:
+def _weighed(g: Grounder, fits: Fits | None, moment: float) -> list[tuple[float, int]]:
     known = set(g.context.world.vehicles)
+    seen = g.context.world.in_view(moment)
     found = []
     for vehicle, salience in vehicles_of(g.context.discourse.mentions):
-        if vehicle not in known or salience < LOST:
+        if vehicle not in known or salience < (LOST if vehicle in seen else GONE):
             continue
         share = MISFIT if fits is not None and fits(vehicle) is None else 1.0
         found.append((salience * share, vehicle))

@@ -1,11 +1,13 @@
 """Relative clauses: vehicles told by what they did: "that cut in", "the one we waited for"."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Final
 
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Back,
     Described,
@@ -29,7 +31,7 @@ class Clause:
     """A relative clause, its gap not filled."""
 
     context: Context
-    event: Event  # with Vehicle(_GAP) where the vehicle belongs
+    events: tuple[Event, ...]  # one after the other, with Vehicle(_GAP) where the vehicle belongs
     begin: float  # [s]
     end: float  # [s]
     found: dict[int, tuple[Episode | None, float]] = field(default_factory=dict)
@@ -44,13 +46,16 @@ class Clause:
 
     def _search(self, vehicle: int) -> tuple[Episode | None, float]:
         if vehicle not in self.found:
-            filled = fill(self.event, vehicle)
-            exact = self.context.holds(filled, self.begin, self.end)
-            near = exact or like(self.context, filled, self.begin, self.end)
-            near = tuple(e for e in near if _concerns(e, vehicle))
-            cost = 0.0 if exact else KIN_COST if near else 1.0
-            self.found[vehicle] = (near[-1] if near else None, cost)
+            found = [self._one(fill(event, vehicle), vehicle) for event in self.events]
+            last = next((episode for episode, _ in reversed(found) if episode is not None), None)
+            self.found[vehicle] = last, sum(cost for _, cost in found) / len(found)
         return self.found[vehicle]
+
+    def _one(self, event: Event, vehicle: int) -> tuple[Episode | None, float]:
+        exact = self.context.holds(event, self.begin, self.end)
+        near = exact or like(self.context, event, self.begin, self.end)
+        near = tuple(e for e in near if _concerns(e, vehicle))
+        return near[-1] if near else None, 0.0 if exact else KIN_COST if near else 1.0
 
 
 def _concerns(episode: Episode, vehicle: int) -> bool:
@@ -69,6 +74,12 @@ def fill(event: Event, vehicle: int) -> Event:
 
 def clause_of(event: Event, g: Grounder, window: Window) -> Clause:
     """Ground a relative clause but for its gap."""
+    begin, end = _when(event, g, window)
+    return Clause(g.context, tuple(_parts(event, g, window)), begin, end)
+
+
+def _parts(event: Event, g: Grounder, window: Window) -> Iterator[Event]:
+    """Ground what is done one after the other: "that came out and went past us"."""
     gap: Thing = Vehicle(_GAP)
     actor, target = event.actor, event.object
     if _is_gap(actor):
@@ -79,8 +90,10 @@ def clause_of(event: Event, g: Grounder, window: Window) -> Clause:
         actor = gap
     actor = actor if actor == gap else g.thing(actor, window)
     target = target if target is None or target == gap else g.thing(target, window)
-    begin, end = _when(event, g, window)
-    return Clause(g.context, replace(event, actor=actor, object=target), begin, end)
+    placed = None if first(event.where, Wanted) is not None else event.where
+    yield replace(event, actor=actor, object=target, where=placed, then=None)
+    if event.then is not None:
+        yield from _parts(event.then, g, window)
 
 
 #: What "we" do to the vehicle meant where the clause names no actor but us: "the one we passed".

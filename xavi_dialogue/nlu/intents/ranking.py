@@ -1,0 +1,64 @@
+"""Ranking: the readings of the grammar, and the plain questions of likely intents, by cost.
+
+What the grammar reads clearly, word for word, stays as it is. Where it leaves words unread, or
+reads them at a high cost, the plain questions of likely intents stand beside its readings.
+"""
+
+from collections.abc import Sequence
+from typing import Final
+
+from xavi_dialogue.domain.meaning import Reading, TokenShare
+from xavi_dialogue.nlu.intents.classifier import Intent, judge
+from xavi_dialogue.nlu.intents.features import asking, features
+from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain
+from xavi_dialogue.nlu.intents.mentions import at_time_of, mentioned
+from xavi_dialogue.nlu.intents.signature import asking_acts
+
+CLEAR: Final = 0.75  # cost of each act up to which the grammar is trusted
+OFFERED: Final = 3  # intents of which the plain question is offered, at most
+LIKELY: Final = 0.33  # probability from which on it is, where the grammar leaves words unread ...
+CERTAIN: Final = 0.7  # ... and where it leaves none
+SURE: Final = 0.5  # probability from which on it need not be said how a text was understood
+
+
+def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
+    """Give the readings of a text and the plain questions that it may come to, likeliest first."""
+    best = readings[0]
+    incomplete = bool(best.unknown or best.unread)
+    clear = not incomplete and best.cost <= CLEAR * len(best.acts)
+    if clear or any(share.strange for share in asking(text, best.shares)):
+        return tuple(readings)
+    thing = mentioned(best)
+    offered = [
+        (intent, question)
+        for intent in judge(features(text, best))[:OFFERED]
+        if intent.probability >= (LIKELY if incomplete else CERTAIN)
+        and _leaves_open(best, intent, incomplete)
+        and (question := plain(intent, thing)) is not None
+        and (incomplete or not question.vague)
+    ]
+    found = [_reading(best, [pair]) for pair in offered]
+    if len(offered) > 1:
+        found.append(_reading(best, offered[:2]))
+    return tuple(sorted([*readings, *found], key=lambda reading: reading.cost))
+
+
+def _leaves_open(best: Reading, intent: Intent, incomplete: bool) -> bool:
+    """Tell whether a reading does not ask what a text asks, or not without unread words."""
+    if incomplete and intent.probability >= CERTAIN:
+        return True
+    return not any(is_of(act, intent.name) for act in asking_acts(best.acts))
+
+
+def _reading(best: Reading, pairs: Sequence[tuple[Intent, Plain]]) -> Reading:
+    """Give the reading of a text as the plain questions of intents."""
+    names = " ".join(f"intent:{intent.name}" for intent, _ in pairs)
+    shares = tuple(
+        TokenShare(share.text, share.read, "meaning", names, 0, share.strange)
+        for share in best.shares
+    )
+    probability = sum(intent.probability for intent, _ in pairs)
+    acts = at_time_of(tuple(act for _, question in pairs for act in question.acts), best)
+    unsure = probability < SURE and len(pairs) == 1
+    said = pairs[0][1].text if unsure else ""
+    return Reading(acts, shares, round(best.cost - probability, 3), paraphrase=said)
