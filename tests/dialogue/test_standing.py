@@ -101,7 +101,10 @@ CONTRAST = Contrast(
     evidence=Evidence("tree", 10, 3, ("a",)),
     decided=1.0,
 )
-KEYS = ["kind", "factual", "counterfactual", "outcome", "effects", "causes", "evidence"]
+KEYS = [
+    *("kind", "factual", "counterfactual", "outcome", "effects", "causes", "evidence"),
+    *("continued", "aim", "verdict", "terms", "told", "error"),
+]
 
 
 def test_causal_answers_have_all_keys_of_the_contract() -> None:

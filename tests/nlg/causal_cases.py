@@ -4,6 +4,7 @@ from msgspec.structs import replace
 
 from tests.nlg.scenery import BLUE, GONE, LORRY, LORRY_THEN, OTHER_BLUE
 from xavi_dialogue.domain.answers import (
+    Aim,
     Answer,
     Avoidance,
     CannotSay,
@@ -27,6 +28,7 @@ from xavi_dialogue.domain.answers import (
     OutcomeEstimate,
     Pivot,
     Refusal,
+    Share,
     SupposedOfOther,
     SupposedOfUs,
     TooLittle,
@@ -74,41 +76,63 @@ LATER = Contrast(
     causes=(TURNS_OFF,),
     evidence=Evidence("tree", 120, 32, ("a",)),
     decided=THEN,
-    value=4.0,
-    decisive="time",
+    verdict="better",
+    terms=(Share("time", 4.0),),
+    told=(Share("time", 4.0),),
+    error=0.4,
 )
 CHANGED = Episode(E, "change-left", THEN, 9.0)
 TURNED = Episode(E, "exit-right", 12.0, 15.0)
 
 
+AHEAD = Aim("road", 120.0, destination=False, time=23.7)
+TERMS = {"collision": "collision", "dead": "dead", "termination": "late", "done": "time"}
+
+
 def ends(name, probability=1.0, struck=None, **more):
-    return replace(LATER, outcome=OutcomeEstimate(name, probability, struck), **more)
+    told = (Share(TERMS[name], 9.0, probability if name != "done" else None, 0.0),)
+    ending = OutcomeEstimate(name, probability, struck)
+    return replace(LATER, **{"outcome": ending, "terms": told, "told": told, **more})
 
 
+MAY_BE_LATE = replace(ends("termination", 0.3), outcome=OutcomeEstimate("done", 0.7))
 EFFORT = replace(
     LATER,
     fact=("continue",),
     foil=("change-left",),
     effects=(effect("time", -1.0),),
-    decisive="effort",
+    terms=(Share("effort", 1.0), Share("angular-acceleration", 1.5), Share("time", -1.0)),
+    told=(Share("angular-acceleration", 1.5), Share("time", -1.0)),
 )
-CLOSE = replace(LATER, close=True, value=-1.5, effects=(effect("time", -1.5),), decisive=None)
+CLOSE = replace(
+    LATER,
+    verdict="close",
+    terms=(Share("jerk", 1.0), Share("time", -1.5)),
+    told=(Share("jerk", 1.0), Share("time", -1.5)),
+    error=0.8,
+    effects=(effect("time", -1.5), effect("jerk", 0.4)),
+)
+WORSE = replace(
+    CLOSE, verdict="worse", told=(Share("time", -1.5), Share("jerk", 1.0)), error=0.2, causes=()
+)
 RISKY = replace(
     LATER,
     fact=("exit-right",),
     foil=("exit-straight",),
     effects=(effect("time", -2.5),),
-    decisive="collision",
+    terms=(Share("collision", 80.0, 0.46, 0.02), Share("time", -1.6)),
+    told=(Share("collision", 80.0, 0.46, 0.02), Share("time", -1.6)),
     collision=0.46,
     fact_collision=0.02,
     collided_with=2,
     causes=(MIGHT_TURN,),
 )
-ALONE = replace(LATER, foil=(), outcome=None, effects=())
+ALONE = replace(LATER, foil=(), outcome=None, effects=(), verdict="alone", terms=(), told=())
 STEERING = replace(
     LATER,
     effects=(effect("angular-acceleration", 0.1), effect("time", -2.0)),
-    decisive="angular-acceleration",
+    terms=(Share("angular-acceleration", 3.0), Share("time", -2.0)),
+    told=(Share("angular-acceleration", 3.0), Share("time", -2.0)),
     causes=(),
 )
 
@@ -119,9 +143,16 @@ CHOICES: tuple[Answer, ...] = (
     ChoiceReason("why", CHANGED, replace(LATER, cleared=(3,)), 3, "none"),
     ChoiceReason("why", CHANGED, LATER, 3, "none"),
     ChoiceReason("why", CHANGED, replace(LATER, causes=(GOES_FIRST,))),
-    ChoiceReason("why", CHANGED, replace(LATER, waypoint=True)),
+    ChoiceReason("why", CHANGED, replace(LATER, aim=AHEAD)),
     ChoiceReason("why", CHANGED, STEERING),
     ChoiceReason("why", None, CLOSE, past=False),
+    ChoiceReason("why", CHANGED, WORSE),
+    ChoiceReason("why-not", None, WORSE, past=False),
+    ChoiceReason("necessary", CHANGED, WORSE),
+    ChoiceReason("worth-it", CHANGED, WORSE),
+    ChoiceReason("why-not", None, MAY_BE_LATE),
+    ChoiceReason("why-not", None, ends("dead", 0.9, foil=("change-left",), route="exit-right")),
+    ChoiceReason("why-not", None, replace(EFFORT, continued=("change-right",)), past=False),
     ChoiceReason("why", TURNED, RISKY),
     ChoiceReason("why", CHANGED, replace(LATER, collision=0.03, collided_with=2)),
     ChoiceReason("why", CHANGED, replace(LATER, fact_collision=0.03)),
@@ -129,19 +160,19 @@ CHOICES: tuple[Answer, ...] = (
     ChoiceReason("why", CHANGED, replace(ALONE, causes=())),
     ChoiceReason("why", CHANGED, ends("collision", 0.8, 2, foil=("stop", "exit-right"))),
     ChoiceReason("why", CHANGED, ends("dead", 0.97, foil=("exit-left",))),
-    ChoiceReason("why", CHANGED, ends("dead", foil=("exit-left",), waypoint=True)),
+    ChoiceReason("why", CHANGED, ends("dead", foil=("exit-left",), aim=AHEAD)),
     ChoiceReason("why", CHANGED, ends("termination", 0.7, foil=("stop",))),
     ChoiceReason("why", Episode(E, "continue", 18.0), EFFORT, past=False),
     ChoiceReason("why-not", None, EFFORT),
     ChoiceReason("why-not", None, replace(EFFORT, effects=(), foil=("stop",)), past=False),
-    ChoiceReason("why-not", None, replace(CLOSE, effects=())),
+    ChoiceReason("why-not", None, replace(CLOSE, told=(), effects=())),
     ChoiceReason("necessary", CHANGED, LATER),
     ChoiceReason("necessary", CHANGED, ends("collision", 0.8, 2)),
     ChoiceReason("necessary", CHANGED, ALONE),
     ChoiceReason("necessary", CHANGED, CLOSE),
     ChoiceReason("worth-it", CHANGED, LATER),
     ChoiceReason("worth-it", CHANGED, CLOSE),
-    ChoiceReason("worth-it", CHANGED, replace(CLOSE, value=0.2)),
+    ChoiceReason("worth-it", CHANGED, CLOSE),
     SupposedOfUs(replace(LATER, foil=("stop",), continued=("exit-right",))),
     SupposedOfUs(LATER, past=False),
     SupposedOfUs(LATER, done=True),

@@ -6,6 +6,7 @@ from xavi_dialogue.domain.answers import (
     Measures,
     NothingToAsk,
     Posed,
+    TakenAs,
     Unfamiliar,
     WhichOne,
 )
@@ -126,6 +127,7 @@ QUIZZES = (
     *(Judged(how, Posed("vehicle", Why(STOPPED)), SPEED) for how in ("right", "wrong", "passed")),
     NothingToAsk(),
     NothingToAsk(asked=True),
+    TakenAs("Why did we brake?"),
     Unfamiliar(("blorb",)),
     Unfamiliar(("blorb", "flim")),
     Unfamiliar(("for a sec",), known=True),

@@ -9,11 +9,11 @@ from tests.nlg.causal_cases import (
     EFFORT,
     LATER,
     LEADER,
+    MAY_BE_LATE,
     PRIORITY,
     RISKY,
     SLOW_BUS,
     SLOWED,
-    ends,
 )
 from tests.nlg.scenery import BLUE, LORRY, NOW, OTHER_BLUE, look
 from xavi_dialogue.domain.answers import (
@@ -40,12 +40,14 @@ from xavi_dialogue.domain.answers import (
     OwnSignal,
     PlaceReason,
     Priority,
+    Share,
     SignalReason,
     SupposedOfOther,
     SupposedOfUs,
     Unslowed,
     Verdict,
 )
+from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.facts import Episode, Expectation, Measure
 from xavi_dialogue.domain.meaning import Feel, Request
 from xavi_dialogue.domain.terms import (
@@ -78,6 +80,8 @@ FASTER = Compares(Measured("speed", E), "more", Measured("speed", E, time=At(5.0
 HOPELESS = replace(RISKY, collision=0.9)
 WAY = replace(LATER, foil=("exit-left",), way=True)
 
+TROUBLE = (Share("time", 4.0), Share("effort", 1.0))
+
 CASES: tuple[Answer, ...] = (
     Happenings("list", RIDE * 6),
     Happenings("summary", (RIDE[0], Episode(V, "brake", 2.1, 4.0), *RIDE[1:])),
@@ -103,12 +107,16 @@ CASES: tuple[Answer, ...] = (
     Declined(Request(Event("do", tense="present"))),
     Declined(Request(Event("overtake", object=V)), cannot="there is no lane to the left"),
     OtherReason(1, Episode(V, "brake", 15.0, 17.0), causes=(replace(SLOW_BUS, vehicle=2), LEADER)),
+    ChoiceReason(
+        "why", CHANGED, replace(LATER, causation=Causation("both", (1, 2))), of_causes=True
+    ),
+    MotionReason(SLOWED, (MotionCause("given-up", actions=("exit-right",)),)),
     ChoiceReason("why", CHANGED, WAY),
     ChoiceReason("why-not", None, WAY),
-    ChoiceReason("why-not", None, replace(EFFORT, effects=LATER.effects)),
+    ChoiceReason("why-not", None, replace(EFFORT, effects=LATER.effects, told=TROUBLE)),
     ChoiceReason("why", CHANGED, replace(ALONE, fact_collision=0.1)),
-    ChoiceReason("why", CHANGED, replace(ends("done", 0.5), decisive="late")),
-    SupposedOfUs(replace(ends("done", 0.5), decisive="late")),
+    ChoiceReason("why", CHANGED, MAY_BE_LATE),
+    SupposedOfUs(MAY_BE_LATE),
     Happenings("summary", (RIDE[0], RIDE[2])),
     Happenings("summary", (RIDE[-1], Episode(E, "slow-down", 18.5))),
     GoReason(CHANGED, ()),
@@ -199,6 +207,11 @@ CASES: tuple[Answer, ...] = (
     Declined(
         Request(Event("speed-up", tense="present")),
         facts=(Measure("speed", E, NOW, 13.0, reference=13.9),),
+    ),
+    Declined(
+        Request(Event("keep-distance", object=V, tense="present")),
+        already=True,
+        facts=(Measure("gap", E, NOW, 45.0, to=V),),
     ),
     Comforting(
         Feel("sick"),

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.answers import (
     Answer,
     Declined,
     Reaction,
+    Share,
     SupposedOfOther,
     SupposedOfUs,
     Unslowed,
@@ -25,10 +26,12 @@ SLOWING = Activity(E, NOW, (), 5.0, "slowing")
 LETS = MotionCause("right-of-way", 2)
 GAIN = replace(
     LATER,
-    value=-1.0,
+    verdict="worse",
+    terms=(Share("effort", 2.0), Share("time", -3.0)),
+    told=(Share("time", -3.0), Share("effort", 2.0)),
     effects=(Effect("time", "s", -3.0, -4.0, -2.0, 20, 8),),
 )
-SAME = replace(LATER, effects=())
+SAME = replace(LATER, effects=(), verdict="close", told=())
 SAFER = replace(LATER, fact_collision=0.05)
 RISKIER = replace(LATER, collision=0.05, collided_with=2)
 

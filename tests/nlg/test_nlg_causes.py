@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from planner.trace import COMPONENTS
 from tests.nlg import causal_cases, rare_cases, supposed_cases
-from tests.nlg.causal_cases import CHANGED, LATER, RISKY, effect
+from tests.nlg.causal_cases import AHEAD, CHANGED, LATER, RISKY, effect
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import (
     Cause,
@@ -21,9 +21,11 @@ from xavi_dialogue.domain.answers import (
     Mechanism,
     NotUnderstood,
     OutcomeEstimate,
+    Share,
     SupposedOfUs,
 )
 from xavi_dialogue.domain.vocabulary import MACRO_ACTIONS
+from xavi_dialogue.explain.causes.terms import Difference, told
 from xavi_dialogue.nlg.content.causal_tables import CAUSES, REFUSALS
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.orthography import count_sentences
@@ -71,11 +73,6 @@ def test_every_kind_has_a_case():
 
 actions = st.lists(st.sampled_from(MACRO_ACTIONS), min_size=1, max_size=3).map(tuple)
 shares = st.floats(0.0, 1.0)
-effects = st.lists(
-    st.builds(effect, st.sampled_from(COMPONENTS), st.floats(-20.0, 20.0)),
-    max_size=4,
-    unique_by=lambda e: e.component,
-).map(tuple)
 mechanisms = st.none() | st.builds(
     Mechanism,
     st.sampled_from(("leader", "right-of-way", "cut-in", "blocked", "collision")),
@@ -96,25 +93,47 @@ outcomes = st.builds(
     shares,
     st.none() | st.integers(1, 4),
 )
+terms = st.dictionaries(
+    st.sampled_from((*COMPONENTS, "collision", "dead", "late", "effort")),
+    st.floats(-30.0, 30.0).filter(lambda cost: abs(cost) > 1e-6),
+    max_size=5,
+)
+
+
+def contrast_of(terms, error, risks, aim, **more):
+    """Make a contrast of terms, with what is told of them."""
+    chances = {"collision": risks, "dead": (0.1, 0.0), "late": (0.3, 0.1)}
+    difference = Difference(terms, error, chances)
+    return Contrast(
+        **more,
+        effects=tuple(
+            effect(name, 0.5 * cost) for name, cost in terms.items() if name in COMPONENTS
+        ),
+        collision=risks[0] if risks[0] >= 0.01 else 0.0,
+        fact_collision=risks[1],
+        aim=aim,
+        verdict=difference.verdict,
+        terms=difference.shares,
+        told=told(difference),
+        error=error,
+    )
+
+
 contrasts = st.builds(
-    Contrast,
+    contrast_of,
+    terms=terms,
+    error=st.floats(0.0, 3.0),
+    risks=st.tuples(shares, shares) | st.just((0.0, 0.0)),
+    aim=st.none() | st.just(AHEAD) | st.just(msgspec.structs.replace(AHEAD, destination=True)),
     fact=actions,
     foil=actions,
     outcome=outcomes,
-    effects=effects,
     causes=causes,
     evidence=st.just(Evidence("tree", 9, 9)),
     decided=st.floats(0.0, 20.0),
-    close=st.booleans(),
-    collision=st.just(0.0) | st.floats(0.01, 1.0),
-    fact_collision=shares,
     collided_with=st.none() | st.integers(1, 4),
-    value=st.none() | st.floats(-9.0, 9.0),
     continued=actions | st.just(()),
-    waypoint=st.booleans(),
-    decisive=st.none()
-    | st.sampled_from((*COMPONENTS, "collision", "dead", "late", "effort")),
-)  # fmt: skip
+)
 forms = st.sampled_from(("why", "why-not", "necessary", "worth-it"))
 details = st.sampled_from(("less", "usual", "more", "simpler"))
 
@@ -137,7 +156,7 @@ def test_the_risk_of_a_collision_is_always_told(contrast, form, past):
 
 @given(contrasts)
 def test_what_reaches_only_a_waypoint_does_not_get_us_there(contrast):
-    contrast = msgspec.structs.replace(contrast, waypoint=True)
+    contrast = msgspec.structs.replace(contrast, aim=AHEAD)
     for answer in (ChoiceReason("why", CHANGED, contrast), SupposedOfUs(contrast)):
         text = say(answer, CONTEXT).text
         assert "us there" not in text
@@ -147,12 +166,27 @@ def test_what_reaches_only_a_waypoint_does_not_get_us_there(contrast):
 
 @given(contrasts)
 def test_a_gain_is_not_given_as_the_reason_against_it(contrast):
-    """Where the foil is quicker, that is told with "though", as close or as too little."""
+    """Where the foil is quicker, that is told as against the reason, as close or as better."""
     text = say(ChoiceReason("why", CHANGED, contrast), CONTEXT).text
     if re.search(r"\bsaved\b|\bsooner\b|\bquicker\b", text):
-        assert re.search(r"\bthough\b|\beven\b|\bclose\b|\bnot enough\b|\b(too )?little\b", text), (
-            text
-        )
+        words = r"\bthough\b|\bclose\b|\bnot enough\b|\btoo little\b|\bbetter\b"
+        assert re.search(words, text), text
+
+
+@given(contrasts, st.sampled_from(("why", "why-not")))
+def test_each_verdict_has_its_words(contrast, form):
+    if not contrast.foil or contrast.outcome is None:
+        return
+    text = say(ChoiceReason(form, CHANGED, contrast), CONTEXT).text
+    assert ("t was close: " in text) == (contrast.verdict == "close")
+    assert ("I now think that" in text) == (contrast.verdict == "worse")
+
+
+def test_reasons_that_speak_for_the_foil_cannot_be_given():
+    with pytest.raises(ValueError, match="told terms weigh"):
+        msgspec.structs.replace(LATER, told=(Share("time", 1.0), Share("jerk", -1.5)))
+    with pytest.raises(ValueError, match="told terms weigh"):
+        msgspec.structs.replace(LATER, verdict="worse")
 
 
 def test_the_risk_that_decided_is_the_reason():

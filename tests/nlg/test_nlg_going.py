@@ -3,13 +3,17 @@
 from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace as replace_struct
 
+from tests.nlg.causal_cases import LATER
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import (
     Bystander,
+    ChoiceReason,
     GoReason,
     MotionCause,
     PlaceReason,
+    Share,
     SignalReason,
     Unslowed,
 )
@@ -65,3 +69,31 @@ def test_simpler_words_have_no_figures_but_the_number_of_the_vehicle():
     signal = Episode(ONE, "signal", 9.0, None, side="right")
     assert "%" not in say(SignalReason(1, signal, ("exit-right",), 0.9), simple).text
     assert "seconds" not in say(Unslowed(SLOWED, FIRST, 8.0, 11.0), simple).text
+
+
+RISKY = replace_struct(
+    LATER,
+    foil=("stop",),
+    collision=0.21,
+    fact_collision=0.0,
+    collided_with=1,
+    told=(Share("collision", 40.0, 0.21, 0.0),),
+    verdict="better",
+)
+
+
+def test_a_risk_of_waiting_is_told_with_why_we_went():
+    """A risk of a collision is said, and first, whatever else the reason is."""
+    safe = GoReason(TURN, (Bystander(1, "ego", "steady", 12.0),))
+    text = say(replace_struct(safe, contrast=RISKY), CONTEXT).text
+    assert "21 %" in text
+    assert text.index("21 %") < text.index("had to let us go first")
+    assert "%" not in say(safe, CONTEXT).text
+
+
+def test_a_risk_is_told_beside_the_way():
+    """That a road is the way tells nothing of the risk of another."""
+    way = ChoiceReason("why", None, replace_struct(RISKY, way=True, foil=("exit-left",)))
+    text = say(way, CONTEXT).text
+    assert "the way to our destination" in text
+    assert "21 %" in text

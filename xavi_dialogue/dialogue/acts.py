@@ -84,7 +84,7 @@ def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -
     parts = _parts(understood, done)
     foreseen = foreseen_then(now, acts, done)
     beside = () if foreseen is None else (Part(None, foreseen),)
-    said = speak(now, (*told(parts), *beside), understood.offer)
+    said = speak(now, (*told(parts), *beside), understood.offer, understood.taken_as)
     return replace(said, parts=kept(parts))
 
 

@@ -11,6 +11,7 @@ from xavi_dialogue.dialogue.standing import Result, reason_of
 from xavi_dialogue.domain.answers import (
     Acknowledged,
     Again,
+    Aim,
     Avoidance,
     Cause,
     Certainty,
@@ -31,10 +32,13 @@ from xavi_dialogue.domain.answers import (
     OutcomeEstimate,
     Pivot,
     Posed,
+    Share,
     Sociable,
     SupposedOfOther,
     SupposedOfUs,
+    TakenAs,
     Unfamiliar,
+    Weighing,
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.rewriting import parts
@@ -43,7 +47,7 @@ _MACRO: frozenset[str] = frozenset(get_args(Action))
 #: Talk, which explains nothing.
 TALK: tuple[type, ...] = (
     *(Acknowledged, Again, Comforting, Declined, Helpful, Judged, NothingToAsk, Posed),
-    *(Sociable, Unfamiliar),
+    *(Sociable, TakenAs, Unfamiliar),
 )
 
 
@@ -57,6 +61,12 @@ class Contrastive(msgspec.Struct, frozen=True, kw_only=True):
     effects: tuple[Effect, ...] = ()
     causes: tuple[Cause, ...] = ()
     evidence: Evidence = Evidence()
+    continued: tuple[Action, ...] = ()  # what the counterfactual would be followed by
+    aim: Aim | None = None
+    verdict: Weighing | None = None  # whether the factual is better by the record
+    terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart
+    told: tuple[Share, ...] = ()  # of these, what is told, the decisive one first
+    error: float | None = None  # [s] standard error of the difference
 
 
 def contrastive(result: Result) -> Contrastive | None:
@@ -126,6 +136,12 @@ def _of_contrast(kind: str, contrast: Contrast) -> Contrastive:
         kind=kind,
         factual=contrast.fact,
         counterfactual=contrast.foil,
+        continued=contrast.continued,
+        aim=contrast.aim,
+        verdict=contrast.verdict,
+        terms=contrast.terms,
+        told=contrast.told,
+        error=contrast.error,
         outcome=contrast.outcome,
         effects=contrast.effects,
         causes=contrast.causes,

@@ -9,9 +9,16 @@ from xavi_dialogue.dialogue.explanation import as_json, evidence_of, explanation
 from xavi_dialogue.dialogue.joining import joined
 from xavi_dialogue.dialogue.memory import Memory
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.standing import failed, standing_of
+from xavi_dialogue.dialogue.standing import REFUSALS, failed, standing_of
 from xavi_dialogue.dialogue.turn import Offer, Part, Quiz, Turn
-from xavi_dialogue.domain.answers import Answer, Comforting, NeedRollout, Reason, Refusal
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Comforting,
+    NeedRollout,
+    Reason,
+    Refusal,
+    TakenAs,
+)
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
 from xavi_dialogue.domain.meaning import Reading
 from xavi_dialogue.explain.history.record import Record
@@ -92,8 +99,17 @@ def speech(now: Situation) -> SpeechContext:
     )
 
 
-def speak(now: Situation, said: Sequence[Part], offer: Offer | None = None) -> Said:
-    """Put results into words, one after the other, nothing twice."""
+def speak(
+    now: Situation, said: Sequence[Part], offer: Offer | None = None, taken_as: str = ""
+) -> Said:
+    """Put results into words, one after the other, nothing twice.
+
+    Args:
+        now: the question and what there is to answer it from.
+        said: the results.
+        offer: what is offered where it is asked back.
+        taken_as: the plain question that an unclear one was taken for, told before an answer.
+    """
     context = speech(now)
     utterances: list[Utterance] = []
     for part in said:
@@ -104,6 +120,9 @@ def speak(now: Situation, said: Sequence[Part], offer: Offer | None = None) -> S
         context = replace(context, named=context.named | frozenset(one.mentioned))
         utterances.append(one)
     whole = joined(utterances)
+    if taken_as and any(not isinstance(part.result, REFUSALS) for part in said):
+        asked = now.mind.say(TakenAs(taken_as), context)
+        whole = replace(whole, text=f"{asked.text} {whole.text}")
     open_offer = offer if whole.choices else None
     return Said(reply_of(now, said, whole), tuple(said), whole.mentioned, open_offer)
 

@@ -27,6 +27,7 @@ class Understood:
     offer: Offer | None = None  # what is offered where it is asked back
     named: GroundedAct | None = None  # who was named in what was not understood
     quotes: Mapping[GroundedAct, str] = field(default_factory=dict)  # the words of each act
+    taken_as: str = ""  # the plain question that an unclear one was taken for
     aim: Literal["answer", "quiz", "again", "verdict"] = "answer"
     quiz: Quiz | None = None  # the question of ours that was answered, or was not ...
     judgement: Judgement | None = None  # ... and how

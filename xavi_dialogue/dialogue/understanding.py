@@ -82,7 +82,8 @@ def grounded(grounding: Grounding) -> Understood:
     quotes = dict(zip(grounding.acts, grounding.quotes, strict=False))
     named = None if grounding.named is None else GroundedAct(Elliptic(grounding.named))
     offer = _offer(grounding, clarify)
-    return Understood(acts, before, behind, offer, named, quotes)
+    taken_as = "" if grounding.reading is None else grounding.reading.paraphrase
+    return Understood(acts, before, behind, offer, named, quotes, taken_as)
 
 
 def _offer(grounding: Grounding, clarify: WhichOne | None) -> Offer | None:

@@ -6,16 +6,21 @@ realiser that words it. Nothing looks at which optional fields are set to tell w
 
 from typing import Literal, TypeAlias
 
+import msgspec
+
 from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.evidence import (
+    Aim,
     Cause,
     Contrast,
     Effect,
     Evidence,
     Mechanism,
     OutcomeEstimate,
+    Share,
     Term,
+    Weighing,
 )
 from xavi_dialogue.domain.facts import Episode, Gap, Look, Measure
 from xavi_dialogue.domain.findings import (
@@ -58,8 +63,8 @@ from xavi_dialogue.domain.reasons import (
 from xavi_dialogue.domain.terms import Event, Proposition, Thing
 
 __all__ = [
-    "Acknowledged", "Activity", "Again", "Altered", "Answer", "Avoidance", "Beliefs", "Bound",
-    "Bystander",
+    "Acknowledged", "Activity", "Again", "Aim", "Altered", "Answer", "Avoidance", "Beliefs",
+    "Bound", "Bystander",
     "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort", "Comforting",
     "Compared", "Contrast", "Counted", "Course", "Decided", "Declined", "DidNotHappen",
     "Effect", "Evidence",
@@ -67,9 +72,9 @@ __all__ = [
     "Measures", "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout",
     "NoSuchVehicle", "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options",
     "OtherReason", "OutcomeEstimate", "OwnSignal", "Pivot", "PlaceReason", "PlanAhead", "Posed",
-    "Priority", "Reaction", "Reason", "Refusal", "SignalReason", "Sociable", "Staying", "Summit",
-    "SupposedOfOther", "SupposedOfUs", "Term", "TooLittle",
-    "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "WhichOne",
+    "Priority", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Sociable", "Staying",
+    "Summit", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle",
+    "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -117,6 +122,12 @@ class Acknowledged(Value, frozen=True):
     """The reply to "never mind", "yes", "no" and the like, where nothing is open."""
 
     kind: Literal["cancelled", "yes", "no", "nothing-open", "noted"]
+
+
+class TakenAs(Value, frozen=True):
+    """The plain question that an unclear one was taken for."""
+
+    question: str  # in the passenger's words: "Why did we brake?"
 
 
 class Unfamiliar(Value, frozen=True):
@@ -305,6 +316,7 @@ Answer: TypeAlias = (
     | Helpful
     | Again
     | Acknowledged
+    | TakenAs
     | Unfamiliar
     | Posed
     | Judged
@@ -320,8 +332,9 @@ class NeedRollout(Value, frozen=True):
 
     trace_id: str
     actions: tuple[MacroAction, ...] = ()  # forced for the ego, in order
-    removed: int | None = None  # a vehicle to plan without
+    removed: int | tuple[int, ...] | None = None  # a vehicle to plan without, or several
     rollouts: int = 40
     vehicle: int | None = None  # another vehicle that acts as supposed:
     goal: str | None = None  # where it goes: kind of a goal, or its edge
     vehicle_actions: tuple[MacroAction, ...] = ()  # what it does first
+    faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster

@@ -59,30 +59,121 @@ class Cause(Value, frozen=True):
     necessary: bool | None = None
 
 
+class Causation(Value, frozen=True):
+    """Which vehicles a deed hangs on, tried by planning again without one and without two."""
+
+    kind: Literal[
+        "one",  # without it the deed would not have come about
+        "both",  # each of them had to be there
+        "either",  # one of them would have been enough
+        "pre-empted",  # the first; had it not been there, the second
+        "none",  # no vehicle and no two of those at work made the difference
+        "open",  # that could not be planned
+    ]
+    vehicles: tuple[int, ...] = ()
+    cleared: tuple[int, ...] = ()  # tried, and of no matter
+
+
 #: What the planner reckons with, in seconds: the components of the reward, what other outcomes cost
 #: (collision, dead: off the way to the goal, late: not there in the time foreseen), and effort.
 Term: TypeAlias = Component | Literal["collision", "dead", "late", "effort"]
 
 
-class Contrast(Value, frozen=True):
-    """A fact and a foil compared: the heart of causal answers about our own choice."""
+#: Whether the fact is better by the record as it is known now, or the two are as good within the
+#: error of the comparison; "alone": there is nothing beside the fact.
+Weighing: TypeAlias = Literal["better", "close", "worse", "alone"]
+CHANGES = frozenset[MacroAction](("change-left", "change-right"))
+MOST = 2  # further manoeuvres that are named
+EXITS = frozenset[MacroAction](("exit-left", "exit-right", "exit-straight", "continue-next-exit"))
 
-    fact: tuple[MacroAction, ...]
-    foil: tuple[MacroAction, ...]
+
+class Share(Value, frozen=True):
+    """One term of a difference."""
+
+    term: Term
+    cost: float  # [s] that the foil costs more
+    chance: float | None = None  # of an outcome: how probable it is under the foil ...
+    fact_chance: float | None = None  # ... and under the fact
+
+
+class Aim(Value, frozen=True):
+    """What plans lead to, and their times are to."""
+
+    edge: str
+    position: float  # [m] along the edge
+    destination: bool  # False: a place on the way to it
+    time: float | None = None  # [s] that the fact takes to it
+
+
+class Contrast(Value, frozen=True):
+    """A fact and a foil compared: the heart of causal answers about our own choice.
+
+    Raises:
+        ValueError: what is told of the terms does not bear the verdict out.
+    """
+
+    fact: tuple[MacroAction, ...]  # the whole plan
+    foil: tuple[MacroAction, ...]  # as asked; with `continued`, the whole plan
     outcome: OutcomeEstimate | None  # of the foil
     effects: tuple[Effect, ...]  # largest first
     causes: tuple[Cause, ...]  # most important first
     evidence: Evidence
     decided: float  # [s] time of the decision
     fact_outcome: OutcomeEstimate | None = None
-    close: bool = False  # nothing that can be told speaks for the fact
     collision: float = 0.0  # probability of one under the foil, from 1 % on ...
     fact_collision: float = 0.0  # ... and under the fact
     collided_with: int | None = None  # the likeliest vehicle, where the foil may collide
-    effort: float = 0.0  # [s] that the planner holds against the foil's actions as such
-    value: float | None = None  # [s] by which the fact's expected reward is higher
     continued: tuple[MacroAction, ...] = ()  # what the foil would be followed by
-    waypoint: bool = False  # "there" is a place on the way, not the destination
+    aim: Aim | None = None
     cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
-    decisive: Term | None = None  # what speaks most for the fact, in the planner's own reckoning
+    causation: Causation | None = None  # None: nobody was suspected
     way: bool = False  # the fact is the way to the destination, and no other way is known to be
+    verdict: Weighing = "alone"
+    terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart; largest first
+    told: tuple[Share, ...] = ()  # those that are told, the decisive one first
+    error: float = 0.0  # [s] standard error of the difference
+    route: MacroAction | None = None  # what comes next on our way, where the foil misses it
+
+    def __post_init__(self) -> None:
+        """Refuse reasons that speak for the other side."""
+        weight = sum(share.cost for share in self.told)
+        if (self.verdict == "better" and weight <= 0.0) or (
+            self.verdict == "worse" and weight >= 0.0
+        ):
+            raise ValueError(f"told terms weigh {weight:.3f} s, but the fact is {self.verdict}")
+
+    @property
+    def value(self) -> float | None:
+        """By how much [s] the expected reward of the fact is higher; None: nothing is beside it."""
+        return None if self.verdict == "alone" else sum(share.cost for share in self.terms)
+
+    @property
+    def close(self) -> bool:
+        """Whether the two are as good within the error of the comparison."""
+        return self.verdict == "close"
+
+    @property
+    def decisive(self) -> Term | None:
+        """What speaks most for the fact, in the planner's own reckoning."""
+        return self.told[0].term if self.verdict == "better" else None
+
+    @property
+    def waypoint(self) -> bool:
+        """Whether times are to a place on the way, and not to the destination."""
+        return self.aim is not None and not self.aim.destination
+
+    @property
+    def further(self) -> tuple[MacroAction, ...]:
+        """The manoeuvres that the foil holds beyond what was asked, and the fact does not.
+
+        Changes of lanes; after one of them or going on, also the way taken at the next junction.
+        """
+        rest = [action for action in self.continued if action in CHANGES]
+        for action in reversed(self.fact[len(self.foil) :]):
+            if rest and action == rest[-1]:
+                rest.pop()
+        exits = [action for action in self.continued if action in EXITS]
+        free = self.foil[-1:] and (self.foil[-1] in CHANGES or self.foil[-1] == "continue")
+        if free and exits and exits[0] not in self.fact:
+            rest.append(exits[0])
+        return tuple(rest[:MOST])

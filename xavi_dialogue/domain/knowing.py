@@ -46,6 +46,7 @@ class Method(Value, frozen=True):
     options: tuple[OptionValue, ...] = ()
     evidence: Evidence = Evidence()
     vehicles: int = 0  # whose behaviour was foreseen
+    tried: int = 0  # options that were simulated; of some there may be too little to list them
 
 
 class Pivot(Value, frozen=True):

@@ -331,6 +331,7 @@ class Reading(Value, frozen=True):
     shares: tuple[TokenShare, ...]
     cost: float = 0.0  # lower is likelier, by the words alone
     unread: tuple[Unread, ...] = ()
+    paraphrase: str = ""  # the plain question that the text as a whole was taken for
 
     @property
     def unknown(self) -> tuple[str, ...]:

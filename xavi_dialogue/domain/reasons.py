@@ -4,7 +4,7 @@ from typing import Literal, TypeAlias
 
 from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
-from xavi_dialogue.domain.evidence import Contrast, Evidence
+from xavi_dialogue.domain.evidence import Causation, Contrast, Evidence
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
@@ -23,6 +23,7 @@ class ChoiceReason(Value, frozen=True):
     suspected: Suspected | None = None  # ... and whether it is
     past: bool = True
     ahead: "MotionCause | None" = None  # who stood or crept in the lane that we left
+    of_causes: bool = False  # it was asked who or what causes it
 
 
 class MotionCause(Value, frozen=True):
@@ -33,6 +34,7 @@ class MotionCause(Value, frozen=True):
         "right-of-way",  # somebody goes first
         "cut-in",
         "blocked",
+        "no-room",  # somebody is in the way of leaving the lane
         "turn",  # a turn to be taken at this speed
         "bend",  # likewise a bend of the road
         "roundabout",  # likewise a roundabout
@@ -45,7 +47,7 @@ class MotionCause(Value, frozen=True):
         "starting",  # we have only just set off
         "picking-up",  # we speed up again, and are not there yet
         "parked",  # it has stood there since it was first seen
-        "given-up",  # a stop was decided, and given up again
+        "given-up",  # a stop, or the turn that `actions` are, was decided, and given up again
         "light",
     ]
     vehicle: int | None = None
@@ -73,6 +75,8 @@ class MotionReason(Value, frozen=True):
     cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
     past: bool = False  # it was asked about as past, though it may go on
     halted: float | None = None  # [s] when, while slowing down already, it was decided to stop
+    causation: Causation | None = None  # None: nobody was suspected
+    of_causes: bool = False  # it was asked who or what causes it
 
 
 class Bystander(Value, frozen=True):

@@ -35,7 +35,7 @@ DETAILS: dict[str, Detail] = {
 }
 #: What is not told to be said again: it says something else, or nothing.
 QUIET = (answers.Sociable, answers.Helpful, answers.Acknowledged, answers.Comforting,
-         answers.Declined, answers.Unfamiliar, answers.Posed, answers.Judged,
+         answers.Declined, answers.TakenAs, answers.Unfamiliar, answers.Posed, answers.Judged,
          answers.NothingToAsk, answers.WhichOne, Again)  # fmt: skip
 USUAL = 3  # sentences of an answer, unless more is wanted
 

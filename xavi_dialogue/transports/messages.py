@@ -31,6 +31,8 @@ Count = Annotated[int, msgspec.Meta(ge=0, le=2**53 - 1)]
 Seconds = Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]
 DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
+Gone = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=64)]
+Faster = Annotated[float, msgspec.Meta(ge=-100.0, le=100.0)]
 Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
 Folder = Annotated[str, msgspec.Meta(min_length=1, max_length=4096)]
 CarState = Literal["driving", "paused", "ended"]
@@ -264,10 +266,11 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     request: Name
     trace_id: Name
     actions: Actions = ()  # that the ego takes first
-    removed: Whole | None = None  # a vehicle that is not there
+    removed: Whole | Gone | None = None  # a vehicle that is not there, or several
     vehicle: Whole | None = None  # another vehicle that acts as supposed:
     goal: Place | None = None  # where it goes: the kind of a goal, or its edge
     vehicle_actions: Actions = ()  # what it does first
+    faster: Faster | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 

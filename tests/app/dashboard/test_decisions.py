@@ -11,7 +11,8 @@ import msgspec
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import MAX_BYTES, PlanTrace, TimedAction, encode, fitted
+from planner.fitting import fitted
+from planner.trace import MAX_BYTES, PlanTrace, TimedAction, encode
 from sim.netfile import read_network
 from sim.network import Network
 from tests.dialogue.talking import ride

@@ -2,20 +2,23 @@
 
 import copy
 
+import pytest
+
 from tests.explain.causes.rides import recorded, single, story, told
 from tests.stories import squeezed
 from xavi_dialogue.domain.answers import (
     CannotSay,
     ChoiceReason,
     DidNotHappen,
+    Method,
     MotionReason,
     NoSuchVehicle,
     NotApplicable,
     OtherReason,
 )
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import Whether, Why
-from xavi_dialogue.domain.terms import Caused, Event, Happens, Is, Not, Vehicle
+from xavi_dialogue.domain.meaning import HowDecide, Whether, Why
+from xavi_dialogue.domain.terms import Caused, Event, Exit, Happens, Is, Not, Vehicle
 
 
 def why(action: str, **more: object) -> Why:
@@ -138,3 +141,32 @@ def test_whoever_is_in_front_is_the_reason_for_driving_slowly() -> None:
         assert found.deed.action == action
         assert found.causes[0].kind == "leader"
         assert found.suspected == "main"
+
+
+@pytest.mark.parametrize("doing", ["go", "continue", "keep-lane"])
+def test_going_on_instead_of_stopping_is_answered_about_stopping(doing: str) -> None:
+    driving = Happens(Event(doing, tense="present"))  # type: ignore[arg-type]
+    question = Why(driving, instead=Happens(Event("stop", tense="present")))
+    found = told(recorded("s1-0"), question, 1.0)
+    assert isinstance(found, ChoiceReason)
+    assert (found.form, found.contrast.foil) == ("why-not", ("stop",))
+
+
+def test_going_on_to_the_next_exit_is_not_leaving_at_it() -> None:
+    """Asked where it leaves a roundabout, past whose first exit it went before."""
+    ride = recorded("s3-0")
+    leaves = [t for t in ride.traces if [s.action for s in t.plan][:1] == ["exit-right"]]
+    event = Event("continue-next-exit", object=Exit(1), tense="present")
+    found = told(ride, Why(Not(Happens(event))), leaves[-1].sim_time)
+    assert isinstance(found, ChoiceReason)
+    assert found.contrast.foil == ("continue-next-exit",)
+    assert found.contrast.fact[0] == "exit-right"
+
+
+def test_every_option_that_was_simulated_is_counted() -> None:
+    ride = recorded("s3-0")
+    trace = next(t for t in ride.traces if t.under_way is None)
+    tried = {r.actions[0].action for r in trace.rollouts if r.actions}
+    found = told(ride, HowDecide(), trace.sim_time)
+    assert isinstance(found, Method)
+    assert found.tried == len(tried)

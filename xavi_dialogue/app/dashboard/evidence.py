@@ -191,7 +191,7 @@ def _effects(said: Contrastive) -> tuple[EffectShown, ...]:
 
 def _causes(told: Told, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
     of_ours = told.ours
-    removed = {again.what_if.removed for again in known if again.what_if is not None}
+    removed = {v for again in known if again.what_if is not None for v in again.what_if.gone}
     return tuple(
         CauseShown(
             vehicle=cause.vehicle,
@@ -205,6 +205,6 @@ def _causes(told: Told, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
     )
 
 
-def _was_tried(cause: Cause, removed: set[int | None]) -> bool:
+def _was_tried(cause: Cause, removed: set[int]) -> bool:
     """Whether it was planned again without a vehicle: that it does otherwise shows less."""
     return cause.necessary is not None or cause.vehicle in removed

@@ -52,7 +52,7 @@ def sides(told: Told, traces: Sequence[PlanTrace]) -> tuple[Found | None, Found 
 def _decided(trace: PlanTrace) -> bool:
     """Whether a trace tells of what was decided: others were not supposed to be otherwise."""
     again = trace.what_if
-    return again is None or (again.removed is None and again.vehicle is None)
+    return again is None or not (again.gone or again.vehicle is not None)
 
 
 def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Found]:

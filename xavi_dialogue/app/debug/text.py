@@ -85,10 +85,12 @@ def _head(trace: PlanTrace) -> Iterator[str]:
 def _supposed(trace: PlanTrace) -> str:
     request, said = trace.what_if, []
     assert request is not None
-    if request.removed is not None:
-        said.append(f"without vehicle {request.removed}")
+    if request.gone:
+        said.append(f"without vehicle {' and '.join(map(str, sorted(request.gone)))}")
     if request.vehicle is not None:
         does = _chain(request.vehicle_actions) or one_line(request.goal or "")
+        if isinstance(request.faster, float):
+            does = f"drive {_number(request.faster)} m/s faster"
         said.append(f"supposing that vehicle {request.vehicle} does: {does}")
     if request.actions:
         said.append(f"{request.rollouts} rollouts forced to begin: {_chain(request.actions)}")

@@ -58,6 +58,9 @@ MACROS: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight",
      "continue-next-exit", "stop")
 )  # fmt: skip
+_SLOWING = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
+_SHIFTING = ("cut-in", "change-left", "change-right")
+DEED = 2.0  # weight from which something is told of another vehicle
 #: How much an episode matters in a summary.
 WEIGHT: dict[ActionName, float] = {
     "collide": 20.0, "nearly-collide": 12.0, "arrive": 6.0, "give-way": 6.0, "cut-in": 6.0,
@@ -156,9 +159,8 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
         told = _before(asked, begin)
         begin = min((e.begin for e in told), default=begin)
     if vehicle is not None:
-        told = [e for e in told if _concerns(e, vehicle)]
-        if not told:
-            told = list(asked.world.episodes(actor=Vehicle(vehicle), begin=begin, end=end))
+        told = _deeds(asked, vehicle, begin, end)
+        told += [e for e in asked.world.account(begin, end) if number(e.object) == vehicle]
     else:
         told = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)] or told
     if ride:
@@ -201,8 +203,7 @@ def _weight(asked: Asked, episode: Episode) -> float:
 
 def _same(asked: Asked, one: Episode, other: Episode) -> bool:
     """Tell whether two are one thing: of one actor at one time, slowing down or stopping."""
-    slowing = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
-    both = one.action in slowing and other.action in slowing
+    both = any(one.action in alike and other.action in alike for alike in (_SLOWING, _SHIFTING))
     if one.object != other.object and one.action == other.action == "give-way":
         return False
     if {one.action, other.action} & {"give-way"} and {one.action, other.action} & {"brake"}:
@@ -214,8 +215,10 @@ def _same(asked: Asked, one: Episode, other: Episode) -> bool:
     )
 
 
-def _concerns(episode: Episode, vehicle: int) -> bool:
-    return number(episode.actor) == vehicle or number(episode.object) == vehicle
+def _deeds(asked: Asked, vehicle: int, begin: float, end: float) -> list[Episode]:
+    """Give what a vehicle did in a stretch of the ride; where nothing matters of it, all."""
+    every = asked.world.episodes(actor=Vehicle(vehicle), begin=begin, end=end)
+    return [e for e in every if WEIGHT.get(e.action, 0.0) >= DEED] or list(every)
 
 
 def _of_ride(asked: Asked, begin: float, end: float) -> tuple[Measure, ...]:
@@ -236,8 +239,8 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
     told = list(asked.world.account(begin, end))
     vehicle = number(actor)
     if vehicle is not None:
-        told = [e for e in told if _concerns(e, vehicle)]
-    elif is_us(actor):
+        return select(asked, _deeds(asked, vehicle, begin, end), LISTED)
+    if is_us(actor):
         told = [e for e in told if isinstance(e.actor, Ego)]
     else:
         ours = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)]

@@ -94,6 +94,8 @@ def _duration(of: Measured, asked: Asked) -> Answer:
 
 def _delay(of: Measured, asked: Asked) -> Answer:
     """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
+    if of.event is not None and of.event.action == "overtake":
+        of = replace(of, event=replace(of.event, side=None))
     if of.event is not None and (undone := _not_done(of, of.event, asked)) is not None:
         supposed = WhatIf(Happens(undone), HowMuch(Measured("delay")))
         if (suppose := causal.explainer(supposed, asked)) is not None:

@@ -226,7 +226,7 @@ def _who_caused(question: Which, scene: Asked) -> Answer:
     """Because of whom something came about: the reason."""
     of, _ = unwrapped(question.such)
     assert isinstance(of, Caused)
-    return reasons.why(Why(of.effect if of.effect is not None else of), scene)
+    return reasons.why(Why(of), scene)
 
 
 def _reasons(question: Listing, scene: Asked) -> Answer:

@@ -1,5 +1,6 @@
 """Choices: why the ego did one thing and not another, and whether it had to."""
 
+from collections.abc import Collection
 from typing import Literal
 
 from msgspec.structs import replace
@@ -16,6 +17,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Suspected
 from xavi_dialogue.domain.terms import Ego, Event, Proposition
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.foils import earlier_exit, foil_at, named_foil, settled
 from xavi_dialogue.explain.answers.reading import check_able, event_of, is_past, subject
@@ -89,7 +91,9 @@ def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | 
     first = against.fact[:1]
     if found.node or not first or first[0] not in CHANGES:
         return None
-    return blocking(scene.ride, scene.world, against.decided, first[0])
+    ahead = blocking(scene.ride, scene.world, against.decided, first[0])
+    refuted = ahead is not None and ahead.vehicle in against.cleared
+    return None if refuted else ahead
 
 
 def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
@@ -188,6 +192,19 @@ def needed(event: Event | None, scene: Asked, form: Form = "necessary") -> Answe
 def is_choice(event: Event) -> bool:
     """Tell whether an event of ours is one that the planner chooses, not a way of driving."""
     return not set(names_of(event)) & DRIVING
+
+
+def is_kept_from(other: Event, event: Event, keeping: Collection[ActionName]) -> bool:
+    """Tell whether what was done is only going on, so that why not the other is what is asked.
+
+    Args:
+        other: what was not done.
+        event: what was.
+        keeping: what one does who leaves nothing.
+    """
+    plain = event.object is None and event.side is None and event.where is None
+    going_on = event.action in keeping or (plain and event.action in ("go", "continue"))
+    return going_on and (is_choice(other) or other.action == "stop")
 
 
 def with_suspect(found: Answer, suspect: int | None, rival: int | None = None) -> Answer:

@@ -175,7 +175,9 @@ def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
 
 def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
     """The first cause of a deed; where no vehicle is, what the choice turned on."""
-    if event is not None and negated:
+    chosen = event is not None and (choices.is_choice(event) or event.action == "stop")
+    undone = event is not None and chosen and not _was_done(scene, event)
+    if event is not None and (negated or undone):
         found = choices.why_not(event, scene)
     elif event is not None and not choices.is_choice(event):
         return _motive(event, scene, most=True)

@@ -5,7 +5,7 @@ from msgspec.structs import replace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Happenings, Measures
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS
@@ -25,6 +25,7 @@ from xavi_dialogue.explain.history.thresholds import STANDING
 
 SOON = 3.0  # [s] within which one is about to stop
 LATELY = 15.0  # [s] since when what held us up is still spoken of
+CREEPING = 4.0  # [s] between two halts at one place
 PAUSE = 3.0  # [s] between two slowings that make one
 JOINED = 0.5  # [s] between what belongs together
 #: What costs time.
@@ -52,7 +53,30 @@ def event_lasting(event: Event, asked: Asked) -> Answer:
         found = _standing(asked, event)
     if found is None:
         raise did_not_happen(asked, event)
+    halts = _halts(asked, event, found)
+    if len(halts) > 1 and halts[-1].end is not None:
+        total = sum(duration(asked, halt) for halt in halts)
+        return Measures((Measure("waiting-time", Ego(), halts[0].begin, value=round(total, 2),
+                                 until=asked.now, extreme="total"),))  # fmt: skip
     return lasting(asked, found, event)
+
+
+def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
+    """List the halts of ours that belong to one: with a little creeping between, or of the ride."""
+    if not is_us(event.actor) or event.object is not None or event.action not in HALTS:
+        return []
+    every = asked.world.episodes(actor=Ego(), actions=WAITS)
+    stood = merged(asked, [e for e in every if duration(asked, e) > 0.0])
+    if isinstance(event.time, WholeRide):
+        return list(stood)
+    rows: list[list[Episode]] = []
+    for halt in stood:
+        last = rows[-1][-1] if rows else None
+        if last is None or halt.begin - (last.end or asked.now) > CREEPING:
+            rows.append([])
+        rows[-1].append(halt)
+    about = Window(found.begin, found.end or asked.now)
+    return next((row for row in rows if any(overlaps(asked, e, about) for e in row)), [])
 
 
 def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happenings:

@@ -62,6 +62,8 @@ def foil_at(
 
 def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction, ...]] | None:
     """Find the decision to go past an exit of a roundabout, where that exit is asked about."""
+    if event.action == "continue-next-exit":  # the exit named is the one that it goes on to
+        return None
     named = isinstance(event.object, Exit) and event.object.rank is not None
     if not named and not (event.action == "leave" and event.side is None):
         return None

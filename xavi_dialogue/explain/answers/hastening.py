@@ -19,7 +19,7 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.durations import lost
 from xavi_dialogue.explain.answers.reading import manner_of, vehicle_in
 from xavi_dialogue.explain.causes.crossing import Crossing, crossing
-from xavi_dialogue.explain.causes.driving import ego_speed
+from xavi_dialogue.explain.history.nearing import speed_at
 
 SLOW = 4.0  # [m/s] below which going now is setting off
 JOINED = 0.5  # [s] between what belongs together
@@ -95,7 +95,7 @@ def _letting(scene: Asked, vehicle: int) -> Episode | None:
 
 def _now(event: Event, scene: Asked) -> Episode | None:
     """The waiting that would end now, where it is asked of now; None where it is of the past."""
-    speed = ego_speed(scene.ride, scene.now)
+    speed = speed_at(scene.ride, scene.now)
     said = scene.past is not None and scene.past.said and scene.past.end < scene.now - LATELY
     present = event.tense in ("present", "future") and not said
     early = event.tense == "past" and event.modal is None and scene.past is None

@@ -128,7 +128,7 @@ def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Cert
         return certainty.of_choice(ride, options.free(ride, found)) or certainty.of_plan(
             ride, found
         )
-    if event is not None and negated:
+    if event is not None and (negated or event.modal == "would"):  # what was not done
         about = Subject(None, (), is_past(scene, event), scene.span)
         found = about_foil(ride, about, foils.settled(scene, event)[:1])
     elif event is not None and not choices.is_choice(event):
@@ -196,7 +196,8 @@ def how_decide(question: HowDecide, scene: Asked) -> Answer:
     found = options.free(ride, found)
     count = len(found.trace.predictions)
     rows, rests_on = options.weighed(ride, found), options.situations(found)
-    return Method(found.trace.sim_time, rows, rests_on, count)
+    tried = len(ride.model(found.trace).options(found.node))
+    return Method(found.trace.sim_time, rows, rests_on, count, tried)
 
 
 def _trace_at(scene: Asked) -> PlanTrace:

@@ -21,12 +21,13 @@ from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes import when
-from xavi_dialogue.explain.causes.contrast import RISK
-from xavi_dialogue.explain.causes.driving import Reasons, as_of, ego_speed, reasons_for
+from xavi_dialogue.explain.causes.driving import Reasons, as_of, reasons_for
 from xavi_dialogue.explain.causes.natural import natural
 from xavi_dialogue.explain.causes.premise import episode_of
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.slowness import Slowness, slowness
+from xavi_dialogue.explain.causes.terms import RISK
+from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import chose
 
 SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
@@ -80,7 +81,7 @@ def is_our_speed(of: Compares) -> bool:
 def is_slowing(scene: Asked) -> bool:
     """Tell whether we are slowing down, and still drive."""
     found = scene.world.episodes(Ego(), SLOWING, begin=scene.now - BEGUN)
-    speed = ego_speed(scene.ride, scene.now)
+    speed = speed_at(scene.ride, scene.now)
     return any(e.end is None for e in found) and speed is not None and speed >= STANDING
 
 
@@ -91,7 +92,7 @@ def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
         Unanswered: the record lacks it; or rollouts are needed.
     """
     time = _time(scene, event)
-    speed = ego_speed(scene.ride, time)
+    speed = speed_at(scene.ride, time)
     if speed is not None and speed < STANDING:
         return motion(Event("stand", tense="present"), scene, asked="stand")
     return slow(scene, event=event)
@@ -135,6 +136,7 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
         manner=manner,
         limit=found.limit,
         cleared=found.reasons.cleared,
+        causation=found.reasons.causation,
     )
 
 
@@ -173,7 +175,7 @@ def fast(scene: Asked) -> Answer:
         Unanswered: the record lacks it.
     """
     time = scene.moment
-    speed = ego_speed(scene.ride, time)
+    speed = speed_at(scene.ride, time)
     if speed is None:
         raise Unanswered(NotRecorded("before-record", since=time))
     limit = limit_at(scene.ride, time)
@@ -230,6 +232,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         manner=next(iter(event.manner), None),
         limit=limit_at(scene.ride, deed.begin),
         cleared=reasons.cleared,
+        causation=reasons.causation,
         past=event.tense == "past" or _before(scene),
         halted=_halted(scene, deed, reasons),
     )
@@ -269,7 +272,7 @@ def _given_up(scene: Asked, deed: Episode) -> bool:
 
 def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
     """What goes on now where nothing of what is asked about does: driving slowly, or it is over."""
-    speed = ego_speed(scene.ride, scene.now)
+    speed = speed_at(scene.ride, scene.now)
     found = slowness(scene.ride, scene.world, scene.now)
     if found.is_slow and speed is not None and speed >= STANDING:
         reason = slow(scene)

@@ -31,8 +31,8 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion, overlaps
+from xavi_dialogue.explain.history.nearing import junctions_ahead
 
-PASSED = -2.0  # [m] of a junction that lies behind us by now
 WAYS: tuple[ActionName, ...] = ("turn", "exit-left", "exit-right", "exit-straight")
 STRAIGHT: frozenset[ActionName] = frozenset(("exit-straight", "continue"))
 MODALS = (None, "will", "must", "want", "should")
@@ -44,28 +44,19 @@ def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
     Raises:
         Unanswered: the record does not hold our way.
     """
-    road, trace = asked.world.road(asked.now), asked.ride.at(asked.now)
-    if road is None or trace is None:
+    road = asked.world.road(asked.now)
+    if road is None:
         raise Unanswered(NotRecorded("not-recorded", about="route"))
     place = road.places.get(EGO)
     inside = place is not None and place.roundabout
-    since = _driven(asked, trace.sim_time)
-    left = [(s, s.distance - since) for s in road.route]
-    left = [(s, far) for s, far in left if far > PASSED]
     return tuple(
-        _step(step, far, rank, inside and rank == 1 and step.kind == "roundabout")
-        for rank, (step, far) in enumerate(left, start=1)
+        _step(step, rank, inside and rank == 1 and step.kind == "roundabout")
+        for rank, step in enumerate(junctions_ahead(asked.ride, asked.now), start=1)
     )
 
 
-def _step(step: RouteStep, far: float, rank: int, inside: bool) -> WayStep:
-    return WayStep(step.kind, step.turn, round(max(far, 0.0), 1), rank, step.exit, inside)
-
-
-def _driven(asked: Asked, since: float) -> float:
-    """Tell how far [m] we have driven since a time [s]."""
-    ends = [asked.world.measure("distance-driven", Ego(), t).value for t in (since, asked.now)]
-    return 0.0 if None in ends else (ends[1] or 0.0) - (ends[0] or 0.0)
+def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
+    return WayStep(step.kind, step.turn, round(step.distance, 1), rank, step.exit, inside)
 
 
 def course(asked: Asked, form: str, steps: tuple[WayStep, ...], **more: object) -> Course:

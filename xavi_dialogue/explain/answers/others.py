@@ -25,11 +25,11 @@ from xavi_dialogue.explain.answers.reading import check_seen, event_of, is_own, 
 from xavi_dialogue.explain.causes.actions import YIELDS
 from xavi_dialogue.explain.causes.announced import announced, meeting
 from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
-from xavi_dialogue.explain.causes.driving import ego_speed
 from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, slowed, stood
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.when import RECENT
+from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import ROUNDING
 
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge", "enter", "pull-out")
@@ -89,7 +89,8 @@ def slowly(scene: Asked, vehicle: int) -> Answer:
     if setting_off(scene.ride, scene.now, vehicle):
         return OtherReason(vehicle, deed, None, (MotionCause("starting"),))
     hindered = at_present(scene.ride, vehicle, scene.now)
-    return OtherReason(vehicle, deed, None, hindered.causes, None, hindered.evidence)
+    causes = with_speeds(scene.ride, hindered.causes, scene.now)
+    return OtherReason(vehicle, deed, None, causes, None, hindered.evidence)
 
 
 def believed(content: Proposition, scene: Asked) -> Answer:
@@ -270,7 +271,7 @@ def _pace(event: Event, scene: Asked, vehicle: int) -> MotionCause | None:
     if event.action not in PASSING or not is_own(event.object or Ego()):
         return None
     time = scene.moment
-    ours, its = ego_speed(scene.ride, time), scene.world.measure("speed", Vehicle(vehicle), time)
+    ours, its = speed_at(scene.ride, time), scene.world.measure("speed", Vehicle(vehicle), time)
     if ours is None or its.value is None or its.value > ours + SAME:
         return None
     return MotionCause("limit", EGO, speed=its.value, value=limit_at(scene.ride, time))
@@ -293,7 +294,9 @@ def _told(
     hindered: Hindrance,
     time: float,
 ) -> OtherReason:
-    causes = tuple(_came_in(scene, cause, time) for cause in hindered.causes)
+    told_at = scene.moment if deed is None or deed.end is None else deed.begin
+    hindering = with_speeds(scene.ride, hindered.causes, told_at)
+    causes = tuple(_came_in(scene, cause, time) for cause in hindering)
     goal = _goal(scene, vehicle, time)
     if deed is not None and deed.action in STILL | SLOWING and not _turns(goal):
         goal = None  # nobody stops or slows for going straight on

@@ -27,6 +27,7 @@ from xavi_dialogue.explain.answers.naming import check_sense, first_look, looks,
 from xavi_dialogue.explain.answers.occasions import taken_place
 from xavi_dialogue.explain.answers.plans import current_plan, plan_ahead
 from xavi_dialogue.explain.causes.announced import announced
+from xavi_dialogue.explain.history.nearing import still_to
 
 TOLD = 2  # most vehicles whose whereabouts one answer gives
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
@@ -269,14 +270,8 @@ def _last_way(asked: Asked, vehicle: int) -> Episode | None:
 
 def _to_junction(asked: Asked, thing: Thing, distance: float, at: float) -> Measure:
     """Give the distance to a junction: as last recorded, less what was driven since."""
-    trace = asked.ride.at(at)
-    motion = asked.ride.motion(0)
-    since = at if trace is None else trace.sim_time
-    driven = 0.0
-    for k in motion.within(since, at):
-        if k > 0 and motion.time[k - 1] >= since - 1e-6:
-            driven += motion.speed[k] * (motion.time[k] - motion.time[k - 1])
-    return Measure("distance", Ego(), at, value=max(distance - driven, 0.0), to=thing)
+    left = still_to(asked.ride, distance, at)
+    return Measure("distance", Ego(), at, value=max(left, 0.0), to=thing)
 
 
 def _aim(attribute: Attribute) -> Destination | None:

@@ -4,9 +4,15 @@ import dataclasses
 
 from msgspec import structs
 
-from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotApplicable
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    DidNotHappen,
+    MotionReason,
+    NotApplicable,
+)
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import HowAvoid, Whether, Why
+from xavi_dialogue.domain.meaning import HowAvoid, Why
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
@@ -23,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
 )
-from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Manner, Relation, Side, State
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
 from xavi_dialogue.explain.answers import (
     choices,
     deciding,
@@ -33,6 +39,7 @@ from xavi_dialogue.explain.answers import (
     others,
     refraining,
     signalling,
+    standings,
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.moments import Window
@@ -47,7 +54,7 @@ from xavi_dialogue.explain.answers.reading import (
     unwrapped,
     vehicle_in,
 )
-from xavi_dialogue.explain.causes.driving import ego_speed
+from xavi_dialogue.explain.history.nearing import speed_at
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
 #: Names for going somewhere, that ask for the way where a place or side is said.
@@ -59,7 +66,6 @@ CROSSINGS = frozenset[ActionName](
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
 )
 SLOW = frozenset[State](("slow", "late", "stuck", "stationary"))
-PLACES = frozenset[Relation](("ahead-of", "behind", "left-of", "right-of", "beside", "near"))
 #: What one does who does not leave his lane.
 KEEPING = frozenset[ActionName](
     ("follow", "keep-distance", "approach", "keep-lane", "wait", "stand", "move", "slow-down")
@@ -69,7 +75,6 @@ YIELDING = frozenset[ActionName](
     ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
-SIDES: dict[str, Side] = {"left": "left", "right": "right"}
 #: How long something of ours takes, which waiting explains.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 STANDING = 0.3  # [m/s]
@@ -84,10 +89,13 @@ def why(question: Why, scene: Asked) -> Answer:
     """
     of, negated = unwrapped(question.of)
     blamed = check_seen(scene, question.suspect)
+    of_causes = question.suspect is not None or isinstance(of, Caused)
     if isinstance(of, Caused):
         blamed = blamed or check_seen(scene, of.cause)
         of, negated = unwrapped(of.effect) if of.effect is not None else (None, negated)
     found = _why(of, scene, question, negated=negated)
+    if of_causes and isinstance(found, ChoiceReason | MotionReason):
+        found = structs.replace(found, of_causes=True)
     return choices.with_suspect(found, blamed, check_seen(scene, question.rival))
 
 
@@ -108,7 +116,7 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
         case Is():
             return _state(of, scene, question, negated=negated)
         case Related():
-            return _related(of, scene, question)
+            return standings.related(of, scene)
         case Compares(left=left) if motions.is_our_speed(of):
             ahead = of.comparator == "more" and is_own(left.thing)
             behind = of.comparator == "less" and not is_own(left.thing)
@@ -120,11 +128,11 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
         case Has(attribute="lane") if is_own(of.thing):
             return choices.in_lane(scene)
         case Has(attribute="indicator" | "brake-lights"):
-            return _signalling(of, scene)
+            return standings.signalling(of, scene)
         case Believed(content):
             return others.believed(content, scene)
         case Exists():
-            return _fact(of, scene)
+            return standings.fact(of, scene)
     return choices.why(None, scene)
 
 
@@ -166,8 +174,8 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         if manner_of(event, "fast") is not None:
             return motions.fast(scene)
     other = event_of(instead)
-    if other is not None and choices.is_choice(other) and event.action in KEEPING:
-        return choices.why_not(other, scene)
+    if other is not None and choices.is_kept_from(other, event, KEEPING):
+        return choices.why_not(structs.replace(other, tense=event.tense), scene)
     if event.action == "signal":
         return signalling.why_signal(event.side, scene, past=is_past(scene, event))
     blamed = question is not None and question.suspect is not None
@@ -259,7 +267,7 @@ def _not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
 
 def _not_going(event: Event, scene: Asked) -> Answer:
     """Why we did not go: whom we stood or slowed for; else why we did otherwise."""
-    speed = ego_speed(scene.ride, scene.moment)
+    speed = speed_at(scene.ride, scene.moment)
     if not is_past(scene, event) and (speed is None or speed < STANDING):
         return motions.motion(Event("stand", tense="present"), scene)
     if event.action in WAY and _tells_way(event):
@@ -301,50 +309,8 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
         return motions.fast(scene)
     if of.state in ("close", "far"):
         return motions.slow(scene, "close" if of.state == "close" else "far")
-    return _fact(of, scene)
+    return standings.fact(of, scene)
 
 
 def _nobody() -> Thing:
     return Pronoun("it")
-
-
-def _related(of: Related, scene: Asked, question: Why) -> Answer:
-    """Why two things stand so to each other: what the one that moves does."""
-    lane_like = of.relation == "on" and is_own(of.thing)
-    if lane_like:
-        return choices.in_lane(scene)
-    tense = of.tense
-    if is_own(of.thing) and vehicle_in(of.to) is not None:
-        if of.relation == "waiting-for":
-            return motions.motion(Event("wait", object=of.to, tense=tense), scene)
-        if of.relation in ("must-yield-to", "has-priority-over"):
-            return _fact(of, scene)
-        manner: Manner = "close" if of.relation in ("near", "closer-than") else "slowly"
-        return motions.slow(scene, manner)
-    if vehicle_in(of.thing) is not None:
-        if of.relation in ("waiting-for", "in-the-way-of"):
-            event = Event("stand", of.thing, object=of.to, tense=tense)
-            return others.why(event, scene, negated=False)
-        if is_own(of.to) and of.relation in PLACES:
-            return others.placed(of, scene)
-        return others.why(Event("do", of.thing, tense=tense), scene, negated=False)
-    del question
-    return _fact(of, scene)
-
-
-def _signalling(of: Has, scene: Asked) -> Answer:
-    if is_own(of.thing) and of.attribute == "brake-lights":
-        return motions.motion(Event("brake", tense=of.tense), scene)
-    if is_own(of.thing):
-        side = SIDES.get(of.value)
-        return signalling.why_signal(side, scene, past=of.tense != "present")
-    event = Event("signal", of.thing, tense=of.tense)
-    return others.why(event, scene, negated=False)
-
-
-def _fact(of: Proposition, scene: Asked) -> Answer:
-    """What has no cause that the record tells: whether it is so at all."""
-    # Deferred: whether something is so may itself be asked of the reasons.
-    from xavi_dialogue.explain.answers.verdicts import whether
-
-    return whether(Whether(of), scene)

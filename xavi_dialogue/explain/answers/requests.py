@@ -29,6 +29,7 @@ from xavi_dialogue.explain.answers.talk import speed_of
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
+KEPT = 1.8  # [s] behind somebody from which on we keep our distance
 SOON = 3.0  # [s] within which what is planned is as good as begun
 TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
 
@@ -120,8 +121,10 @@ def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
 def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
     """Tell whether the car is just doing what it is told to do."""
     action = sided(event)
-    if action == "keep-distance":  # more of it is asked for
-        return False
+    if action == "keep-distance":
+        to = event.object if isinstance(event.object, Vehicle) else None
+        kept = asked.world.measure("headway", Ego(), asked.now, to).value
+        return kept is not None and kept >= KEPT
     if action in TREND:
         return trend == TREND[action]
     if action in HALTS:

@@ -4,10 +4,10 @@ from planner.trace import Action
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.explain.causes.driving import ego_speed
 from xavi_dialogue.explain.causes.roadside import limit_at
 from xavi_dialogue.explain.causes.slowness import in_lane_ahead
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import Ride
 
 HORIZON = 8.0  # [s] of driving within which somebody slow is a reason to leave the lane
@@ -28,7 +28,7 @@ def blocking(ride: Ride, world: World, time: float, change: Action) -> MotionCau
 
 
 def _slower(ride: Ride, world: World, time: float, moment: float) -> Look | None:
-    speed, limit = ego_speed(ride, time) or 0.0, limit_at(ride, time)
+    speed, limit = speed_at(ride, time) or 0.0, limit_at(ride, time)
     pace = max(speed, limit or 0.0)
     for look in in_lane_ahead(ride, world, moment, HORIZON * speed, at=time):
         return look if look.speed <= pace - SLOWER else None
@@ -43,7 +43,7 @@ def _slow_beside(ride: Ride, world: World, time: float, change: Action, speed: f
     if ours is None or ours.lane is None:
         return False
     target = ours.lane + (1 if change == "change-left" else -1)
-    reach = HORIZON * (ego_speed(ride, time) or 0.0)
+    reach = HORIZON * (speed_at(ride, time) or 0.0)
     for vehicle in world.in_view(time):
         place, look = places.get(vehicle), world.look(vehicle, time)
         if place is None or look is None or (place.edge, place.lane) != (ours.edge, target):

@@ -2,10 +2,14 @@
 
 from collections.abc import Sequence
 
+from msgspec.structs import replace
+
 from planner.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import ComponentEffect, effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import (
+    Aim,
+    Cause,
     Contrast,
     Effect,
     Evidence,
@@ -15,13 +19,12 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
-from xavi_dialogue.explain.causes.actions import CHANGES, same
+from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, same
 from xavi_dialogue.explain.causes.involved import contrastive_causes, holding_up
 from xavi_dialogue.explain.causes.necessity import Proven, proven
-from xavi_dialogue.explain.causes.terms import decisive, differences, effort, is_close
+from xavi_dialogue.explain.causes.terms import RISK, differences, told
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, thin
-
-RISK = 0.01  # probability of a collision from which it is always told
+from xavi_dialogue.explain.history.thresholds import STANDING
 
 
 def contrast(ride: Ride, trace: PlanTrace, foil: Actions | None, node: Actions = ()) -> Contrast:
@@ -113,9 +116,22 @@ def compare(
         Unanswered: rollouts are needed.
     """
     found = effects(there, here)
-    causes = contrastive_causes(model, there, here, found)
+    causes = [_as_seen(ride, model, c) for c in contrastive_causes(model, there, here, found)]
     tried = proven(ride, model, causes, here, there)
     return sides(ride, model, here, there, foil, tried)
+
+
+def _as_seen(ride: Ride, model: CausalModel, cause: Cause) -> Cause:
+    """Tell one that has stood ever since it was seen, and is in our way, as standing there.
+
+    What was believed of where it would go is no reason then.
+    """
+    seen = ride.motion(cause.vehicle).until(model.trace.sim_time).speed
+    how = cause.mechanism
+    if not seen or max(seen) >= STANDING or how is None or how.how not in ("leader", "blocked"):
+        return cause
+    stands = replace(how, speed_from=0.0, speed_to=0.0, present=True)
+    return replace(cause, actions=(), probability=1.0, mechanism=stands)
 
 
 def sides(
@@ -127,11 +143,11 @@ def sides(
     tried: Proven | None = None,
 ) -> Contrast:
     """Put fact and foil beside each other, with the causes that were tried."""
-    terms = differences(model, there, here)
-    close = is_close(terms)
+    difference = differences(model, there, here)
+    close = difference.verdict == "close"
     known = () if tried is None else tried.causes
     causes = tuple(c for c in known if c.mechanism is not None) if close else known
-    risk = min(there.outcomes["collision"], 1.0)
+    risk, own_risk = difference.risks
     struck = there.collisions()
     return Contrast(
         fact=here.plan,
@@ -142,17 +158,41 @@ def sides(
         evidence=evidence(ride, model, here, there),
         decided=model.trace.sim_time,
         fact_outcome=outcome(here),
-        close=close,
         collision=risk if risk >= RISK else 0.0,
-        fact_collision=min(here.outcomes["collision"], 1.0),
+        fact_collision=own_risk,
         collided_with=max(struck, key=lambda v: struck[v]) if struck and risk >= RISK else None,
-        effort=effort(there) - effort(here),
-        value=sum(terms.values()),
         continued=there.plan[len(foil) :],
-        waypoint=model.trace.waypoint is not None,
+        aim=aim(model.trace, here),
         cleared=() if tried is None else tried.cleared,
-        decisive=decisive(terms),
+        causation=None if tried is None else tried.causation,
+        verdict=difference.verdict,
+        terms=difference.shares,
+        told=told(difference),
+        error=difference.error,
+        route=missed(model.trace, there, here),
     )
+
+
+def missed(trace: PlanTrace, there: Intervention, here: Intervention) -> Action | None:
+    """Find what comes next on our way, where the foil goes another or keeps to a wrong lane.
+
+    None where the foil probably arrives or collides, or stops, and so loses time above all.
+    """
+    route = () if trace.road is None or "stop" in there.plan else trace.road.route
+    if not route or route[0].kind != "junction" or there.likeliest in ("done", "collision"):
+        return None
+    turn = route[0].turn
+    taken = next((action for action in there.plan if action in EXITS), None)
+    if taken is not None:
+        return turn if taken != turn and here.likeliest == "done" else None
+    moves = set(there.plan) & set(CHANGES)
+    return turn if moves and turn != "exit-straight" else None
+
+
+def aim(trace: PlanTrace, here: Intervention) -> Aim:
+    """Tell what the plans of a decision lead to, and how long the one taken is expected to need."""
+    goal = trace.waypoint or trace.goal
+    return Aim(goal.edge, goal.position, trace.waypoint is None, here.expectation("time"))
 
 
 def alone(
@@ -169,8 +209,9 @@ def alone(
         decided=model.trace.sim_time,
         fact_outcome=outcome(here),
         fact_collision=min(here.outcomes["collision"], 1.0),
-        waypoint=model.trace.waypoint is not None,
+        aim=aim(model.trace, here),
         cleared=() if tried is None else tried.cleared,
+        causation=None if tried is None else tried.causation,
     )
 
 

@@ -6,33 +6,37 @@ was in the way, the road tells: a turn, a line to give way at, the end of the tr
 """
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from msgspec.structs import replace
 
 from planner.events import Event as RideEvent
 from planner.trace import PlanTrace
-from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
+from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS
 from xavi_dialogue.explain.causes.contrast import evidence, factual
+from xavi_dialogue.explain.causes.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.involved import LIKELY, expected_actions, holding_up
-from xavi_dialogue.explain.causes.necessity import Proven, proven
+from xavi_dialogue.explain.causes.necessity import proven
+from xavi_dialogue.explain.causes.ready import given_up, ready_for
 from xavi_dialogue.explain.causes.roadside import road_causes
+from xavi_dialogue.explain.causes.yielding import close_leader, goes_first, kept, leads
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
-ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
 JUST_OVER = 1.0  # [s] within which an ended deed counts as going on
 FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
+MUCH = 0.8  # of the longest hold-up; of decisions held up so long the last knows most
 AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
-SOON, FAR = 2.0, 5.0  # [s] after a decision within which it shows that one is slower for somebody
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
 STOPPING = 0.5  # [s] by which braking may go on after a stop was given up
 LATELY = 2.5  # [s] since when a stop that was given up is what is asked about
@@ -48,9 +52,14 @@ class Reasons:
     """Why the ego drove so in one episode."""
 
     causes: tuple[MotionCause, ...]
-    cleared: tuple[int, ...]
+    causation: Causation | None  # None: nobody was suspected
     evidence: Evidence
     trace: PlanTrace
+
+    @property
+    def cleared(self) -> tuple[int, ...]:
+        """The vehicles that make no difference."""
+        return () if self.causation is None else self.causation.cleared
 
 
 def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
@@ -74,45 +83,65 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
         plan = factual(model, trace)
     except Unanswered:
         road = road_causes(ride, trace, deed)
-        return Reasons(road, (), Evidence(traces=(trace.trace_id,)), trace)
+        return Reasons(road, None, Evidence(traces=(trace.trace_id,)), trace)
     braked = deed.action != "speed-up"  # what freed the way is not recorded
     window = (deed.begin - LEEWAY, end + LEEWAY)
+    plan = in_hindsight(ride, model, plan)
     found = holding_up(model, plan, window) if braked else ()
-    ranked = _first(model, found, None if wait is None else wait.vehicle)
-    slow_at = min(max(end, trace.sim_time + SOON), trace.sim_time + FAR)
-    tried = proven(ride, model, ranked, plan, at=slow_at)
-    tried = _with_wait(tried, wait)
+    waited = None if wait is None else wait.vehicle
+    ranked = _first(model, found, waited)
+    road = road_causes(ride, trace, deed)
+    free = all(cause.kind == "plan" for cause in road)
+    tried = kept(proven(ride, model, ranked, plan), ranked, trace, waited, alone=free)
     causes = tuple(motion_cause(ride, world, cause, trace, deed.begin) for cause in tried.causes)
     over = deed.end is not None and ride.now - deed.end > JUST_OVER
     causes = as_of(ride, causes, deed.begin if over else ride.now)
     rests_on = evidence(ride, model, plan)
     if not causes:
-        causes = beside(of_road(ride, trace, deed, plan), tried.cleared)
+        causes = beside(of_road(ride, trace, deed, plan, tried.cleared), tried.cleared)
+        lead = None
+        if braked and any(c.kind == "give-way-line" and not c.vehicle for c in causes[:1]):
+            lead = close_leader(world, model, plan, deed.begin, speed_at(ride, deed.begin))
+        if lead is not None:
+            causes = (motion_cause(ride, world, lead, trace, deed.begin), *causes)
     elif deed.action in SLOWING:
-        road = road_causes(ride, trace, deed)
         causes = (*causes, *(cause for cause in road if cause.kind in ROAD))
-    return Reasons(causes, tried.cleared, rests_on, trace)
+    return Reasons(causes, tried.causation, rests_on, trace)
 
 
 def of_road(
-    ride: Ride, trace: PlanTrace, deed: Episode, plan: Intervention
+    ride: Ride,
+    trace: PlanTrace,
+    deed: Episode,
+    plan: Intervention,
+    cleared: Collection[int],
 ) -> tuple[MotionCause, ...]:
     """Tell what of the road explains an episode, with whom one has to be ready to let go first.
 
     At a line that is reached already, with nobody to let go, the way behind it is the reason.
+    Vehicles that make no difference are not spoken of.
     """
-    found = [_to_whom(trace, plan, one) for one in road_causes(ride, trace, deed)]
+    found = [_to_whom(trace, plan, one, cleared) for one in road_causes(ride, trace, deed)]
+    if all(one.kind == "plan" for one in found):
+        first = None
+        if deed.action != "speed-up":
+            first = ready_for(ride, deed, cleared) or given_up(ride, deed)
+        found = found if first is None else [first]
     line = [one.kind == "give-way-line" and not (one.vehicle or one.value) for one in found]
     return tuple(one for _, one in sorted(zip(line, found, strict=True), key=lambda pair: pair[0]))
 
 
-def _to_whom(trace: PlanTrace, plan: Intervention, cause: MotionCause) -> MotionCause:
+def _to_whom(
+    trace: PlanTrace, plan: Intervention, cause: MotionCause, cleared: Collection[int]
+) -> MotionCause:
     """Add who may have to be let go first where one has to be ready to give way."""
     if cause.kind != "give-way-line":
         return cause
-    shares = {v: h.share for v, h in hold_ups(plan).items() if _goes_first(trace, v)}
+    shares = {
+        v: h.share for v, h in hold_ups(plan).items() if v not in cleared and goes_first(trace, v)
+    }
     facts = () if trace.road is None else trace.road.priority
-    known = [fact.vehicle for fact in facts if fact.who == "vehicle"]
+    known = [f.vehicle for f in facts if f.who == "vehicle" and f.vehicle not in cleared]
     alone = known[0] if len(known) == 1 else None
     first = max(shares, key=lambda v: shares[v], default=alone)
     return cause if first is None else replace(cause, vehicle=first)
@@ -131,18 +160,16 @@ def motion_cause(
 ) -> MotionCause:
     """Tell a vehicle that held us up as a reason for how we drove."""
     how = cause.mechanism.how if cause.mechanism is not None else "leader"
-    joins = how in ("leader", "cut-in") and _goes_first(trace, cause.vehicle)
-    if joins and not _leads(world, cause.vehicle, time):
+    joins = how in ("leader", "cut-in") and goes_first(trace, cause.vehicle)
+    if joins and not leads(world, cause.vehicle, time):
         how = "right-of-way"  # it will be ahead of us only once we have let it go first
     since = world.episodes(Vehicle(cause.vehicle), SINCE, trace.sim_time, ride.now)
     since = tuple(e for e in since if e.begin >= trace.sim_time)
-    speeds = ride.motion(cause.vehicle).until(time).speed
     return MotionCause(
-        kind="blocked" if how == "collision" else how,
+        kind="no-room" if how == "collision" else how,
         vehicle=cause.vehicle,
         actions=cause.actions,
         probability=cause.probability,
-        speed=speeds[-1] if speeds else None,
         did=since[0] if since else None,
         necessary=cause.necessary,
     )
@@ -150,20 +177,12 @@ def motion_cause(
 
 def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[MotionCause, ...]:
     """Tell who held us up with their speeds at a time [s], without leaders who drew away then."""
-    ours, found = ego_speed(ride, time), []
-    for cause in causes:
-        speeds = () if cause.vehicle is None else ride.motion(cause.vehicle).until(time).speed
-        told = replace(cause, speed=speeds[-1]) if speeds else cause
+    ours, found = speed_at(ride, time), []
+    for told in with_speeds(ride, causes, time):
         theirs = told.speed if told.kind == "leader" else None
         if theirs is None or ours is None or theirs <= ours + FASTER:
             found.append(told)
     return tuple(found)
-
-
-def _goes_first(trace: PlanTrace, vehicle: int) -> bool:
-    """Whether a vehicle whose way crosses ours has right of way."""
-    facts = () if trace.road is None else trace.road.priority
-    return any(fact.vehicle == vehicle and fact.who == "vehicle" for fact in facts)
 
 
 def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | None:
@@ -172,16 +191,10 @@ def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | 
         return None
     waits = [event for event in ride.events if event.kind == "gave-way"]
     near = [e for e in waits if deed.begin - BEFORE <= e.sim_time <= end]
-    near = [e for e in near if e.sim_time >= deed.begin or not _leads(world, e.vehicle, deed.begin)]
+    near = [e for e in near if e.sim_time >= deed.begin or not leads(world, e.vehicle, deed.begin)]
     if isinstance(deed.object, Vehicle):
         near = [e for e in near if e.vehicle == deed.object.number] or near
     return near[-1] if near else None
-
-
-def _leads(world: World, vehicle: int | None, time: float) -> bool:
-    """Whether a vehicle drives ahead of us in our lane at a time [s]."""
-    look = None if vehicle is None else world.look(vehicle, time)
-    return look is not None and look.ahead > 0.0 and abs(look.left) <= ASIDE and not look.oncoming
 
 
 def _decision(
@@ -200,11 +213,16 @@ def _decision(
     trace = ride.at(middle if wait is None else wait.sim_time) or next(iter(ride.traces), None)
     if trace is None:
         raise Unanswered(NotRecorded("gap-in-record", since=deed.begin))
-    if wait is not None or deed.action == "speed-up":
+    if deed.action == "speed-up":
         return trace
-    window = (deed.begin - LEEWAY, end + LEEWAY)
-    meanwhile = [t for t in ride.traces if deed.begin - AHEAD <= t.sim_time <= end]
-    return max(meanwhile or [trace], key=lambda t: _held(ride, t, window))
+    begin = deed.begin - (AHEAD if wait is None else BEFORE)
+    window = (begin + AHEAD - LEEWAY, end + LEEWAY)
+    meanwhile = [t for t in ride.traces if begin <= t.sim_time <= end]
+    if wait is not None and wait.vehicle is not None:
+        meanwhile = [t for t in meanwhile if wait.vehicle in t.scene]
+    held = {t.trace_id: _held(ride, t, window) for t in meanwhile}
+    most = max(held.values(), default=0.0)
+    return next((t for t in reversed(meanwhile) if held[t.trace_id] >= MUCH * most), trace)
 
 
 def _stop_of(ride: Ride, deed: Episode, end: float, at: float) -> PlanTrace | None:
@@ -219,13 +237,14 @@ def _stop_of(ride: Ride, deed: Episode, end: float, at: float) -> PlanTrace | No
 
 
 def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
-    """How long [s] the plan of a decision is held up by somebody, at the most."""
+    """How long [s] the plan of a decision is held up by others, of each that probably does so."""
     try:
-        plan = factual(ride.model(trace), trace)
+        model = ride.model(trace)
+        plan = in_hindsight(ride, model, factual(model, trace))
     except Unanswered:
         return 0.0
     found = hold_ups(plan, window).values()
-    return max((held.expected for held in found if held.share >= LIKELY), default=0.0)
+    return sum(held.expected for held in found if held.share >= LIKELY)
 
 
 def _first(
@@ -246,17 +265,3 @@ def _first(
         actions, probability = expected_actions(model, waited_for, likeliest)
         known = [Cause(waited_for, actions, probability, mechanism)]
     return (*known, *(cause for cause in causes if cause.vehicle != waited_for))
-
-
-def _with_wait(tried: Proven, wait: RideEvent | None) -> Proven:
-    """The vehicle that was given way to leads, unless it made no difference."""
-    if wait is None:
-        return tried
-    ranked = sorted(tried.causes, key=lambda cause: cause.vehicle != wait.vehicle)
-    return Proven(tuple(ranked), tried.cleared)
-
-
-def ego_speed(ride: Ride, time: float) -> float | None:
-    """Tell how fast the ego was at a time [m/s]."""
-    speeds = ride.motion(EGO).until(time).speed
-    return speeds[-1] if speeds else None

@@ -147,16 +147,14 @@ def _stretches(
 
 def _cause(ride: Ride, trace: PlanTrace, other: int, met: Sequence[_Meeting]) -> MotionCause:
     share, how = _share(met), _kind(met)
-    speeds = ride.motion(other).until(trace.sim_time).speed
-    speed = speeds[-1] if speeds else None
     if other == EGO:
-        return MotionCause(how, EGO, planned(trace), share, speed)
+        return MotionCause(how, EGO, planned(trace), share)
     model = ride.model(trace)
     if other not in model.vehicles:
-        return MotionCause(how, other, (), share, speed)
+        return MotionCause(how, other, (), share)
     chances = model.choices(other)
     actions, _ = expected_actions(model, other, max(chances, key=lambda c: chances[c]))
-    return MotionCause(how, other, actions, share, speed)
+    return MotionCause(how, other, actions, share)
 
 
 def _share(met: Iterable[_Meeting]) -> float:

@@ -61,7 +61,26 @@ def holding_up(
         h for h in hold_ups(plan, window).values() if h.share >= LIKELY and h.expected >= LONGER
     ]
     found.sort(key=lambda h: (-h.expected, h.vehicle))
-    return tuple(_by_hold_up(model, hold_up, None) for hold_up in found)
+    return tuple(held_by(model, hold_up) for hold_up in found)
+
+
+def held_by(model: CausalModel, held: VehicleHoldUp) -> Cause:
+    """Make a cause of a vehicle that holds the ego up."""
+    return _by_hold_up(model, held, None)
+
+
+def slowing(model: CausalModel, foil: Intervention, fact: Intervention) -> tuple[int, ...]:
+    """List who is collided with or holds the ego up longer under a foil, most important first."""
+    struck = _struck(model, foil, fact, {})
+    return tuple(dict.fromkeys(c.vehicle for c in (*struck, *_longer(model, foil, fact, {}))))
+
+
+def against(model: CausalModel, vehicle: int) -> Cause:
+    """Make a cause of a vehicle that is in the way of what the ego might do instead."""
+    choices = model.choices(vehicle)
+    likeliest = max(choices, key=lambda choice: choices[choice])
+    actions, probability = expected_actions(model, vehicle, likeliest)
+    return Cause(vehicle, actions, probability, Mechanism("collision", None, None, None, 0.0))
 
 
 def expected_actions(model: CausalModel, vehicle: int, choice: Choice) -> tuple[Actions, float]:
@@ -103,8 +122,13 @@ def _slowed(
 ) -> list[Cause]:
     later = any(e.component == "time" and e.delta >= SLOWER for e in effects)
     stuck = foil.outcomes["termination"] - fact.outcomes["termination"] >= MORE_OFTEN
-    if not later and not stuck:
-        return []
+    return _longer(model, foil, fact, measured) if later or stuck else []
+
+
+def _longer(
+    model: CausalModel, foil: Intervention, fact: Intervention, measured: dict[int, Influence]
+) -> list[Cause]:
+    """Those who hold the ego up longer under the foil, longest first."""
     before = hold_ups(fact)
     gains = [
         (held.expected - (before[vehicle].expected if vehicle in before else 0.0), held)

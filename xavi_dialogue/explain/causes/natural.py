@@ -46,7 +46,8 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
     """Compare the way that a plan takes with the best other one; None where nothing is known.
 
     Where no other way leads to the destination, the way taken is the reason, and so it is where
-    the map has it on the route and no other was tried.
+    the map has it on the route and no other is known to lead there. Where one is, what speaks
+    against that one is: the route of a trace follows the plan.
 
     Raises:
         Unanswered: there is too little evidence of the plan, or rollouts are needed.
@@ -68,7 +69,7 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
         return replace(alone(ride, model, here), way=True)
     if not others:
         return None
-    return replace(_compared(ride, model, here, (arriving or others)[0]), way=by_map)
+    return _compared(ride, model, here, (arriving or others)[0])
 
 
 def _compared(

@@ -1,35 +1,53 @@
-"""Necessity: whether a vehicle that is blamed matters, by planning again without it.
+"""Necessity: whether the vehicles that are blamed matter, by planning again without them.
 
 Whoever holds the ego up in the rollouts of a foil may be one of many: without it, the next one
-would. So the decision is taken again without the vehicle. It matters where another action is
-then chosen, or where what spoke for the choice is largely gone. A vehicle that does not matter is
-no cause, and is told apart as cleared.
+would. So the decision is taken again without the vehicle, and where that shows nothing without
+two (`actual`). A choice hangs on vehicles without which it is made otherwise, or most of what
+spoke for it is gone. A way of driving hangs on those without which most of the speed that is
+lost to others on the next stretch of road is not lost. Who makes no difference is no cause.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from msgspec.structs import replace
 
 from planner.trace import PlanTrace
-from xavi_dialogue.causal.model import CausalModel, Intervention
+from sim.scene import EGO
+from xavi_dialogue.causal.holdups import hold_ups
+from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import Cause
-from xavi_dialogue.explain.causes.course import lines
+from xavi_dialogue.domain.evidence import Causation
+from xavi_dialogue.explain.causes.actions import CHANGES
+from xavi_dialogue.explain.causes.actual import SINGLES, Trial, actual_causes
+from xavi_dialogue.explain.causes.hindsight import in_hindsight
+from xavi_dialogue.explain.causes.involved import against, holding_up, slowing
+from xavi_dialogue.explain.causes.profile import driven, speeds
 from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
-MOST = 3  # causes that are tried, and so at most named
-LEAST = 0.5  # [s] of reward that must go with the vehicle ...
-SHARE = 0.25  # ... and this part of what the plan was better by than the foil
-FASTER = 1.0  # [m/s] by which the ego must be faster without a vehicle that makes it slow
+LEAST = 0.5  # [s] of reward that must go with vehicles ...
+SHARE = 0.5  # ... and this part of what the plan was better by than the foil
+NEARLY = 1.0  # [m/s] above the lowest speed, up to which one is as slow
+LOST = 1.0  # [m/s] that the ego must lose to others there, where a way of driving is explained ...
+PART = 0.25  # ... and part of what it is slower there than anywhere with nobody else there ...
+CREEPING = 1.0  # [m/s] below which the ego stands, and loses time instead of speed
+SOMETIMES = 0.25  # [s] of hold-up, expected, from which somebody may be at work
+LEFT = 0.5  # ... and this part of it at most may still be lost without those that matter
 
 
 @dataclass(frozen=True, slots=True)
 class Proven:
-    """The causes that matter, and the vehicles that turned out not to."""
+    """The causes that matter, and what was found of those tried."""
 
-    causes: tuple[Cause, ...]
-    cleared: tuple[int, ...]
+    causes: tuple[Cause, ...] = ()
+    causation: Causation | None = None  # None: nobody was suspected
+    replaced: tuple[int, ...] = ()  # without whom it comes about by others that are then at work
+
+    @property
+    def cleared(self) -> tuple[int, ...]:
+        """The vehicles that turned out not to matter."""
+        return () if self.causation is None else self.causation.cleared
 
 
 def proven(
@@ -38,11 +56,8 @@ def proven(
     causes: Sequence[Cause],
     fact: Intervention,
     foil: Intervention | None = None,
-    at: float | None = None,
 ) -> Proven:
-    """Keep the causes that matter, ordered by how much goes with each.
-
-    Those that cannot be tried are kept, with `necessary` left open, and come last.
+    """Keep the causes that matter; where that cannot be tried, all, with `necessary` left open.
 
     Args:
         ride: the record.
@@ -50,90 +65,160 @@ def proven(
         causes: most important first.
         fact: what was decided.
         foil: what was not; None where a way of driving is explained.
-        at: [s] when the ego was slow, where it is explained why; a vehicle matters as well where
-            the ego would be faster at that time without it.
 
     Raises:
         Unanswered: rollouts are needed.
     """
-    tried = [_tried(ride, model, cause, fact, foil, at) for cause in causes[:MOST]]
-    kept = [one for one in tried if one[0].necessary is not False]
-    kept.sort(key=lambda one: math.inf if one[1] is None else -one[1])
-    cleared = tuple(cause.vehicle for cause, _ in tried if cause.necessary is False)
-    return Proven(tuple(cause for cause, _ in kept), cleared)
-
-
-def _tried(
-    ride: Ride,
-    model: CausalModel,
-    cause: Cause,
-    fact: Intervention,
-    foil: Intervention | None,
-    at: float | None,
-) -> tuple[Cause, float | None]:
-    """A cause with what planning again without it shows, and how much [s] goes with it."""
-    decision = ride.original(model.trace)
-    again = ride.without(decision, cause.vehicle)
-    if again is None:
-        return cause, None
-    changes = planned(again)[:1] != planned(decision)[:1]
-    gone = _gone(ride.model(again), fact, foil)
-    matters = changes and (foil is None or planned(again)[:1] == foil.plan[:1])
-    if gone is None:
-        return replace(cause, decision_changes=changes, necessary=matters or None), None
-    least = LEAST if foil is None else max(LEAST, SHARE * abs(_merit(fact, foil)))
-    paced = at is not None and _is_faster(ride, model, again, fact, at)
-    necessary = matters or gone >= least or paced
-    return replace(cause, decision_changes=changes, necessary=necessary), gone
-
-
-def _gone(other: CausalModel, fact: Intervention, foil: Intervention | None) -> float | None:
-    """How much [s] better off the foil is without the vehicle, or the plan where there is none.
-
-    None where too little is known of that.
-    """
-    here = _again(other, fact)
-    if foil is None:
-        return None if here is None else here.value - fact.value
-    there = _again(other, foil)
-    if here is None or there is None:
-        return None
-    return _merit(fact, foil) - _merit(here, there)
-
-
-def _is_faster(
-    ride: Ride, model: CausalModel, again: PlanTrace, fact: Intervention, at: float
-) -> bool:
-    """Whether the ego drives markedly faster at a time [s] without the vehicle."""
-    there = _again(ride.model(again), fact)
-    if there is None:
-        return False
-    one, other = speed_at(model.trace, fact, at), speed_at(again, there, at)
-    return one is not None and other is not None and other - one >= FASTER
-
-
-def speed_at(trace: PlanTrace, plan: Intervention, at: float) -> float | None:
-    """Tell the expected speed [m/s] of the ego at a time under a plan; None: not recorded."""
-    known = lines(trace)
-    pairs = [
-        (weight, line.speed[k])
-        for result, weight in zip(plan.results, plan.weights, strict=True)
-        if (line := known.get(result.rollout.index)) is not None
-        and (k := line.index(at)) is not None
+    if not causes:
+        return Proven()
+    tests = _Tests(ride, model, fact, foil)
+    suspects = [cause.vehicle for cause in causes]
+    reserve = () if foil is not None else _in_the_way_around(model)
+    found = actual_causes(suspects, reserve, tests.trial)
+    if found.kind == "open":
+        kept = tuple(cause for cause in causes if cause.vehicle not in found.cleared)
+        return Proven(kept, found)
+    blamed = found.vehicles[:1] if found.kind == "pre-empted" else found.vehicles
+    known = {cause.vehicle: cause for cause in causes}
+    told = [
+        known.get(vehicle) or tests.instead(vehicle, suspects) or against(model, vehicle)
+        for vehicle in blamed
     ]
-    mass = sum(weight for weight, _ in pairs)
-    return sum(weight * speed for weight, speed in pairs) / mass if mass > 0.0 else None
+    if found.kind in ("both", "either"):  # none of them comes first but the surest
+        told.sort(key=lambda cause: -cause.probability)
+    needed = found.kind in ("one", "both")
+    return Proven(
+        tuple(
+            replace(cause, decision_changes=tests.changes(cause.vehicle), necessary=needed)
+            for cause in told
+        ),
+        found,
+        tests.replaced(found),
+    )
 
 
-def _again(other: CausalModel, intervention: Intervention) -> Intervention | None:
-    """The same plan, or at least its beginning, where the vehicle is not there."""
-    for length in (len(intervention.plan), 1):
-        found = other.intervene(intervention.plan[:length])
+@dataclass(frozen=True, slots=True)
+class _Tests:
+    """Plans a decision again without some vehicles."""
+
+    ride: Ride
+    model: CausalModel
+    fact: Intervention
+    foil: Intervention | None
+
+    @property
+    def decision(self) -> PlanTrace:
+        """The decision as it was taken."""
+        return self.ride.original(self.model.trace)
+
+    def changes(self, vehicle: int) -> bool | None:
+        """Whether another action is chosen without a vehicle; None where that is not known."""
+        again = self.ride.without(self.decision, vehicle)
+        return None if again is None else planned(again)[:1] != planned(self.decision)[:1]
+
+    def instead(self, vehicle: int, suspects: Sequence[int]) -> Cause | None:
+        """Find how a vehicle holds the ego up where one of those at work is not there."""
+        for suspect in suspects[:SINGLES]:
+            again = None if suspect == vehicle else self.ride.without(self.decision, suspect)
+            plan = None if again is None else self._chosen(again)
+            if again is not None and plan is not None:
+                for cause in holding_up(self.ride.model(again), plan):
+                    if cause.vehicle == vehicle:
+                        return cause
+        return None
+
+    def replaced(self, found: Causation) -> tuple[int, ...]:
+        """List those, where it hangs on nobody, in whose place others would be at work."""
+        alone = found.cleared if found.kind == "none" else ()
+        return tuple(vehicle for vehicle in alone if self.trial((vehicle,)).instead)
+
+    def trial(self, vehicles: tuple[int, ...]) -> Trial:
+        """Tell what it comes to without some vehicles.
+
+        Raises:
+            Unanswered: rollouts are needed.
+        """
+        again = self.ride.without(self.decision, *vehicles)
+        if again is None:
+            return Trial(None)
+        if self.foil is not None:
+            return self._of_choice(again, self.foil)
+        return self._of_driving(again)
+
+    def _of_choice(self, again: PlanTrace, foil: Intervention) -> Trial:
+        other = self.ride.model(again)
+        here, there = _again(other, self.fact), _again(other, foil)
+        instead = () if here is None or there is None else slowing(other, there, here)
+        if planned(again)[:1] == foil.plan[:1] != planned(self.decision)[:1]:
+            return Trial(gone=True, instead=instead)
+        if here is None or there is None:
+            return Trial(None)
+        merit = self.fact.value - foil.value
+        lost = merit - (here.value - there.value)
+        return Trial(lost >= max(LEAST, SHARE * abs(merit)), instead)
+
+    def _of_driving(self, again: PlanTrace) -> Trial:
+        plan = self._chosen(again)
+        ours = speeds(self.model.trace, self.fact)
+        theirs = None if plan is None else speeds(again, plan)
+        if plan is None:
+            return Trial(None)
+        instead = _at_work(plan)
+        alone = self._free(plan, again) if instead else (plan, again)
+        free = None if alone is None else speeds(alone[1], alone[0])
+        stands = self.decision.scene[EGO].speed < CREEPING
+        if ours is None or theirs is None or free is None or stands:
+            best = plan if alone is None else alone[0]
+            gain, most = (one.value - self.fact.value for one in (plan, best))
+            return Trial(gain >= max(LEAST, LEFT * most), instead)
+        done = driven(self.ride, self.decision)
+        ours = ours if done is None else done
+        low = float(np.nanmin(ours))
+        lost = float(np.max((free - ours)[ours <= low + NEARLY]))
+        matters = lost >= max(LOST, PART * (float(np.max(free)) - low))
+        return Trial(matters and float(np.max(free - theirs)) <= LEFT * lost, instead)
+
+    def _chosen(self, again: PlanTrace) -> Intervention | None:
+        """The plan that is then chosen, weighed as the others turned out to drive."""
+        other = self.ride.model(again)
+        found = _again(other, planned(again))
+        return None if found is None else in_hindsight(self.ride, other, found)
+
+    def _free(self, plan: Intervention, again: PlanTrace) -> tuple[Intervention, PlanTrace] | None:
+        """What is chosen with nobody else there, and the decision; None where it is not known."""
+        everybody = {vehicle for vehicle in self.decision.scene if vehicle != EGO}
+        if not everybody & set(again.scene):
+            return plan, again
+        empty = self.ride.without(self.decision, *everybody)
+        found = None if empty is None else self._chosen(empty)
+        return None if empty is None or found is None else (found, empty)
+
+
+def _again(other: CausalModel, wanted: Intervention | Actions) -> Intervention | None:
+    """The same plan, or at least its beginning, where vehicles are not there."""
+    plan = wanted.plan if isinstance(wanted, Intervention) else wanted
+    for length in dict.fromkeys((len(plan), 1)):
+        found = other.intervene(plan[:length])
         if found is not None and enough(found):
             return found
     return None
 
 
-def _merit(fact: Intervention, foil: Intervention) -> float:
-    """By how much [s] the plan is better than the foil."""
-    return fact.value - foil.value
+def _at_work(plan: Intervention) -> tuple[int, ...]:
+    """List who may hold the ego up under a plan, longest first."""
+    found = [held for held in hold_ups(plan).values() if held.expected >= SOMETIMES]
+    return tuple(held.vehicle for held in sorted(found, key=lambda h: (-h.expected, h.vehicle)))
+
+
+def _in_the_way_around(model: CausalModel) -> tuple[int, ...]:
+    """Who makes it worse to leave the lane: who is hit, or holds the ego up, on doing so."""
+    found: dict[int, float] = {}
+    for action in CHANGES:
+        there = model.intervene((action,))
+        if there is None or action not in model.options():
+            continue
+        for vehicle, share in there.collisions().items():
+            found[vehicle] = max(found.get(vehicle, 0.0), 1.0 + share)
+        for cause in holding_up(model, there):
+            found.setdefault(cause.vehicle, cause.probability)
+    return tuple(sorted((v for v in found if v != EGO), key=lambda v: (-found[v], v)))

@@ -34,15 +34,22 @@ def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
     here = factual(model, trace)
     chosen = plan[len(node)]
     base = trace.plan[0].value if not node else here.value
-    rows = [_option(chosen, here, here, base, chosen=True)]
+    rows = [_option(chosen, here, here, base, min(here.outcomes["collision"], 1.0), chosen=True)]
     for foil, there in alternatives(model, chosen, node):
-        value = base - sum(differences(model, there, here).values())
-        rows.append(_option(foil[len(node)], there, here, value, chosen=False))
+        difference = differences(model, there, here)
+        value, risk = base - difference.value, difference.risks[0]
+        rows.append(_option(foil[len(node)], there, here, value, risk, chosen=False))
     return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
 
 
 def _option(
-    action: Action, plan: Intervention, here: Intervention, value: float, *, chosen: bool
+    action: Action,
+    plan: Intervention,
+    here: Intervention,
+    value: float,
+    risk: float,
+    *,
+    chosen: bool,
 ) -> OptionValue:
     ends = outcome(plan)
     delta = next((e.delta for e in effects(plan, here) if e.component == "time"), None)
@@ -56,7 +63,7 @@ def _option(
         time=plan.expectation("time") if arrives else None,
         delta=None if chosen or not arrives else delta,
         value=value,
-        collision=min(plan.outcomes["collision"], 1.0),
+        collision=risk,
         collided_with=max(struck, key=lambda v: struck[v]) if struck else None,
     )
 

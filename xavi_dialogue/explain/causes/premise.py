@@ -83,6 +83,8 @@ def premise(ride: Ride, subject: Subject) -> Premise:
     if not subject.names or set(subject.names) <= OPEN:
         return _unnamed(ride, subject)
     deed = happened(ride, subject.names, subject.span)
+    if deed is None and subject.event is not None and subject.event.action == "overtake":
+        deed = happened(ride, subject.names, _loose(subject.span))  # we moved over before
     over = deed is not None and deed.ended is not None and deed.ended < ride.now - RECENT
     if deed is None or (over and not subject.is_past):
         ahead = None if past(subject.span) else _ahead(ride, subject.names)
@@ -154,9 +156,10 @@ def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Pr
     if turned and any(m in (*TURNS, *STRAIGHT) for m in means(foil[0])):
         return found
     on = found.deed is None or found.deed.action == "continue"
-    if is_open(ride, found.trace, foil) and not (on and past(subject.span) is None):
-        return found
     span = past(subject.span)
+    lately = span is None or span.end >= ride.now - ROUNDING  # "just now": as late as it goes
+    if is_open(ride, found.trace, foil) and not (on and lately):
+        return found
     others = [
         trace
         for trace in ride.traces

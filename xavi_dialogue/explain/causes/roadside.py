@@ -10,6 +10,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.explain.causes.course import lines
+from xavi_dialogue.explain.history.nearing import junctions_ahead, to_destination
 from xavi_dialogue.explain.history.ride import Ride, planned
 
 BRAKING = 1.5  # [m/s2] at which one slows down early and gently
@@ -22,6 +23,9 @@ SLACK = 0.5  # [m/s] by which a speed may exceed the limit
 BENDING = 2.5  # [s] after slowing down in which the bend lies for which it was done
 BEND = math.radians(10.0)  # angle from which the road bends
 
+#: What one comes to a standstill for is never a speed to be driven at.
+HALTS = frozenset(("stop", "stand", "wait", "give-way"))
+PACES = frozenset(("turn", "bend", "roundabout", "limit"))
 TURNS = ("exit-left", "exit-right", "continue-next-exit")
 
 
@@ -31,7 +35,10 @@ def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCaus
         return speeding_up(ride, deed)
     junction = [_from_here(ride, deed, cause) for cause in _junction(trace, deed)]
     found = [*_destination(ride, trace, deed), *junction, *_lower_limit(ride, deed)]
-    return tuple(found[:2] or _bend(ride, trace, deed)) or (MotionCause("plan"),)
+    found = found[:2] or _bend(ride, trace, deed)
+    if deed.action in HALTS:
+        found = [cause for cause in found if cause.kind not in PACES]
+    return tuple(found) or (MotionCause("plan"),)
 
 
 def speeding_up(ride: Ride, deed: Episode) -> tuple[MotionCause, ...]:
@@ -72,9 +79,10 @@ def _destination(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCaus
         return [MotionCause("destination")]
     if trace.road is None or trace.road.distance is None:
         return []
-    reach = _reach(deed)
-    left = trace.road.distance
-    return [MotionCause("destination", value=left)] if left <= reach else []
+    if trace.road.distance > _reach(deed):
+        return []
+    time = ride.now if deed.end is None else deed.begin
+    return [MotionCause("destination", value=to_destination(ride, time))]
 
 
 def _bend(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
@@ -125,8 +133,7 @@ def _junction(trace: PlanTrace, deed: Episode) -> list[MotionCause]:
 
 def _from_here(ride: Ride, deed: Episode, cause: MotionCause) -> MotionCause:
     """A reason that lies at a junction ahead, with how far that is now; without once it is past."""
-    trace = ride.at(ride.now)
-    route = () if trace is None or trace.road is None else trace.road.route
+    route = junctions_ahead(ride, ride.now)
     if deed.end is not None or not route or route[0].distance < CLOSE:
         return replace(cause, value=None)
     if cause.value is None:

@@ -18,14 +18,15 @@ from xavi_dialogue.explain.causes.driving import (
     Reasons,
     as_of,
     beside,
-    ego_speed,
     motion_cause,
     of_road,
 )
 from xavi_dialogue.explain.causes.involved import expected_actions, holding_up
 from xavi_dialogue.explain.causes.necessity import proven
 from xavi_dialogue.explain.causes.roadside import limit_at, road_causes, setting_off
+from xavi_dialogue.explain.causes.yielding import kept
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 SLOW = 0.85  # of the limit, below which driving is slow
@@ -53,7 +54,7 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
         Unanswered: the record lacks it; or rollouts are needed.
     """
     trace = ride.at(time) or next(iter(ride.traces), None)
-    speed = ego_speed(ride, time)
+    speed = speed_at(ride, time)
     if trace is None or speed is None:
         raise Unanswered(NotRecorded("before-record", since=time))
     limit = limit_at(ride, time)
@@ -69,7 +70,7 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
     )
     is_slow = None if limit is None else speed < SLOW * limit
     if limit is not None and speed >= AT_LIMIT * limit:
-        reasons = Reasons((MotionCause("limit", value=limit),), (), _recorded(trace), trace)
+        reasons = Reasons((MotionCause("limit", value=limit),), None, _recorded(trace), trace)
         return Slowness(deed, reasons, limit, is_slow=False)
     reasons = _reasons(ride, world, trace, deed, ahead)
     return Slowness(deed, reasons, limit, is_slow)
@@ -77,7 +78,7 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
 
 def leader(ride: Ride, world: World, time: float) -> Look | None:
     """Find who drives or stands in front of the ego at a time, within some seconds; the nearest."""
-    reach = max(NEAR, HEADWAY * (ego_speed(ride, time) or 0.0))
+    reach = max(NEAR, HEADWAY * (speed_at(ride, time) or 0.0))
     return next(iter(in_lane_ahead(ride, world, time, reach)), None)
 
 
@@ -137,20 +138,21 @@ def _reasons(
         plan = factual(model, trace)
     except Unanswered:
         own = () if ahead is None else (_plain(ahead),)
-        return Reasons(own or road_causes(ride, trace, deed), (), _recorded(trace), trace)
+        return Reasons(own or road_causes(ride, trace, deed), None, _recorded(trace), trace)
     window = (deed.begin - 1.0, deed.begin + AROUND)
     found = list(holding_up(model, plan, window))
     paced = ahead is not None and ahead.speed <= (deed.speed_to or 0.0) + FASTER
     if ahead is not None and paced and ahead.vehicle not in [c.vehicle for c in found]:
         found.append(_as_leader(ride, trace, ahead))
-    tried = proven(ride, model, found, plan, at=trace.sim_time + AROUND)
+    tried = kept(proven(ride, model, found, plan), found, trace)
     held = tuple(motion_cause(ride, world, c, trace, deed.begin) for c in tried.causes)
     causes = list(as_of(ride, held, deed.begin))
     if setting_off(ride, deed.begin):
         causes.append(MotionCause("starting"))
     if not causes:
-        causes = list(beside(of_road(ride, trace, deed, plan), tried.cleared))
-    return Reasons(tuple(causes), tried.cleared, evidence(ride, model, plan), trace)
+        road = of_road(ride, trace, deed, plan, tried.cleared)
+        causes = list(beside(road, tried.cleared))
+    return Reasons(tuple(causes), tried.causation, evidence(ride, model, plan), trace)
 
 
 def _as_leader(ride: Ride, trace: PlanTrace, ahead: Look) -> Cause:

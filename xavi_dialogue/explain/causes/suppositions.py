@@ -25,6 +25,7 @@ from xavi_dialogue.explain.history.ride import (
     thin,
 )
 
+FASTER = 5.0  # [m/s] by which another drives faster where it is supposed to
 #: What is planned again where a way of driving is supposed, and no sample has it.
 STANDS_FOR: dict[ActionName, ActionName] = {
     "slow-down": "stop",
@@ -116,6 +117,13 @@ def otherwise(
         return dataclasses.replace(found, prior=1.0 - believed)
     if negated and not matched:  # nobody thought that it would: things are as they are
         return _given(ride, model, vehicle, every)
+    if names[:1] == ("speed-up",) and not negated:
+        need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, faster=FASTER)
+        again = ride.supposed(trace, need)
+        if again is None and not ride.cannot_have(need):
+            raise Unanswered(need)
+        if again is not None:
+            return compared(ride, trace, again, believed)
     meant = [STANDS_FOR.get(name, name) for name in names]
     steps = tuple(name for name in meant if is_macro(name))
     if negated or not steps:

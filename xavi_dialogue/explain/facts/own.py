@@ -11,6 +11,7 @@ from xavi_dialogue.domain.terms import Destination
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.nearing import driven
 from xavi_dialogue.explain.history.ride import planned
 
 TURNS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
@@ -54,8 +55,8 @@ def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
     been begun in between is no change, nor is a turn that comes within reach of the plan.
     """
     if before.road is not None and after.road is not None:
-        driven = driven_between(states, before.sim_time, after.sim_time)
-        if _turns_elsewhere(before.road, after.road, driven):
+        way = driven(states.motion(EGO), before.sim_time, after.sim_time)
+        if _turns_elsewhere(before.road, after.road, way):
             return True
         old, new = (tuple(a for a in _moves(t) if a not in TURNS) for t in (before, after))
     else:
@@ -71,21 +72,14 @@ def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
     return bool(new) and new[0] not in TURNS
 
 
-def driven_between(states: States, begin: float, end: float) -> float:
-    """The way [m] that the ego drove between two times [s]."""
-    motion = states.motion(EGO)
-    first, last = motion.index(begin), motion.index(end)
-    return 0.0 if first is None or last is None else motion.arc[last] - motion.arc[first]
-
-
-def _turns_elsewhere(before: RoadFacts, after: RoadFacts, driven: float) -> bool:
+def _turns_elsewhere(before: RoadFacts, after: RoadFacts, way: float) -> bool:
     """Whether at the first junction that is on both routes another way is taken."""
     if any(EGO in road.places and road.places[EGO].roundabout for road in (before, after)):
         return False
     for old in before.route:
         for new in after.route:
             same = old.kind == new.kind and old.arms == new.arms
-            if same and abs(old.distance - driven - new.distance) <= SAME_JUNCTION:
+            if same and abs(old.distance - way - new.distance) <= SAME_JUNCTION:
                 return (old.turn, old.exit) != (new.turn, new.exit)
     return False
 

@@ -90,15 +90,17 @@ def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -
     going_on = _open(states, vehicle, sighting.end) and _continues(
         states, vehicle, motion, slower=slower
     )
+    stands = slower and motion.speed[last] < STANDING
+    halt = next(k for k in inside if motion.speed[k] < STANDING) if stands else last
     return Episode(
         named(vehicle),
         "brake" if slower and peak >= BRAKING else sighting.action,
         sighting.start,
-        None if going_on else sighting.end,
+        None if going_on else motion.time[halt],
         speed_from=motion.speed[first],
         speed_to=motion.speed[last],
         peak=round(peak, 2) if slower else None,
-        standing=slower and motion.speed[last] < STANDING,
+        standing=stands,
     )
 
 

@@ -7,11 +7,11 @@ Errors:
 """
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from planner.trace import Action, PlanTrace, VehiclePrediction
+from planner.trace import Action, PlanTrace, VehiclePrediction, WhatIf
 from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import (
@@ -189,12 +189,12 @@ class Ride:
             raise Unanswered(NotRecorded(gap="gap-in-record", since=deed.time))
         return found[0]
 
-    def variants(self, trace: PlanTrace, removed: int | None = None) -> tuple[PlanTrace, ...]:
-        """The plans made again from a decision, without a vehicle or with all of them.
+    def variants(self, trace: PlanTrace, removed: Collection[int] = ()) -> tuple[PlanTrace, ...]:
+        """The plans made again from a decision, without some vehicles or with all of them.
 
         Those for which something was supposed of another vehicle are left out.
         """
-        vehicles = set(trace.scene) - {removed}
+        vehicles = set(trace.scene) - set(removed)
         return tuple(
             extra
             for extra in self.record.extra
@@ -203,14 +203,15 @@ class Ride:
             and (extra.what_if is None or extra.what_if.vehicle is None)
         )
 
-    def without(self, trace: PlanTrace, vehicle: int) -> PlanTrace | None:
-        """The plan made again from a decision without a vehicle; None where that cannot be had.
+    def without(self, trace: PlanTrace, *vehicles: int) -> PlanTrace | None:
+        """The plan made again from a decision without vehicles; None where that cannot be had.
 
         Raises:
             Unanswered: rollouts are needed.
         """
-        again = self.variants(trace, removed=vehicle)
-        need = NeedRollout(trace_id=trace.trace_id, removed=vehicle)
+        again = self.variants(trace, removed=vehicles)
+        gone = vehicles[0] if len(vehicles) == 1 else tuple(sorted(vehicles))
+        need = NeedRollout(trace_id=trace.trace_id, removed=gone)
         if not again and need not in self.record.refused:
             raise Unanswered(need)
         return again[-1] if again else None
@@ -218,15 +219,14 @@ class Ride:
     def supposed(self, trace: PlanTrace, need: NeedRollout) -> PlanTrace | None:
         """The plan made again from a decision with what was supposed of a vehicle, if any."""
         moment = (trace.sim_time, trace.decision)
-        wanted = (need.vehicle, need.goal or None, need.vehicle_actions or ())
+        wanted = (need.vehicle, need.goal or None, need.vehicle_actions or (), need.faster)
         return next(
             (
                 extra
                 for extra in self.record.extra
                 if extra.what_if is not None
                 and (extra.sim_time, extra.decision) == moment
-                and (extra.what_if.vehicle, extra.what_if.goal, extra.what_if.vehicle_actions)
-                == wanted
+                and _of_other(extra.what_if) == wanted
             ),
             None,
         )
@@ -285,6 +285,11 @@ class Ride:
             raise Unanswered(need)
         known = [intervention for _, intervention in found if intervention is not None]
         raise thin(actions, max(known, key=lambda i: i.draws, default=None))
+
+
+def _of_other(what_if: WhatIf) -> tuple[object, ...]:
+    """What a request supposes of another vehicle."""
+    return what_if.vehicle, what_if.goal, what_if.vehicle_actions, what_if.faster
 
 
 def meets(done: tuple[float, float], span: Span) -> bool:

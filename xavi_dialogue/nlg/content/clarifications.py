@@ -1,6 +1,6 @@
 """Clarifications: questions back about what was meant, and owning up to unknown words."""
 
-from xavi_dialogue.domain.answers import Unfamiliar, WhichOne
+from xavi_dialogue.domain.answers import TakenAs, Unfamiliar, WhichOne
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.questions import Asking, meant
@@ -44,6 +44,11 @@ def _told_apart(
         if len(said) == len(items):
             return items, tuple(one.message("ASKED", timed=timed) for one in askings)
     return (), ()
+
+
+def plan_taken_as(answer: TakenAs, context: SpeechContext) -> Plan:
+    """Plan how an unclear question was understood."""
+    return Plan((message("TAKEN_AS", question=answer.question),))
 
 
 def plan_unfamiliar(answer: Unfamiliar, context: SpeechContext) -> Plan:

@@ -82,6 +82,8 @@ def verb_phrase(
         head, _, tail = phrase.partition("{way}")
         owner = Who(target, time, ride=True) if target is not None else None
         return head.strip(), (Owned(owner, "way"), tail.strip()) if owner else ("the way",)
+    if action == "merge" and isinstance(target, Lane | Road):
+        phrase = "merge into {}"
     if action == "come" and isinstance(target, Ego):
         return doing(action), ()
     head, mark, tail = phrase.partition("{}")

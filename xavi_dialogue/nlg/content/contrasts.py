@@ -1,21 +1,21 @@
 """Contrasts: how the foil would have turned out, what of that is the reason, and who causes it.
 
-The reason that is told is the term that decided in the planner's own reckoning. What the effects
-have to say against it is told beside it, and the risk of a collision before all else.
+What is told are the terms that decided in the planner's own reckoning, and what speaks against
+them; see `terms`. Where the record tells no difference, it was close.
 """
 
 from typing import Any, Literal, TypeAlias
 
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.nlg.content.manoeuvres import CHANGES, other_verbs, own_verbs, plain
+from xavi_dialogue.nlg.content import terms
+from xavi_dialogue.nlg.content.manoeuvres import CHANGES, other_verbs, plain
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import (
     Chance,
     Clause,
-    Number,
     Quantity,
     Range,
     Who,
@@ -27,72 +27,50 @@ EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
 STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
-LITTLE = 2.0  # [s] a gain up to which it is called little
-WORSE = 0.25  # [s] by which a plan is worse than its foil by its own record
-LARGE = 8.0  # [s] a difference that is much in everyday words
 
-#: What of the foil is the reason: its outcome, a risk, an effect, effort; or that it was close.
+#: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
+#: tells no difference (close), or speaks for it (worse).
 Kind: TypeAlias = Literal[
-    "collision", "dead", "late", "unsure", "risk", "time", "ride", "effort", "close", "same",
+    "collision", "dead", "late", "unsure", "risk", "time", "ride", "effort", "close", "worse",
     "alone",
 ]  # fmt: skip
 _BY_OUTCOME: dict[str, Kind] = {"collision": "collision", "dead": "dead", "termination": "late"}
+_BY_TERM: dict[str, Kind] = {
+    "collision": "risk", "dead": "unsure", "late": "unsure", "effort": "effort", "time": "time",
+}  # fmt: skip
 
 
 def kind_of(contrast: Contrast) -> Kind:
-    """Tell what of a foil is the reason for the fact."""
-    if not contrast.foil or contrast.outcome is None:
+    """Tell how the foil turns out, and what of that is the reason for the fact."""
+    if not contrast.foil or contrast.outcome is None or contrast.verdict == "alone":
         return "alone"
     if contrast.outcome.name in _BY_OUTCOME:
         return _BY_OUTCOME[contrast.outcome.name]
-    risky = contrast.collision - contrast.fact_collision >= RISK / 2
-    if contrast.decisive == "collision" and risky:
-        return "risk"
-    if contrast.decisive == "effort":
-        return "effort"
-    if contrast.close:
-        more = contrast.collision - contrast.fact_collision >= RISK
-        return "risk" if more and contrast.collision >= RISK else "close"
-    if contrast.decisive in ("dead", "late") and contrast.outcome.probability < SURE:
-        return "unsure"
-    reason = deciding(contrast)
-    if reason is None:
-        return "same"
-    if reason.component == "time":
-        return "time"
-    return "effort" if _steers(contrast) else "ride"
+    if contrast.verdict != "better":
+        return contrast.verdict
+    return _BY_TERM.get(contrast.told[0].term, "ride")
 
 
-def _steers(contrast: Contrast) -> bool:
-    """Whether the foil is a change of lanes more, which is steering by itself."""
-    changes = [sum(a in CHANGES for a in plain(p)) for p in (contrast.foil, contrast.fact)]
-    return changes[0] > changes[1]
-
-
-def deciding(contrast: Contrast) -> Effect | None:
-    """The effect that speaks for the fact: the one that decided, else the first worth telling."""
-    worse = [e for e in worth_telling(contrast) if e.delta > 0.0]
-    decided = [e for e in worse if e.component == contrast.decisive]
-    if decided or contrast.decisive is not None:
-        return decided[0] if decided else None
-    return min(worse, key=lambda e: e.component != "time", default=None)
+def main_effect(contrast: Contrast) -> Effect | None:
+    """Find the effect that decided, where one did."""
+    return next((e for e in contrast.effects if e.component == contrast.decisive), None)
 
 
 def worth_telling(contrast: Contrast) -> list[Effect]:
-    """The effects that are not negligible, largest first."""
+    """List the effects that are not negligible, largest first."""
     least = table("causes")["negligible"]
     return [e for e in contrast.effects if abs(e.delta) > least[e.component]]
 
 
 def time_effect(contrast: Contrast) -> Effect | None:
-    """The difference in time, where it is worth telling."""
+    """Find the difference in time, where it is worth telling."""
     return next((e for e in worth_telling(contrast) if e.component == "time"), None)
 
 
 def consequence_slots(
     contrast: Contrast, context: SpeechContext, *, past: bool, that: bool = False
 ) -> dict[str, Any]:
-    """The slots that tell how the foil would have turned out.
+    """Make the slots that tell how the foil would have turned out.
 
     Args:
         contrast: fact and foil.
@@ -100,119 +78,88 @@ def consequence_slots(
         past: the decision is past.
         that: the foil was named, and is "that".
     """
-    kind = kind_of(contrast)
     outcome = contrast.outcome
     chance = 1.0 if outcome is None else outcome.probability
     struck = outcome.collided_with if outcome is not None else None
     struck = struck if struck is not None else contrast.collided_with
-    reason = deciding(contrast) if kind in ("time", "ride") else None
-    simple = context.detail == "simpler"
+    time, main = time_effect(contrast), main_effect(contrast)
+    later = time is not None and time.delta > 0.0
+    parts, though = terms.sides(contrast, context, past=past)
+    risk = terms.chance_of(contrast)
+    kind = kind_of(contrast)
     return {
         "kind": kind,
+        "verdict": contrast.verdict,
         "past": past,
-        "that": that,
-        "simple": simple,
-        "foil": own_verbs(contrast.foil, contrast.fact),
+        "that": that and not contrast.further and contrast.verdict == "better",
+        "simple": context.detail == "simpler",
+        "foil": terms.foil_verbs(contrast),
+        "parts": parts,
+        "though": though,
         "chance": Chance(chance),
         "sure": chance >= SURE,
         "struck": None if struck is None else Who(Vehicle(struck), contrast.decided),
         "waypoint": contrast.waypoint,
         "way": contrast.way,
-        "ride": None if reason is None or kind == "time" else reason.component,
-        "worse": (contrast.value or 0.0) <= -WORSE,
-        "risk_too": _folded(contrast, kind),
-        "risk": Chance(contrast.collision) if contrast.collision >= RISK else None,
-        "fact_risk": Chance(contrast.fact_collision) if _tells_apart(contrast) else None,
-        **_time(contrast, context, kind),
-        **_effort(contrast),
-        **_opposed(contrast, kind),
+        "ride": main.component if main is not None and kind == "ride" else None,
+        "risk_too": _adds_risk(contrast) and kind not in ("risk", "collision", "alone"),
+        "risk": Chance(risk) if risk >= RISK else None,
+        "later": later,
+        **terms.timed(contrast, context, more=later),
+        **terms.not_worth_it(contrast),
+        **terms.effort(contrast),
     }
 
 
-def _tells_apart(contrast: Contrast) -> bool:
-    """Whether the risk of the fact is worth telling beside that of the foil."""
-    return RISK <= contrast.fact_collision < contrast.collision - RISK
+def _adds_risk(contrast: Contrast) -> bool:
+    """Whether the foil carries a risk of a collision, and more than the fact."""
+    return contrast.collision >= RISK and contrast.collision > contrast.fact_collision
 
 
-def _folded(contrast: Contrast, kind: Kind) -> bool:
-    """Whether the risk of the foil goes into the sentence of the reason."""
-    more = contrast.collision >= RISK and contrast.collision > contrast.fact_collision
-    return more and kind in ("time", "ride", "late", "dead", "unsure")
+def risks(
+    contrast: Contrast, context: SpeechContext, *, past: bool, unsaid: bool = False
+) -> Message | None:
+    """Make a sentence of the risks, where they are not part of that of the reason.
 
-
-def _time(contrast: Contrast, context: SpeechContext, kind: Kind) -> dict[str, object]:
-    """How much later or sooner, as a rule or in the mean; in everyday words where wanted."""
-    effect = time_effect(contrast)
-    if effect is None:
-        return {"delta": None, "later": False, "mean": False}
-    least = table("causes")["negligible"]["time"]
-    size = abs(effect.delta)
-    return {
-        "delta": Quantity(size, "s"),
-        "later": effect.delta > 0.0,
-        "mean": effect.low < -least and effect.high > least,
-        "much": size >= LARGE,
-        "little": size <= LITTLE,
-    }
-
-
-def _effort(contrast: Contrast) -> dict[str, object]:
-    """What the foil takes more of: lane changes, else stops."""
-    whole, fact = (*contrast.foil, *contrast.continued), contrast.fact
-    changes = sum(a in CHANGES for a in plain(whole)) - sum(a in CHANGES for a in plain(fact))
-    stops = sum(a == "stop" for a in plain(whole)) - sum(a == "stop" for a in plain(fact))
-    return {
-        "changes": Number(changes, "lane change") if changes > 1 else None,
-        "change": changes == 1,
-        "stop": stops > 0 and changes <= 0,
-    }
-
-
-def _opposed(contrast: Contrast, kind: Kind) -> dict[str, object]:
-    """The comfort of the ride, where it speaks against the reason that is told."""
-    rides = [e for e in worth_telling(contrast) if e.component != "time"]
-    time = time_effect(contrast)
-    later = time is not None and time.delta > 0.0
-    if kind == "close":
-        rides = [e for e in rides if (e.delta > 0.0) != later] if time is not None else []
-    elif kind != "time" or contrast.decisive is not None:
-        rides = []
-    else:
-        rides = [e for e in rides if e.delta < 0.0]
-    first = rides[0] if rides else None
-    return {
-        "but": None if first is None else first.component,
-        "but_more": first is not None and first.delta > 0.0,
-    }
-
-
-def risks(contrast: Contrast, context: SpeechContext, *, past: bool) -> Message | None:
-    """Make a sentence of the risks, where they are not part of that of the reason."""
-    slots = consequence_slots(contrast, context, past=past)
-    told = slots["kind"] in ("risk", "collision") or slots["risk_too"]
-    if max(contrast.collision, contrast.fact_collision) < RISK or told:
+    Args:
+        contrast: fact and foil.
+        context: the situation.
+        past: the decision is past.
+        unsaid: the sentence of the reason tells nothing of what the foil would come to.
+    """
+    if max(contrast.collision, contrast.fact_collision) < RISK:
         return None
+    slots = consequence_slots(contrast, context, past=past)
     if slots["kind"] == "alone":
         return message("RISK_ALONE", past=past, risk=Chance(contrast.fact_collision))
-    struck = slots["struck"] if contrast.collision >= contrast.fact_collision else None
-    low = Chance(contrast.collision if contrast.collision >= RISK else 0.0)
-    fact = Chance(contrast.fact_collision if contrast.fact_collision >= RISK else 0.0)
+    if tells_risk(contrast) and not unsaid:
+        return None
+    more = contrast.collision > contrast.fact_collision
     return message(
         "BOTH_RISKS",
         past=past,
         foil=slots["foil"],
-        risk=low,
-        fact_risk=fact,
-        struck=struck,
+        risk=Chance(contrast.collision if contrast.collision >= RISK else 0.0),
+        fact_risk=Chance(contrast.fact_collision if contrast.fact_collision >= RISK else 0.0),
+        struck=slots["struck"] if more else None,
         simple=slots["simple"],
-        more=contrast.collision > contrast.fact_collision,
+        more=more,
     )
+
+
+def tells_risk(contrast: Contrast) -> bool:
+    """Tell whether the sentence of the reason tells the risk of a collision."""
+    if kind_of(contrast) == "alone":
+        return False
+    return any(s.term == "collision" and s.cost > 0.0 for s in contrast.told)
 
 
 def told_cause(contrast: Contrast) -> Cause | None:
     """The cause that goes with the reason: who makes the foil worse, or has us drive so."""
     kind = kind_of(contrast)
-    if kind not in ("collision", "late", "risk", "time", "unsure", "alone"):
+    told = {s.term for s in contrast.told if s.cost > 0.0}
+    due = contrast.verdict == "better" and bool(told & {"collision", "late", "time"})
+    if kind != "alone" and not due:
         return None
     if kind in ("collision", "risk"):
         struck = contrast.collided_with

@@ -3,6 +3,7 @@
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import SURE, chances
+from xavi_dialogue.nlg.content.manoeuvres import own_verbs
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Quantity, Who
@@ -47,6 +48,7 @@ def motion_cause(
         kind=cause.kind,
         who=who,
         past=past or _gone(cause, context),
+        turn=own_verbs(cause.actions) if cause.kind == "given-up" and cause.actions else None,
         stands=stands,
         aside=aside,
         speed=speed_told(cause.speed, context),

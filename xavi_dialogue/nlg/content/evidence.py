@@ -1,16 +1,16 @@
 """Evidence: what is told of a comparison where more is wanted: ranges, causes, what it rests on."""
 
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect, Evidence
+from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.terms import Vehicle, Vehicles
 from xavi_dialogue.nlg.content.contrasts import (
     cause_message,
-    deciding,
     kind_of,
     time_effect,
     told_cause,
     worth_telling,
 )
-from xavi_dialogue.nlg.content.manoeuvres import own_verbs, plain
+from xavi_dialogue.nlg.content.terms import foil_verbs
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Who
@@ -27,7 +27,9 @@ def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[
         range_of(contrast),
         _other_effects(contrast, past=past),
         *(_also(c, contrast, context, past=past) for c in others),
-        None if first is None else _needed(first, contrast, past=past),
+        None
+        if first is None or not is_needed(contrast.causation)
+        else _needed(first, contrast, past=past),
         cleared(contrast.cleared, contrast.decided, past=past),
         rests_on(contrast.evidence, contrast.decided),
     ]
@@ -57,13 +59,12 @@ def _other_effects(contrast: Contrast, *, past: bool) -> Message | None:
     """Effects beside the one that decided."""
     if kind_of(contrast) in ("alone", "collision", "dead", "late", "way"):
         return None
-    main = deciding(contrast)
-    rest: list[Effect] = [e for e in worth_telling(contrast) if e.component != "time"]
-    rest = [e for e in rest if main is None or e.component != main.component][:MOST]
+    said = {"time", *(share.term for share in contrast.told)}
+    rest: list[Effect] = [e for e in worth_telling(contrast) if e.component not in said][:MOST]
     if not rest:
         return None
     rides = tuple(message("RIDE_EFFECT", ride=e.component, more=e.delta > 0.0) for e in rest)
-    foil = own_verbs(contrast.foil, contrast.fact)
+    foil = foil_verbs(contrast)
     return message("ALSO_MEANT", foil=foil, rides=rides, past=past)
 
 
@@ -77,6 +78,19 @@ def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
         return None
     who = Who(Vehicle(cause.vehicle), contrast.decided)
     return message("WITHOUT_CAUSE", who=who, changes=cause.decision_changes, past=past)
+
+
+def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message | None:
+    """Tell how it hangs on vehicles, where it does not on one alone."""
+    if causation is None or causation.kind in ("one", "open"):
+        return None
+    one, other = (*(Who(Vehicle(v), time) for v in causation.vehicles[:2]), None, None)[:2]
+    return message("HANGS_ON", kind=causation.kind, one=one, other=other, past=past)
+
+
+def is_needed(causation: Causation | None) -> bool:
+    """Tell whether it is worth saying that it would not be so without the first cause."""
+    return causation is None or causation.kind in ("one", "open")
 
 
 def cleared(vehicles: tuple[int, ...], time: float, *, past: bool) -> Message | None:
@@ -97,12 +111,3 @@ def rests_on(evidence: Evidence, decided: float | None) -> Message | None:
         when=None if decided is None else Moment(decided),
         one=evidence.distinct_samples == 1,
     )
-
-
-def continued(contrast: Contrast, *, past: bool) -> Message | None:
-    """What the foil would have been followed by, where that is another way than ours."""
-    row, fact = plain(contrast.continued), plain(contrast.fact)
-    row = tuple(action for action in row if action != "continue")
-    if not row or row == fact[-len(row) :]:
-        return None
-    return message("CONTINUED", verbs=own_verbs(row, contrast.fact), past=past)

@@ -78,13 +78,19 @@ def episode_message(
     return message(
         rule,
         clause=clause,
-        when=Moment(episode.begin) if when and clause.tense == "past" else None,
+        when=Moment(_told_of(episode)) if when and clause.tense == "past" else None,
         **_speeds(episode),
         lasted=_lasted(episode),
         object=episode.object is not None,
         now=clause.tense == "present",
         unsure=not episode.sure,
     )
+
+
+def _told_of(episode: Episode) -> float:
+    """Tell the time [s] by which an episode is told: of braking to a standstill, when it stood."""
+    halted = bool(_speeds(episode).get("stand"))
+    return episode.end if halted and episode.end is not None else episode.begin
 
 
 def _speeds(episode: Episode) -> dict[str, object]:

@@ -3,7 +3,7 @@
 from xavi_dialogue.domain.answers import Bystander, GoReason, MotionCause, Unslowed
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses import doing
-from xavi_dialogue.nlg.content.contrasts import consequence_slots, kind_of
+from xavi_dialogue.nlg.content.contrasts import consequence_slots, kind_of, risks
 from xavi_dialogue.nlg.content.driven import motion_cause
 from xavi_dialogue.nlg.content.manoeuvres import deed_clause
 from xavi_dialogue.nlg.content.plan import Plan
@@ -40,7 +40,10 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     core = message("WENT", deed=deed, free=free, past=past, then=then)
     proposed = about_vehicle(ranked[0].vehicle) if ranked else ()
     waiting = _waiting(answer, context)
-    return Plan((core,), (), () if waiting is None else (waiting,), (), proposed)
+    against = answer.contrast
+    risk = None if against is None else risks(against, context, past=past, unsaid=True)
+    whole = (core,) if risk is None else (risk, core)  # a risk is told, and first
+    return Plan(whole, (), () if waiting is None else (waiting,), (), proposed)
 
 
 def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
@@ -58,7 +61,9 @@ def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
 
 def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
     """What waiting would have cost."""
-    if answer.contrast is None or kind_of(answer.contrast) not in ("time", "late", "collision"):
+    if answer.contrast is None or answer.contrast.verdict != "better":
+        return None
+    if kind_of(answer.contrast) not in ("time", "late", "collision"):
         return None
     slots = consequence_slots(answer.contrast, context, past=answer.past)
     return Message("WAITING_COST", slots)

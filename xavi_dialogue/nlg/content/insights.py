@@ -134,7 +134,7 @@ def plan_method(answer: Method, context: SpeechContext) -> Plan:
     first = message(
         "METHOD",
         when=None if answer.decided is None else Moment(answer.decided),
-        options=Number(len(answer.options), "option") if answer.options else None,
+        options=Number(max(answer.tried, len(answer.options)), "option") if chosen else None,
         chosen=None if chosen is None else Clause(Who(), doing(chosen.action, ego=True)),
         vehicles=Number(answer.vehicles, "vehicle") if answer.vehicles else None,
     )

@@ -11,6 +11,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Tense, Who
 CHANGES = frozenset(("change-left", "change-right", "overtake"))
 EXITS = frozenset(("exit-left", "exit-right", "exit-straight"))
 _NEXT = "continue-next-exit"
+_BACK = {"change-left": "change-right", "change-right": "change-left"}
 
 
 def plain(actions: Iterable[str]) -> tuple[str, ...]:
@@ -52,6 +53,11 @@ def _row(row: tuple[str, ...], other: tuple[str, ...], *, ego: bool) -> tuple[Cl
             phrase = "leave there"
         elif past_exit and action in EXITS and rank == 0:
             phrase = "leave the roundabout right away"
+        elif ego and rank and _BACK.get(action) == row[rank - 1]:
+            phrases[-1] += " and back again"
+            continue
+        elif ego and _BACK.get(action) in row[:rank]:
+            phrase = "move back again"
         if not phrases or phrases[-1] != phrase:
             phrases.append(phrase)
     return tuple(Clause(Who() if ego else "it", phrase) for phrase in phrases)

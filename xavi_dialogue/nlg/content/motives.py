@@ -8,7 +8,7 @@ from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses import episode_clause
 from xavi_dialogue.nlg.content.contrasts import chances, telling
 from xavi_dialogue.nlg.content.driven import STANDING, motion_cause, speed_told
-from xavi_dialogue.nlg.content.evidence import cleared, rests_on
+from xavi_dialogue.nlg.content.evidence import cleared, hangs_on, is_needed, rests_on
 from xavi_dialogue.nlg.content.manoeuvres import denial, other_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
@@ -40,11 +40,15 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     )
     first_of = answer.causes[0].vehicle if answer.causes else None
     others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
-    details = [_also(c, answer, context, past) for c in others[:1]]
+    alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
+    hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
+    asked = hangs if answer.of_causes else None
+    details = [*(_also(c, answer, context, past) for c in others[:1]), asked]
     more = [
+        None if answer.of_causes else hangs,
         *(_expectation(c, answer, context, past=past) for c in answer.causes[:1]),
         *(_also(c, answer, context, past) for c in answer.causes[1:] if c not in others[:1]),
-        *(_needed(c, answer, past=past) for c in answer.causes[:1]),
+        *(_needed(c, answer, past=past) for c in answer.causes[:1] if is_needed(answer.causation)),
         cleared(answer.cleared, answer.deed.begin, past=past),
         rests_on(answer.evidence, None),
     ]
@@ -76,6 +80,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
             deed=answer.deed.action,
         ),
         "known": bool(answer.causes),
+        "nobody": not answer.causes and _nobody(answer),
         "speed": speed_told(answer.deed.speed_to, context),
         "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
         "at_limit": _at_limit(answer),
@@ -103,6 +108,12 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         denied = denial(answer.asked, past=past)
         deed = _only(deed, answer)
     return message("DRIVING", deed=deed, denied=denied, did=answer.form == "did", **slots)
+
+
+def _nobody(answer: MotionReason) -> bool:
+    """Whether it is asked who makes the difference, and it was found that nobody does."""
+    found = answer.causation is not None and answer.causation.kind == "none"
+    return found and answer.of_causes
 
 
 def _misnamed(answer: MotionReason) -> bool:

@@ -13,7 +13,7 @@ from xavi_dialogue.nlg.content.contrasts import (
     time_effect,
     told_cause,
 )
-from xavi_dialogue.nlg.content.evidence import continued, further
+from xavi_dialogue.nlg.content.evidence import further
 from xavi_dialogue.nlg.content.manoeuvres import CHANGES, own_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
@@ -31,10 +31,14 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     cause = cause_of(contrast, context, past=past)
     slots = {
         **consequence_slots(contrast, context, past=past),
+        "way": contrast.way or contrast.route is not None,
         "fact": own_verbs(contrast.fact, contrast.foil),
         "cause": None if context.detail == "less" else cause,
+        "trouble": _troubles(contrast),
     }
-    risk = risks(contrast, context, past=past)
+    slots["gains"] = slots["delta"] is not None and not slots["later"]
+    told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
+    risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
     more = further(contrast, context, past=past)
     if answer.ahead is not None and answer.ahead.vehicle is not None and not answer.done:
         who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
@@ -51,8 +55,13 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     told = Message("IF_WE", slots)
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
-    after = continued(contrast, past=past)
-    return Plan(core, (), (*(() if after is None else (after,)), *more), (), about_cause(answer))
+    return Plan(core, (), more, (), about_cause(answer))
+
+
+def _troubles(contrast: Contrast) -> bool:
+    """Whether the lane changes that a foil takes more decided against it."""
+    changes = any(action in CHANGES for action in (*contrast.foil, *contrast.continued))
+    return changes and any(s.term == "effort" and s.cost > 0.0 for s in contrast.told)
 
 
 def _verbs(contrast: Contrast) -> dict[str, object]:

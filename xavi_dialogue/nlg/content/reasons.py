@@ -1,5 +1,6 @@
 """Reasons: why we did or did not do something, and what would have come of doing otherwise."""
 
+from collections.abc import Mapping
 from typing import Literal
 
 from xavi_dialogue.domain.answers import ChoiceReason, Contrast
@@ -12,8 +13,8 @@ from xavi_dialogue.nlg.content.contrasts import (
     risks,
     told_cause,
 )
-from xavi_dialogue.nlg.content.driven import motion_cause
-from xavi_dialogue.nlg.content.evidence import further
+from xavi_dialogue.nlg.content.driven import STANDING, motion_cause
+from xavi_dialogue.nlg.content.evidence import further, hangs_on
 from xavi_dialogue.nlg.content.manoeuvres import deed_clause, own_verbs, planned_clause
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
@@ -23,13 +24,11 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
-CREEPING = 5.0  # [m/s] up to which one creeps
 DECIDED = 0.95  # [s] after a decision, from which another one is in force
-GAIN = 0.5  # [s] from which something was worth it
-Need = Literal["forced", "needed", "not-strictly", "close", "no-choice", "way"]
+Need = Literal["forced", "needed", "not-strictly", "close", "worse", "no-choice", "way"]
+#: Terms that who was in our way accounts for.
+DELAYS = frozenset(("time", "late"))
 #: How a vehicle makes the foil worse only where it is done: no reason to be told before it.
-#: Reasons against which who was in our way is the better one to tell.
-WEAK = ("close", "same", "effort", "ride", "unsure", "late", "time", "alone")
 OF_FOIL = ("right-of-way", "collision", None)
 
 
@@ -42,17 +41,15 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         "deed": _deed(answer, context),
         "denied": _denied(contrast, past=answer.past),
         "need": _need(contrast),
-        "worth": _worth(contrast),
         "cause": cause_of(contrast, context, past=past),
         "lead": _leads(contrast),
         "ahead": _ahead(answer, context),
-        "hardly": _worth(contrast) != "yes" and not _creeps(answer),
         "weak": _weak(answer),
     }
     rule = {
         "why": "WHY", "why-not": "WHY_NOT", "necessary": "NECESSARY", "worth-it": "WORTH_IT",
     }[answer.form]  # fmt: skip
-    risk = risks(contrast, context, past=past)
+    risk = risks(contrast, context, past=past, unsaid=_silent(rule, slots))
     first = Message(rule, slots)
     if context.detail == "less":
         first = _without_cause(first)
@@ -66,7 +63,25 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     )
     more = further(contrast, context, past=past)
     core = core if risk is None else (risk, *core)  # a risk is told, and first
-    return Plan(core, (), more, (), about_cause(answer))
+    hangs = hangs_on(contrast.causation, contrast.decided, past=past)
+    asked = answer.of_causes and _of_vehicles(contrast)
+    details = () if hangs is None or not asked else (hangs,)
+    more = more if hangs is None or details else (hangs, *more)
+    return Plan(core, details, more, (), about_cause(answer))
+
+
+def _of_vehicles(contrast: Contrast) -> bool:
+    """Whether the reason is told of vehicles, so that whether it hangs on them belongs to it."""
+    hangs = contrast.causation is not None and contrast.causation.kind != "none"
+    return hangs and not contrast.way and told_cause(contrast) is not None
+
+
+def _silent(rule: str, slots: Mapping[str, object]) -> bool:
+    """Whether a reason tells of the way or of who was ahead, and nothing of the foil."""
+    if rule in ("WHY", "WHY_NOT") and slots["ahead"] is not None and slots["weak"]:
+        return True
+    due = {"WHY_NOT": slots["kind"] == "late", "NECESSARY": slots["need"] == "way"}
+    return bool(slots["way"]) and due.get(rule, True)
 
 
 def _superseded(contrast: Contrast, context: SpeechContext) -> bool:
@@ -102,16 +117,14 @@ def _weak(answer: ChoiceReason) -> bool:
         return False
     cause = told_cause(answer.contrast)
     how = None if cause is None or cause.vehicle != ahead.vehicle else cause.mechanism
+    stands = ahead.speed is not None and ahead.speed < STANDING
+    struck = ahead.vehicle == answer.contrast.collided_with
+    if stands and (struck or kind not in ("collision", "risk")):
+        return True  # where it would go says nothing while it stands
     if how is not None and not how.present:
         return False  # what it was expected to do says more than where it was
-    struck = ahead.vehicle == answer.contrast.collided_with
-    return kind in WEAK or (kind == "risk" and struck)
-
-
-def _creeps(answer: ChoiceReason) -> bool:
-    """Whether the one ahead in the lane that we left stood or crept."""
-    speed = None if answer.ahead is None else answer.ahead.speed
-    return speed is not None and speed < CREEPING
+    first = answer.contrast.decisive
+    return kind == "alone" or first in DELAYS or (first == "collision" and struck)
 
 
 def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
@@ -160,17 +173,8 @@ def _need(contrast: Contrast) -> Need:
         return "way"
     if kind == "alone":
         return "no-choice"
+    if contrast.verdict in ("close", "worse"):
+        return "close" if contrast.verdict == "close" else "worse"
     if kind in ("collision", "dead"):
         return "forced"
-    if kind in ("risk", "late"):
-        return "needed"
-    return "close" if kind in ("close", "same", "effort") else "not-strictly"
-
-
-def _worth(contrast: Contrast) -> Literal["yes", "hardly", "no"]:
-    """Whether it was worth it, in the planner's own reckoning."""
-    if contrast.value is not None and contrast.value < -GAIN / 2:
-        return "no"
-    if contrast.close or (contrast.value is not None and contrast.value < GAIN):
-        return "hardly"
-    return "yes"
+    return "needed" if kind in ("risk", "late") else "not-strictly"

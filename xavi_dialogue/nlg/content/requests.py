@@ -45,6 +45,9 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
         slots["open"] = bool(slots["open"]) or how
         slots["meant"] = not answer.already
         return Plan((Message("DECLINED_NOT", slots),))
+    fact = next(iter(measure_messages(answer.facts, context)), None)
+    if answer.already and event.action == "keep-distance" and fact is not None:
+        return Plan((Message("KEEPING", {"fact": fact}),))
     if answer.already:
         rule = "ALREADY_MEANT" if event.action in STAYING else "ALREADY"
         doing = answer.doing
@@ -57,7 +60,7 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     if event.action in GOING and slowing and answer.cause is not None:
         return Plan((Message("KEEP_GOING", slots),))
     slots["reason"] = answer.cannot
-    slots["fact"] = next(iter(measure_messages(answer.facts, context)), None)
+    slots["fact"] = fact
     slots["anyway"] = _anyway(answer, context)
     return Plan((Message("DECLINED_VERB", slots),))
 

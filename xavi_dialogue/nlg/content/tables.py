@@ -48,6 +48,7 @@ FACTS: dict[type, Planner] = {
     answers.Helpful: talk.plan_helpful,
     answers.Acknowledged: talk.plan_acknowledged,
     answers.Again: talk.plan_again,
+    answers.TakenAs: clarifications.plan_taken_as,
     answers.Unfamiliar: clarifications.plan_unfamiliar,
     answers.Posed: quizzes.plan_posed,
     answers.Judged: quizzes.plan_judged,

@@ -10,6 +10,7 @@ from xavi_dialogue.explain.facts.approach import Following, following
 from xavi_dialogue.explain.facts.bearings import bearing
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.nearing import still_to
 from xavi_dialogue.explain.history.thresholds import STALE
 
 SOON = 30.0  # [s] beyond which a collision is not foreseen
@@ -79,7 +80,6 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
     road = None if trace is None else trace.road
     if trace is None or road is None or asked.at - trace.sim_time > 2.0 * STALE:
         return asked.none("not-recorded")
-    since = driven(asked.states, EGO, trace.sim_time, asked.at)
     far = road.distance
     if isinstance(place, Junction):
         if place.rank is not None and place.rank < 0:
@@ -93,16 +93,7 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
         far = road.route[0].distance if road.route else None
     if far is None:
         return asked.none("not-recorded")
-    return asked.found(round(max(far - since, 0.0), 1))
-
-
-def driven(states: States, vehicle: int, begin: float, end: float) -> float:
-    """The way [m] that a vehicle drove between two times [s]."""
-    motion = states.motion(vehicle)
-    first, last = motion.index(begin), motion.index(end)
-    if last is None:
-        return 0.0
-    return motion.arc[last] - (0.0 if first is None else motion.arc[first])
+    return asked.found(round(max(still_to(asked.states.ride, far, asked.at), 0.0), 1))
 
 
 def time_to_collision(asked: Asked) -> Measure:

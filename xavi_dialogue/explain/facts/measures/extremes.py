@@ -11,11 +11,11 @@ from xavi_dialogue.domain.terms import Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import Attribute, Extreme
 from xavi_dialogue.explain.facts.approach import closest
 from xavi_dialogue.explain.facts.measures.asked import Asked
-from xavi_dialogue.explain.facts.measures.between import driven
 from xavi_dialogue.explain.facts.measures.driving import jerk_at
 from xavi_dialogue.explain.facts.measures.measuring import measure
 from xavi_dialogue.explain.facts.measures.trip import standing_within
 from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.nearing import driven
 
 Span: TypeAlias = tuple[float, float]  # [s]
 Series: TypeAlias = Iterator[tuple[float, float]]  # time [s] and value
@@ -90,7 +90,7 @@ def _total(asked: Asked, begin: float, end: float) -> Measure:
     states, vehicle = asked.states, asked.vehicle
     match asked.attribute:
         case "distance-driven" | "distance":
-            value = driven(states, vehicle, begin, end)
+            value = driven(states.motion(vehicle), begin, end)
         case "waiting-time":
             before = measure(states, "waiting-time", asked.thing, begin, asked.to).value
             after = measure(states, "waiting-time", asked.thing, end, asked.to).value

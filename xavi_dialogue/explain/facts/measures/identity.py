@@ -12,6 +12,7 @@ from xavi_dialogue.explain.facts.bearings import offset
 from xavi_dialogue.explain.facts.looks import kind_of
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.facts.ways import ways
+from xavi_dialogue.explain.history.nearing import still_to
 from xavi_dialogue.explain.history.thresholds import BIG, OPPOSITE, SAME_WAY, SMALL
 
 #: Of what a vehicle was expected to do, what says where it goes; the first that comes.
@@ -123,5 +124,6 @@ def turn(asked: Asked) -> Measure:
     if not road.route:
         return asked.none("not-applicable")
     step = road.route[0]
-    found = asked.found(step.distance, step.turn)
+    left = max(still_to(asked.states.ride, step.distance, asked.at), 0.0)
+    found = asked.found(left, step.turn)
     return replace(found, side=SIDES[step.turn], rule=step.rule, count=step.exits)

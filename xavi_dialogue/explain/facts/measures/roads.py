@@ -8,6 +8,7 @@ from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Junction
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.facts.ways import ways
+from xavi_dialogue.explain.history.nearing import still_to
 
 
 def lane(asked: Asked) -> Measure:
@@ -51,7 +52,8 @@ def right_of_way(asked: Asked) -> Measure:
 
 
 def _ruled(asked: Asked, step: RouteStep) -> Measure:
-    return replace(asked.found(step.distance, step.rule), rule=step.rule)
+    left = max(still_to(asked.states.ride, step.distance, asked.at), 0.0)
+    return replace(asked.found(left, step.rule), rule=step.rule)
 
 
 def _next(asked: Asked) -> RouteStep | None:

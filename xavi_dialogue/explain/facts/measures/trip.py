@@ -12,11 +12,12 @@ from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.explain.facts.actions import somebody
 from xavi_dialogue.explain.facts.measures.asked import Asked
-from xavi_dialogue.explain.facts.measures.between import driven, to_place
+from xavi_dialogue.explain.facts.measures.between import to_place
 from xavi_dialogue.explain.facts.options import plan_of
 from xavi_dialogue.explain.facts.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.facts.waiting import waits
+from xavi_dialogue.explain.history.nearing import driven
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 
@@ -27,7 +28,7 @@ def distance_to_go(asked: Asked) -> Measure:
 
 def distance_driven(asked: Asked) -> Measure:
     """How far a vehicle has driven since it was seen first."""
-    value = driven(asked.states, asked.vehicle, asked.states.begin, asked.at)
+    value = driven(asked.states.motion(asked.vehicle), asked.states.begin, asked.at)
     return asked.found(round(value, 1))
 
 

@@ -1,0 +1,113 @@
+"""Sets of vehicles that a deed hangs on: together, either of two, pre-empted, none."""
+
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from xavi_dialogue.explain.causes.actual import PAIRS, SINGLES, Trial, Try, actual_causes
+
+
+def trying(
+    gone: Callable[[frozenset[int]], bool | None],
+    instead: dict[tuple[int, ...], tuple[int, ...]] | None = None,
+) -> tuple[Try, list[tuple[int, ...]]]:
+    """A trial by a rule, and the sets that were tried."""
+    tried: list[tuple[int, ...]] = []
+
+    def trial(vehicles: tuple[int, ...]) -> Trial:
+        tried.append(vehicles)
+        return Trial(gone(frozenset(vehicles)), (instead or {}).get(vehicles, ()))
+
+    return trial, tried
+
+
+def test_one_without_whom_it_is_gone_is_the_cause() -> None:
+    trial, tried = trying(lambda without: 1 in without)
+    found = actual_causes((1,), (), trial)
+    assert (found.kind, found.vehicles, found.cleared) == ("one", (1,), ())
+    assert tried == [(1,)]
+
+
+def test_who_makes_no_difference_beside_the_cause_is_cleared() -> None:
+    trial, _ = trying(lambda without: 2 in without)
+    found = actual_causes((1, 2), (), trial)
+    assert (found.kind, found.vehicles, found.cleared) == ("one", (2,), (1,))
+
+
+def test_two_of_whom_each_had_to_be_there_are_causes_together() -> None:
+    trial, _ = trying(lambda without: bool(without & {1, 2}))
+    assert actual_causes((1, 2), (), trial).kind == "both"
+    found = actual_causes((1,), (2, 3), trial)  # the second is not at work by itself
+    assert (found.kind, found.vehicles, found.cleared) == ("both", (1, 2), (3,))
+
+
+def test_reserve_is_tried_only_beside_a_cause() -> None:
+    trial, tried = trying(lambda without: False)
+    found = actual_causes((1,), (2,), trial)
+    assert (found.kind, tried) == ("none", [(1,)])
+
+
+def test_either_of_two_at_work_would_have_been_enough() -> None:
+    trial, _ = trying(lambda without: without >= {1, 2}, {(1,): (2,), (2,): (1,)})
+    found = actual_causes((1, 2), (), trial)
+    assert (found.kind, found.vehicles, found.cleared) == ("either", (1, 2), ())
+
+
+def test_one_at_work_only_where_another_is_not_is_pre_empted_by_it() -> None:
+    trial, _ = trying(lambda without: without >= {1, 2}, {(1,): (2,)})
+    found = actual_causes((1,), (), trial)
+    assert (found.kind, found.vehicles) == ("pre-empted", (1, 2))
+
+
+def test_who_holds_up_the_one_at_work_is_the_cause_and_not_the_pair() -> None:
+    trial, tried = trying(lambda without: 2 in without, {(1,): (2,)})
+    found = actual_causes((1,), (), trial)
+    assert (found.kind, found.vehicles, found.cleared) == ("one", (2,), (1,))
+    assert (1, 2) not in tried
+
+
+def test_where_nothing_helps_nobody_is_the_cause() -> None:
+    trial, _ = trying(lambda without: False, {(1,): (3,), (2,): (3,)})
+    found = actual_causes((1, 2), (), trial)
+    assert (found.kind, found.vehicles) == ("none", ())
+    assert set(found.cleared) >= {1, 2}
+
+
+def test_what_could_not_be_planned_stays_open() -> None:
+    trial, _ = trying(lambda without: None if 1 in without else False)
+    found = actual_causes((1, 2), (), trial)
+    assert (found.kind, found.cleared) == ("open", (2,))
+
+
+@given(st.sets(st.frozensets(st.integers(1, 5), min_size=1, max_size=2), max_size=4), st.data())
+def test_what_is_named_is_a_smallest_set_and_trials_are_few(
+    causes: set[frozenset[int]], data: st.DataObject
+) -> None:
+    """A deed that is gone without any of some sets."""
+
+    def gone(without: frozenset[int]) -> bool:
+        return any(one <= without for one in causes)
+
+    names = data.draw(st.permutations(range(1, 6)))
+    count = data.draw(st.integers(1, 5))
+    trial, tried = trying(gone)
+    found = actual_causes(names[:count], names[count:], trial)
+    assert len(tried) == len(set(tried)) <= SINGLES + 2 * PAIRS
+    assert not set(found.vehicles) & set(found.cleared)
+    assert not any(gone(frozenset((one,))) for one in found.cleared)
+    if found.kind in ("one", "both"):
+        assert all(gone(frozenset((one,))) for one in found.vehicles)
+    elif found.kind in ("either", "pre-empted"):
+        assert gone(frozenset(found.vehicles))
+        assert not any(gone(frozenset((one,))) for one in found.vehicles)
+    else:
+        assert found.vehicles == ()
+
+
+@pytest.mark.parametrize("order", [(1, 2), (2, 1)])
+def test_the_first_suspect_is_tried_first(order: tuple[int, int]) -> None:
+    trial, tried = trying(lambda without: bool(without))
+    actual_causes(order, (), trial)
+    assert tried[0] == (order[0],)

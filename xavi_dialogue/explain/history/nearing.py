@@ -1,0 +1,77 @@
+"""Nearing: what the last decision recorded, brought to the time spoken of.
+
+A decision tells how far junctions and the destination are from where it was taken. What was driven
+since is taken off, and speeds are those seen at the time, as positions and speeds are recorded
+between decisions too.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+from msgspec.structs import replace
+
+from planner.road import RouteStep
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.explain.history.motion import Motion
+from xavi_dialogue.explain.history.ride import Ride
+from xavi_dialogue.explain.history.thresholds import BROKEN
+
+PASSED = -2.0  # [m] to a junction's entry from which it lies behind us
+
+
+def driven(motion: Motion, begin: float, end: float) -> float:
+    """Tell the way [m] driven between two times [s], between samples too."""
+    if not motion.time:
+        return 0.0
+    first, last = np.interp((begin, end), motion.arrays[0], motion.arc)
+    return max(float(last - first), 0.0)
+
+
+def speed_at(ride: Ride, time: float, vehicle: int = EGO) -> float | None:
+    """Tell how fast [m/s] a vehicle was at a time [s], or was seen last before it; None: never."""
+    motion = ride.motion(vehicle)
+    k = motion.index(time)
+    if k is None:
+        return None
+    if k + 1 == len(motion.time) or motion.time[k + 1] - motion.time[k] > BROKEN:
+        return motion.speed[k]
+    return float(np.interp(time, motion.time[k : k + 2], motion.speed[k : k + 2]))
+
+
+def with_speeds(ride: Ride, causes: Iterable[MotionCause], time: float) -> tuple[MotionCause, ...]:
+    """Give reasons with how fast [m/s] the vehicles that they name were at a time [s]."""
+    return tuple(
+        cause
+        if cause.vehicle is None or (speed := speed_at(ride, time, cause.vehicle)) is None
+        else replace(cause, speed=speed)
+        for cause in causes
+    )
+
+
+def still_to(ride: Ride, distance: float, time: float) -> float:
+    """Tell how far [m] it still is at a time [s] to what the last decision recorded at a distance.
+
+    Negative where it lies behind us by then.
+    """
+    trace = ride.at(time)
+    return distance - (0.0 if trace is None else driven(ride.motion(EGO), trace.sim_time, time))
+
+
+def junctions_ahead(ride: Ride, time: float) -> tuple[RouteStep, ...]:
+    """List the junctions on our way at a time [s], nearest first, without those passed by then.
+
+    Their distances [m] are from where we are at that time.
+    """
+    trace = ride.at(time)
+    route = () if trace is None or trace.road is None else trace.road.route
+    left = [(step, still_to(ride, step.distance, time)) for step in route]
+    return tuple(replace(step, distance=max(m, 0.0)) for step, m in left if m > PASSED)
+
+
+def to_destination(ride: Ride, time: float) -> float | None:
+    """Tell how far [m] along the road the destination is at a time [s]; None: not recorded."""
+    trace = ride.at(time)
+    if trace is None or trace.road is None or trace.road.distance is None:
+        return None
+    return max(still_to(ride, trace.road.distance, time), 0.0)
