@@ -121,8 +121,9 @@ def speak(
         utterances.append(one)
     whole = joined(utterances)
     if taken_as and any(not isinstance(part.result, REFUSALS) for part in said):
-        asked = now.mind.say(TakenAs(taken_as), context)
-        whole = replace(whole, text=f"{asked.text} {whole.text}")
+        before = Part(None, TakenAs(taken_as))
+        said = (before, *said)
+        whole = replace(whole, text=f"{now.mind.say(before.result, context).text} {whole.text}")
     open_offer = offer if whole.choices else None
     return Said(reply_of(now, said, whole), tuple(said), whole.mentioned, open_offer)
 
