@@ -11,7 +11,7 @@ from xavi_dialogue.dialogue.discourse import causes_of, discourse_of
 from xavi_dialogue.dialogue.turn import Quiz, Turn
 from xavi_dialogue.domain.answers import Answer, Refusal
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
-from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Repair, Request
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Feel, Repair, Request
 from xavi_dialogue.nlg.context import Detail, Told
 
 _FRESH = 3  # replies after which the same may be suggested again
@@ -47,9 +47,9 @@ class Memory:
         return frozenset(cause for cause in causes if cause[0] not in self.missed)
 
     def answered(self, act: GroundedAct, result: Answer | Refusal) -> bool:
-        """Tell whether the same was answered before to the same question."""
+        """Tell whether the same was answered before to a question of the same kind."""
         return any(
-            part.act is not None and part.act.act == act.act and part.result == result
+            part.act is not None and _kind(part.act.act) == _kind(act.act) and part.result == result
             for turn in self.turns
             for part in turn.parts
         )
@@ -79,6 +79,11 @@ def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
 def is_about_drive(turn: Turn) -> bool:
     """Tell whether a turn was about the drive; what is asked about it then stands."""
     return any(isinstance(one.act, Ask | Claim | Request | Feel) for one in turn.acts)
+
+
+def _kind(act: Act) -> type:
+    """Return the kind of an act; of a question, what it asks for."""
+    return type(act.question if isinstance(act, Ask) else act)
 
 
 def _detail(turns: Sequence[Turn]) -> Detail:

@@ -174,7 +174,7 @@ def _split(there: _Case, here: _Case) -> dict[Term, float]:
         if fatal[0] is not None and fatal[1] is not None:
             return {fatal[0]: there.total, fatal[1]: -here.total}
         return {fatal[0] or fatal[1] or "dead": there.total - here.total}
-    terms = there.parts.keys() | here.parts.keys()
+    terms = dict.fromkeys((*there.parts, *here.parts))  # in order: sums stay the same
     found = {t: there.parts.get(t, 0.0) - here.parts.get(t, 0.0) for t in terms}
     if "termination" in (there.outcome, here.outcome):
         effort = found.pop("effort", 0.0)
