@@ -109,6 +109,7 @@ def prepare(
         moment.time,
         round(frame.settings.horizon / DT),
         frame.settings.view_radius,
+        reacting=frame.settings.reacting is True,
     )
     return Search(task, moment.root, beliefs, frame.settings, f"{frame.seed}/{moment.number}{salt}")
 
@@ -186,6 +187,8 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 collided_with=one.legs[-1].collided_with if one.legs else None,
                 held_up=one.held_up,
                 terms={term: round(cost, 4) for term, cost in one.terms.items()},
+                weight=None if one.weight is None else round(one.weight, 6),
+                braking=one.braking,
             )
         )
     return tuple(found)

@@ -7,6 +7,7 @@ import numpy as np
 
 from planner.kernels.driving import Bools
 from planner.kernels.projection import Stretches, project
+from planner.kernels.reaction import Ints, react
 from planner.trace import HoldUp
 from planner.trajectory import Array, Path
 
@@ -35,6 +36,8 @@ class Traffic:
     states: Array  # [M, T, 4] x, y [m], heading [rad], speed [m/s]
     sizes: Array  # [M, 2] length and width [m]
     links: tuple[frozenset[tuple[str, int]], ...]  # [M]
+    noticed: Ints  # [M] steps for which the ego has been on their path, as `reacting` counts
+    braking: Bools  # [M] who has braked for the ego, or for one that did
 
     @classmethod
     def of(cls, obstacles: Sequence[Obstacle]) -> "Traffic":
@@ -51,7 +54,24 @@ class Traffic:
             states,
             np.array([(o.length, o.width) for o in obstacles]).reshape(-1, 2),
             tuple(obstacle.links for obstacle in obstacles),
+            np.zeros(len(obstacles), np.int64),
+            np.zeros(len(obstacles), np.bool_),
         )
+
+    def reacting(self, own: Array, size: tuple[float, float], first: int) -> "Traffic":
+        """The motions where the others react to a vehicle; the same object where nobody does.
+
+        Args:
+            own: [S, 4] states of the vehicle at steps `first`, `first` + 1, ...
+            size: length and width [m] of the vehicle.
+            first: step of the first of them.
+        """
+        states, noticed, braking = react(
+            own, size, first, self.states, self.sizes, self.noticed, self.braking
+        )
+        if states is self.states and np.array_equal(noticed, self.noticed):
+            return self
+        return replace(self, states=states, noticed=noticed, braking=braking)
 
     def since(self, step: int) -> "Traffic":
         """The same motions, with a later step as step 0."""

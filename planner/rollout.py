@@ -1,4 +1,10 @@
-"""Rollouts: the ego takes macro actions in turn while the others follow sampled trajectories."""
+"""Rollouts: the ego takes macro actions in turn while the others follow sampled trajectories.
+
+They react to the ego where the task says so: see `planner.kernels.reaction`. A collision that
+then remains is one that the other could not have avoided by braking firmly (`FIRM`) along its
+path, once it had seen the ego there for its reaction time; or one at its side. As in traffic law,
+who is hit from behind without having changed lanes has not collided.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -10,6 +16,7 @@ from planner.actions import ActionPlan, Situation
 from planner.forward import DT, Drive, Hindrances, Motion, drive
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
+from planner.kernels.reaction import FIRM
 from planner.obstacles import HOW, Traffic
 from planner.reward import components
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
@@ -31,6 +38,7 @@ class Task:
     view: float  # [m]
     yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
     pace: float = math.inf  # [m/s] faster than which it does not want to drive
+    reacting: bool = False  # whether the others brake for who drives
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,6 +58,7 @@ class Leg:
     collided_with: int | None
     hindrances: Hindrances
     end: Situation
+    traffic: Traffic  # the others, as they have reacted and go on
 
 
 def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Leg:
@@ -62,20 +71,51 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
         first: the step at which it is there.
         traffic: the others' sampled motions.
     """
-    return _leg(task, plan, _drive(task, plan, motion, first, traffic), traffic)
+    driven = _drive(task, plan, motion, first, traffic)
+    states, curvature = _placed(task, plan, driven)
+    if task.reacting:
+        reacted = traffic.reacting(states, task.size, first)
+        if reacted.states is not traffic.states and _matters(plan, states, first, reacted):
+            driven = _drive(task, plan, motion, first, reacted)
+            states, curvature = _placed(task, plan, driven)
+            reacted = traffic.reacting(states, task.size, first)
+        traffic = reacted
+    return _leg(task, plan, driven, traffic, states, curvature)
+
+
+def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> bool:
+    """Whether it may matter to who drives along states [S, 4] how the others have reacted.
+
+    On an open road it does not where those that brake stay behind.
+    """
+    if plan.give_ways or plan.keep_clears:
+        return True
+    theirs = traffic.states[traffic.braking, first : first + len(states)]
+    own = states[: theirs.shape[1]]
+    cos, sin = np.cos(own[:, 2]), np.sin(own[:, 2])
+    ahead = (theirs[:, :, 0] - own[:, 0]) * cos + (theirs[:, :, 1] - own[:, 1]) * sin
+    return bool(np.any(ahead > 0.0))
 
 
 def _drive(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Drive:
     return drive(plan, motion, first, traffic, task.size, task.horizon, task.pace)
 
 
-def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:
-    path = plan.path
-    states, curvature = place(
-        path.points, path.arc, path.heading, path.curvature, driven.motion, float(task.size[0])
-    )
+def _placed(task: Task, plan: ActionPlan, driven: Drive) -> tuple[Array, Array]:
+    """The states [S, 4] of a drive, and the curvature [1/m] [S] at the front."""
+    path, length = plan.path, float(task.size[0])
+    return place(path.points, path.arc, path.heading, path.curvature, driven.motion, length)
+
+
+def _leg(
+    task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic, states: Array, curvature: Array
+) -> Leg:
+    """What came of a drive."""
     careless = plan.changes_lane and not task.yielding
-    hit, who = first_hit(states, task.size, driven.first, traffic.states, traffic.sizes, careless)
+    braking = FIRM if task.reacting else 0.0
+    hit, who = first_hit(
+        states, task.size, driven.first, traffic.states, traffic.sizes, careless, braking
+    )
     count = len(states) if who < 0 else hit + 1
     arc, speed, acceleration = driven.motion[count - 1].tolist()
     last = Motion(arc, speed, acceleration)
@@ -91,7 +131,7 @@ def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:
     return Leg(
         plan.action,
         driven.first,
-        tuple(lane for lane, start in path.lanes if start <= arc),
+        tuple(lane for lane, start in plan.path.lanes if start <= arc),
         states[:count, :2],
         states[:count, 2],
         states[:count, 3],
@@ -102,6 +142,7 @@ def _leg(task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic) -> Leg:
         traffic.vehicles[who] if who >= 0 else None,
         driven.hindrances.before(driven.first + count),
         end,
+        traffic,
     )
 
 

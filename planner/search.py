@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from planner.actions import ActionPlan, Situation, expand
+from planner.comparison import Samples, draw, weighted
 from planner.forward import Motion
 from planner.obstacles import Traffic
 from planner.recognise import Belief
@@ -32,7 +33,6 @@ from planner.tree import Edge, Node, Tree
 from planner.waypoints import cost_left
 from sim.network import Location
 
-Samples: TypeAlias = tuple[Sample, ...]
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
 
 LATE = 1e3  # [s] by which a stop is put behind all that leads on
@@ -51,7 +51,6 @@ class Root:
 class Simulated:
     """One rollout."""
 
-    forced: bool
     samples: tuple[Sample, ...]
     legs: tuple[Leg, ...]
     outcome: Outcome
@@ -59,6 +58,17 @@ class Simulated:
     reward: float
     terms: dict[RewardTerm, float]  # [s] that the reward is made of
     held_up: tuple[HeldUp, ...]
+    forced: bool = False
+    weight: float | None = None  # in the comparison of the first actions
+
+    @property
+    def braking(self) -> tuple[int, ...]:
+        """Who brakes for the ego, or for one that does, in increasing order."""
+        if not self.legs:
+            return ()
+        traffic = self.legs[-1].traffic
+        pairs = zip(traffic.vehicles, traffic.braking.tolist(), strict=True)
+        return tuple(sorted(vehicle for vehicle, brakes in pairs if brakes))
 
     @property
     def actions(self) -> Node:
@@ -78,7 +88,7 @@ class Search:
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
-    compared: dict[Action, float] = field(default_factory=dict)  # mean reward, by first action
+    compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
     _plans: dict[tuple[tuple[Sample, ...], Node], ActionPlan | Refusal] = field(
         default_factory=dict
     )
@@ -93,7 +103,7 @@ class Search:
     def run(self) -> None:
         """Draw the rollouts of the search; then compare the first actions, and force the rest."""
         for _ in range(self.settings.rollouts):
-            self._learn(self.tree, self._sample(), (), forced=False)
+            self._learn(self.tree, draw(self.beliefs, self._draws), (), forced=False)
         self._compare()
         tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
         for action in self._first_actions():
@@ -106,26 +116,25 @@ class Search:
         """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
-            self._learn(apart, self._sample(), actions, forced=True)
+            self._learn(apart, draw(self.beliefs, self._draws), actions, forced=True)
 
     def _compare(self) -> None:
         """Drive the best continuation of every first action through the same samples.
 
         Values in the tree carry its exploration, and every action met other samples there. What
-        is chosen is what does best where all are tried alike.
+        is chosen is what does best in expectation, where all are tried alike.
         """
         rivals = self._first_actions()
         if len(rivals) < 2:
             return
         drawn = [rollout.samples for rollout in self.rollouts]
-        count = min(self.settings.comparisons, len(drawn)) if self.beliefs else 1
-        common = drawn[:: max(1, len(drawn) // count)][:count]
+        common = weighted(self.beliefs, drawn, self.settings.comparisons)
         for action in rivals:
-            driven = [
-                self._roll(samples, self._greedily(action), forced=True) for samples in common
-            ]
-            rewards = [one.reward for one in driven if one is not None]
-            self.compared[action] = sum(rewards) / len(rewards)
+            self.compared[action] = 0.0
+            for samples, weight in common:
+                one = self._roll(samples, self._greedily(action), forced=True, weight=weight)
+                assert one is not None  # what was tried first applies whatever the others do
+                self.compared[action] += weight * one.reward
 
     def _greedily(self, first: Action) -> Choose:
         return lambda node, options: self.tree.greedy(node, options) if node else first
@@ -166,7 +175,9 @@ class Search:
         if one is not None:
             tree.back_up(one.actions[: self.settings.depth], one.reward)
 
-    def _roll(self, samples: Samples, choose: Choose, *, forced: bool) -> Simulated | None:
+    def _roll(
+        self, samples: Samples, choose: Choose, *, forced: bool, weight: float | None = None
+    ) -> Simulated | None:
         """One rollout; None, and nothing recorded, where the action chosen does not apply."""
         legs: list[Leg] = []
         outcome: Outcome | None = None
@@ -183,13 +194,11 @@ class Search:
                 return None
             legs.append(self._leg(samples, (*node, action), options[action], legs))
             outcome = legs[-1].outcome
-        one = self._simulated(samples, legs, outcome, forced=forced)
+        one = replace(self._simulated(samples, legs, outcome), forced=forced, weight=weight)
         self.rollouts.append(one)
         return one
 
-    def _simulated(
-        self, samples: Samples, legs: Sequence[Leg], outcome: Outcome, *, forced: bool
-    ) -> Simulated:
+    def _simulated(self, samples: Samples, legs: Sequence[Leg], outcome: Outcome) -> Simulated:
         """What came of a rollout; the same actions under the same samples come to the same."""
         key = (samples, tuple(leg.action for leg in legs))
         found = self._known.get(key)
@@ -200,11 +209,9 @@ class Search:
             gained = round(reward(spent), 3)
             stretches = held_up(legs, self.task.start)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
-            found = Simulated(
-                forced, samples, tuple(legs), outcome, shown, gained, spent, stretches
-            )
+            found = Simulated(samples, tuple(legs), outcome, shown, gained, spent, stretches)
             self._known[key] = found
-        return replace(found, forced=forced)
+        return found
 
     def _invites(self, plan: ActionPlan) -> float:
         """How soon [s] a plan would lead to the goal if nobody were in the way.
@@ -225,16 +232,6 @@ class Search:
         """What is left to the goal [s] after these legs, where nobody is in the way."""
         end = legs[-1].end if legs else self.root.here
         return cost_left(self.task.roads, end.location, self.task.goal)
-
-    def _sample(self) -> tuple[Sample, ...]:
-        """Draw a goal and a trajectory for every other vehicle."""
-        drawn = []
-        for vehicle, beliefs in self.beliefs.items():
-            rng = self._draws[vehicle]
-            goal = _draw(rng, [belief.probability for belief in beliefs])
-            ways = [way.probability for way in beliefs[goal].trajectories]
-            drawn.append(Sample(vehicle, goal, _draw(rng, ways)))
-        return tuple(drawn)
 
     def _options(
         self, samples: tuple[Sample, ...], node: Node, legs: Sequence[Leg]
@@ -274,16 +271,14 @@ class Search:
         """The last action of a branch, driven; the same samples give the same leg."""
         found = self._legs.get((samples, branch))
         if found is None:
+            here, first, traffic = self.root.here, 0, self._traffic(samples)
             if legs:
-                here, first = legs[-1].end, legs[-1].first + len(legs[-1].speed) - 1
-            else:
-                here, first = self.root.here, 0
+                last = legs[-1]
+                here, first, traffic = last.end, last.first + len(last.speed) - 1, last.traffic
             motion = Motion(0.0, here.speed, here.acceleration)
             if not legs and self.root.under_way is not None:
                 motion = self.root.under_way[1]
-            found = self._legs[samples, branch] = take(
-                self.task, plan, motion, first, self._traffic(samples)
-            )
+            found = self._legs[samples, branch] = take(self.task, plan, motion, first, traffic)
         return found
 
     def _traffic(self, samples: Samples) -> Traffic:
@@ -298,7 +293,3 @@ class Search:
 
 def _planned(best: Sequence[tuple[Action, Edge]]) -> tuple[PlannedAction, ...]:
     return tuple(PlannedAction(action, round(edge.value, 3), edge.visits) for action, edge in best)
-
-
-def _draw(rng: random.Random, probabilities: Sequence[float]) -> int:
-    return rng.choices(range(len(probabilities)), weights=probabilities)[0]

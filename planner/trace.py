@@ -85,13 +85,15 @@ class Settings(msgspec.Struct, frozen=True):
 
     rollouts: int = 100  # drawn by the search
     min_rollouts: int = 12  # for every applicable first action; the missing ones are forced
-    comparisons: int = 12  # rollouts of every first action through the same samples
+    comparisons: int = 24  # joint samples enumerated at most to compare the first actions in
     depth: int = 4  # macro actions in a row
     horizon: float = 30.0  # [s] a rollout that lasts longer terminates
     period: float = 1.0  # [s] between decisions
     recognition: bool = True  # False: goals keep their prior
     rationality: float = 1.5  # beta in p(track | goal) = exp(beta * reward difference)
     view_radius: float = 100.0  # [m]
+    #: whether the others of a rollout brake for the ego; unset in older traces: they do not
+    reacting: bool | msgspec.UnsetType = msgspec.UNSET
 
 
 class EgoGoal(msgspec.Struct, frozen=True):
@@ -188,6 +190,8 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     collided_with: int | None
     held_up: tuple[HeldUp, ...]
     terms: dict[RewardTerm, float] = {}  # [s] that are not 0; empty in traces without costs
+    weight: float | None = None  # in the comparison of the first actions; left out of none
+    braking: tuple[int, ...] = ()  # who brakes for the ego, or for one that does
 
 
 class NotApplicable(msgspec.Struct, frozen=True):
@@ -202,7 +206,7 @@ class PlannedAction(msgspec.Struct, frozen=True):
     """One macro action of the chosen plan with its value in the search."""
 
     action: Action
-    value: float  # of the first: mean reward over the samples tried with all; else in the search
+    value: float  # of the first: expected reward, by the weights of rollouts; else in the search
     visits: int  # unforced rollouts through it
 
 

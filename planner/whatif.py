@@ -19,20 +19,30 @@ from dataclasses import replace
 
 import msgspec
 
-from planner.decide import Frame, Moment, observed, predict, prepare, record, rollouts, root_at
+from planner.decide import (
+    Frame,
+    Moment,
+    decide,
+    observed,
+    predict,
+    prepare,
+    record,
+    rollouts,
+    root_at,
+)
 from planner.fitting import fitted
 from planner.recognise import Belief
 from planner.resume import resume
 from planner.routes import Refusal
 from planner.search import Root
 from planner.suppose import edge_of, suppose
-from planner.trace import PlanTrace, Track, VehiclePrediction, WhatIf
+from planner.trace import PlanTrace, Settings, Track, VehiclePrediction, WhatIf
 from planner.tracks import Observed, leads
 from planner.trajectory import Roads
 from sim.network import Network
 from sim.scene import EGO, VehicleState
 
-__all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "replan"]
+__all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "decide_again", "replan"]
 
 HEADWAY, GAP = 1.5, 5.0  # [s], [m] to the one ahead up to which a vehicle is held up by it
 RECOGNISED = 0.5  # probability of the goals that must still be possible to keep what was inferred
@@ -77,6 +87,18 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
     if not changed or request.actions:
         trace = _with_more(trace, frame, moment, beliefs, request)
     return fitted(trace)
+
+
+def decide_again(trace: PlanTrace, network: Network, settings: Settings) -> PlanTrace:
+    """Take the decision of a trace again with other settings, from the same scene.
+
+    Raises:
+        WhatIfError: as for `replan`.
+    """
+    _check(trace, network, WhatIf())
+    there = msgspec.structs.replace(trace, settings=settings)
+    frame, moment = _restore(there, Roads(network), WhatIf())
+    return decide(frame, moment).trace
 
 
 def _with_more(

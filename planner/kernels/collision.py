@@ -41,24 +41,24 @@ def first_hit(
     states: Floats,
     sizes: Floats,
     careless: bool,
+    braking: float,
 ) -> tuple[int, int]:
     """The first collision along a driven line, or (-1, -1).
 
     A follower that would have braked does not count. Who is careless changes lanes without
     regard for those behind: then they do, and so does one that is right behind at the end, and
-    too fast.
+    too fast to brake, or to be SAFE_CUT_IN away.
 
     Args:
         own: [S, 4] states at steps `first`, `first` + 1, ...
         size: length and width [m] of the vehicle.
         states, sizes: of the others.
-        careless: see above.
+        careless, braking: see above; [m/s2] of a follower, 0 where others do not react.
 
     Returns:
         The sample, and the index of the other vehicle.
     """
-    found, whom = len(own), -1
-    last = len(own) - 1
+    found, whom, last = len(own), -1, len(own) - 1
     for m in range(len(states)):
         for k in range(min(len(own), states.shape[1] - first, found)):
             other = states[m, first + k]
@@ -71,7 +71,7 @@ def first_hit(
                 break
         else:
             ends = careless and last < found and first + last < states.shape[1]
-            if ends and _cut_off(own[last], size[0], states[m, first + last]):
+            if ends and _cut_off(own[last], size[0], states[m, first + last], braking):
                 found, whom = last, m
     return (found, whom) if whom >= 0 else (-1, -1)
 
@@ -84,9 +84,12 @@ def _in_front(own: Floats, other: Floats) -> float:
 
 
 @_jit
-def _cut_off(own: Floats, length: float, other: Floats) -> bool:
+def _cut_off(own: Floats, length: float, other: Floats, braking: float) -> bool:
     """Whether a faster follower is right behind."""
     gap = -_in_front(own, other) - length
     aside = (other[1] - own[1]) * math.cos(own[2]) - (other[0] - own[0]) * math.sin(own[2])
     closing = other[3] - own[3]
-    return bool(abs(aside) < 1.5 and gap > -length and gap < closing * SAFE_CUT_IN)
+    needed = closing * SAFE_CUT_IN
+    if braking > 0.0:
+        needed = max(closing, 0.0) ** 2 / (2.0 * braking)
+    return bool(abs(aside) < 1.5 and gap > -length and gap < needed)

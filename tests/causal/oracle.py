@@ -154,7 +154,7 @@ def effect(foil, fact, name):
     else:
         cloud = [(v - b, w * u) for w, _, v in there for u, _, b in here]
     low, high = percentile(cloud, 0.05), percentile(cloud, 0.95)
-    n = sum(row[3] for _, row in foil + fact if row[2].components[name] is not None)
+    n = sum(1 for _, row in foil + fact if row[2].components[name] is not None)
     distinct = len({j for _, j, _ in there} | {j for _, j, _ in here})
     return delta, min(low, delta), max(high, delta), n, distinct
 

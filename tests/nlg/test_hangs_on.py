@@ -77,3 +77,10 @@ def test_one_cause_needs_no_such_sentence() -> None:
     assert "enough" not in text
     assert "just as well" not in text
     assert "no single vehicle" not in text
+
+
+def test_where_the_same_would_be_done_that_is_said() -> None:
+    text = told(LEADER, OTHER, causation=Causation("both", (2, 3), decides=False))
+    assert "counted" in text
+    assert "I would have done the same, but for less of a reason" in text
+    assert "done otherwise" not in text

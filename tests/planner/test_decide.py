@@ -179,15 +179,15 @@ def test_the_plan_is_what_the_search_found_best(trace: PlanTrace) -> None:
 
 
 def test_the_first_action_does_best_where_all_are_tried_alike(trace: PlanTrace) -> None:
-    count = trace.settings.comparisons if trace.predictions else 1
     tried: dict[str, list[Rollout]] = {}
     for rollout in trace.rollouts:
-        if rollout.forced:
+        assert (rollout.weight is None) or rollout.forced
+        if rollout.weight is not None:
             tried.setdefault(rollout.actions[0].action, []).append(rollout)
-    compared = {action: found[:count] for action, found in tried.items()}
-    samples = [tuple(r.samples for r in found) for found in compared.values()]
+    samples = [tuple((r.samples, r.weight) for r in found) for found in tried.values()]
     assert len(set(samples)) == 1
-    means = {action: sum(r.reward for r in f) / len(f) for action, f in compared.items()}
+    assert sum(weight or 0.0 for _, weight in samples[0]) == pytest.approx(1.0, abs=1e-4)
+    means = {a: sum((r.weight or 0.0) * r.reward for r in f) for a, f in tried.items()}
     assert trace.plan[0].value == pytest.approx(max(means.values()), abs=0.01)
     assert means[trace.plan[0].action] == max(means.values())
 

@@ -276,7 +276,7 @@ def test_giving_way_never_ends_in_a_collision(away: float, speed: float) -> None
     path, traffic = plan.path, Traffic.of((other,))
     own, _ = place(path.points, path.arc, path.heading, path.curvature, driven.motion, SIZE[0])
     # Who runs into the ego from behind does not count: the other does not react.
-    assert first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False) == (-1, -1)
+    assert first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False, 0.0) == (-1, -1)
 
 
 def test_who_has_gone_first_is_followed_and_not_waited_for() -> None:

@@ -134,7 +134,9 @@ def test_a_collision_is_found_alike(seed: int, careless: bool) -> None:
     path = scene.plan.path
     free = forward.drive(scene.plan, scene.start, scene.first, NOBODY, SIZE, HORIZON)
     own, _ = place(path.points, path.arc, path.heading, path.curvature, free.motion, SIZE[0])
-    fast = first_hit(own, SIZE, scene.first, scene.traffic.states, scene.traffic.sizes, careless)
+    fast = first_hit(
+        own, SIZE, scene.first, scene.traffic.states, scene.traffic.sizes, careless, 0.0
+    )
     assert fast == reference.first_hit(own, SIZE, scene.first, scene.obstacles, careless)
 
 
@@ -149,7 +151,7 @@ def test_the_scenes_hold_all_that_can_happen() -> None:
         free = forward.drive(scene.plan, scene.start, scene.first, NOBODY, SIZE, HORIZON).motion
         own, _ = place(path.points, path.arc, path.heading, path.curvature, free, SIZE[0])
         states, sizes = scene.traffic.states, scene.traffic.sizes
-        hits += first_hit(own, SIZE, scene.first, states, sizes, False)[1] >= 0
+        hits += first_hit(own, SIZE, scene.first, states, sizes, False, 0.0)[1] >= 0
     assert hows == set(HOW)
     assert hits >= 5
 

@@ -1,7 +1,9 @@
 import random
 
+import numpy as np
 import pytest
 
+from planner.comparison import likeliest
 from planner.decide import predict, prepare
 from planner.forward import Motion
 from planner.search import Root, Search, Simulated
@@ -14,6 +16,8 @@ from tests.planner.worlds import (
     frame,
     moment,
     plan_of,
+    roads,
+    row,
     situation,
     still,
 )
@@ -141,3 +145,45 @@ def test_randomness_comes_from_seed_and_decision_alone() -> None:
     one = [rollout.actions for rollout in ran(seed=1).rollouts]
     random.seed(2)
     assert one == [rollout.actions for rollout in ran(seed=1).rollouts]
+
+
+FASTER = driven(roads("s1").line(row("s1", "main_in_1")), 70.0, [13.0] * 8)
+IN_FRONT = still("s1", ("main_in_0",), 90.0, 7.0)
+
+
+def moving_left(reacting: bool) -> Simulated:
+    """What comes of moving left before a faster vehicle 1 in that lane."""
+    settings = Settings(rollouts=0, min_rollouts=0, reacting=reacting)
+    scene = moment("s1", {0: IN_FRONT, 1: FASTER})
+    constant = frame("s1", settings)
+    one = prepare(constant, scene, predict(constant, scene))
+    one.force(("change-left",), 1)
+    return one.rollouts[0]
+
+
+def test_a_driver_behind_brakes_for_a_change_of_lanes_where_others_react() -> None:
+    blind, seen = moving_left(reacting=False), moving_left(reacting=True)
+    assert (blind.outcome, blind.legs[-1].collided_with, blind.braking) == ("collision", 1, ())
+    assert (seen.outcome, seen.braking) == ("done", (1,))
+
+
+def test_what_others_did_in_one_leg_they_go_on_from_in_the_next() -> None:
+    first, second = moving_left(reacting=True).legs[:2]
+    np.testing.assert_array_equal(
+        first.traffic.states[:, : second.first + 1], second.traffic.states[:, : second.first + 1]
+    )
+    assert first.traffic.braking.tolist() == [True]
+
+
+def test_weights_of_the_comparison_are_those_of_the_plan() -> None:
+    one = ran()
+    for action, value in one.compared.items():
+        tried = [r for r in one.rollouts if r.weight is not None and r.actions[0] == action]
+        assert all(rollout.forced for rollout in tried)
+        assert sum(r.weight or 0.0 for r in tried) == pytest.approx(1.0)
+        assert sum((r.weight or 0.0) * r.reward for r in tried) == pytest.approx(value)
+    exact = dict(likeliest(one.beliefs))
+    for rollout in one.rollouts:
+        if rollout.weight is not None:
+            assert rollout.weight == pytest.approx(exact[rollout.samples], rel=0.02)
+    assert one.plan()[0].value == pytest.approx(max(one.compared.values()), abs=1e-3)

@@ -98,6 +98,14 @@ def test_another_schema_is_named(trace: PlanTrace) -> None:
         decode(encode(other))
 
 
+def test_whether_others_react_is_left_out_of_older_traces(trace: PlanTrace) -> None:
+    assert b"reacting" not in encode(trace)
+    now = msgspec.structs.replace(trace.settings, reacting=True)
+    newer = decode(encode(msgspec.structs.replace(trace, settings=now)))
+    assert newer.settings.reacting is True
+    assert newer.trace_id != trace.trace_id
+
+
 def test_a_trace_of_the_first_schema_is_read_and_keeps_its_name(trace: PlanTrace) -> None:
     plain = json.loads(encode(trace))
     del plain["road"]

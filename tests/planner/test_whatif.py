@@ -5,7 +5,7 @@ import pytest
 
 from planner.decide import decide
 from planner.trace import PlanTrace, encode
-from planner.whatif import NotInView, WhatIf, WhatIfError, replan
+from planner.whatif import NotInView, WhatIf, WhatIfError, decide_again, replan
 from sim.network import Network
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 
@@ -226,3 +226,12 @@ def test_who_is_held_up_drives_on_where_the_one_ahead_is_taken_away(network: Net
     assert fastest(replan(close, network, WhatIf(removed=2)), 1) > 8.0
     apart = queue(30.0)  # too far to be held up: it wants to drive so
     assert fastest(replan(apart, network, WhatIf(removed=2)), 1) < 7.5
+
+
+def test_a_decision_is_taken_again_with_other_settings(trace: PlanTrace, network: Network) -> None:
+    assert encode(decide_again(trace, network, trace.settings)) == encode(trace)
+    other = msgspec.structs.replace(trace.settings, rollouts=10)
+    again = decide_again(trace, network, other)
+    assert again.settings == other
+    assert sum(not rollout.forced for rollout in again.rollouts) == 10
+    assert again.predictions == trace.predictions

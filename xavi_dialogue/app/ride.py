@@ -112,7 +112,7 @@ def network_of(scenario: Scenario) -> Network:
 
 def settings_of(scenario: Scenario) -> Settings:
     """The planner's settings in a scenario."""
-    return Settings(view_radius=scenario.view_radius)
+    return Settings(view_radius=scenario.view_radius, reacting=True)
 
 
 @contextmanager

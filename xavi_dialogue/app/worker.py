@@ -83,7 +83,8 @@ def warm_up(network: Network) -> None:
             for vehicle, state in scene.items()
         }
         goal = EgoGoal(network.lanes[links[0].to_lane].edge, 1.0, None)
-        frame = Frame(roads, goal, Settings(rollouts=4, min_rollouts=1, comparisons=1), 0, "")
+        settings = Settings(rollouts=4, min_rollouts=1, comparisons=1, reacting=True)
+        frame = Frame(roads, goal, settings, 0, "")
         decide(frame, Moment(0, 0.0, scene, history, Root(here)))
         return
 

@@ -34,7 +34,7 @@ class ComponentEffect:
     delta: float
     low: float
     high: float
-    n: int  # rollouts behind it, both sides, repeats included
+    n: int  # simulations behind it, both sides, each counted once
     n_distinct: int  # distinct samples behind it, both sides
 
     @property
@@ -78,7 +78,7 @@ def _effect(name: Component, foil: Intervention, fact: Intervention) -> Componen
         delta=delta,
         low=min(quantile(values, weights, LOW), delta),
         high=max(quantile(values, weights, HIGH), delta),
-        n=_draws(foil, name) + _draws(fact, name),
+        n=len(there) + len(here),
         n_distinct=len(involved),
     )
 
@@ -103,11 +103,3 @@ def _differences(
     foil, fact = np.array([row[1:] for row in there]), np.array([row[1:] for row in here])
     values = np.subtract.outer(foil[:, 1], fact[:, 1]).ravel()
     return values, np.multiply.outer(foil[:, 0], fact[:, 0]).ravel()
-
-
-def _draws(intervention: Intervention, name: Component) -> int:
-    return sum(
-        result.draws
-        for result in intervention.results
-        if result.rollout.components.get(name) is not None
-    )

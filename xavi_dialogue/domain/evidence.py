@@ -72,6 +72,7 @@ class Causation(Value, frozen=True):
     ]
     vehicles: tuple[int, ...] = ()
     cleared: tuple[int, ...] = ()  # tried, and of no matter
+    decides: bool = True  # without them something else is done; else the same, for less of a reason
 
 
 #: What the planner reckons with, in seconds: the components of the reward, what other outcomes cost

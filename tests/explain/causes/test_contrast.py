@@ -1,8 +1,5 @@
 """What speaks for a choice, taken from the planner's own reckoning."""
 
-import gzip
-from pathlib import Path
-
 import msgspec
 import pytest
 from hypothesis import given
@@ -12,24 +9,25 @@ from planner.reward import COSTS
 from planner.trace import COMPONENTS, FORMER, PlanTrace, decode, encode
 from tests.explain.causes.rides import recorded, single, told
 from tests.stories import even, squeezed
+from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import ChoiceReason
 from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import Event, Happens, Not
 from xavi_dialogue.explain.causes import terms
+from xavi_dialogue.explain.causes.contrast import evidence
 from xavi_dialogue.explain.causes.terms import Difference, costs_of, differences
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
 
-#: Rides from before traces held their costs.
 RIDES = ("bend-0", "motorway-0", "s1-4", "s2-0", "s3-0", "s4-0", "town-0")
-#: Decisions of seven scenarios, without the lines that were driven.
-KEPT = Path(__file__).with_name("decisions.jsonl.gz")
-DECISIONS = [decode(line) for line in gzip.decompress(KEPT.read_bytes()).splitlines()]
 
 
 def decided(name: str) -> list[PlanTrace]:
-    if not name:
-        return DECISIONS
     return [t for t in recorded(name).traces if t.under_way is None and t.plan]
+
+
+DECISIONS = [trace for name in RIDES for trace in decided(name)[::5]]
 
 
 def pairs(trace: PlanTrace) -> list[tuple[Intervention, Intervention]]:
@@ -48,18 +46,22 @@ def test_the_terms_of_a_rollout_sum_to_its_reward() -> None:
 
 def test_the_terms_of_what_was_chosen_sum_to_its_value() -> None:
     """The value of a first action is its mean over the samples that all were compared with."""
+    compared = 0
     for trace in DECISIONS:
         first = trace.plan[0]
-        drawn = sum(not r.forced for r in trace.rollouts)
-        count = min(trace.settings.comparisons, drawn) if trace.predictions else 1
-        compared = [r for r in trace.rollouts if r.forced and plan_of(r)[:1] == (first.action,)]
-        if len({plan_of(r)[:1] for r in trace.rollouts}) < 2:
-            continue
-        costs = [sum(r.terms.values()) for r in compared[:count]]
-        assert -sum(costs) / len(costs) == pytest.approx(first.value, abs=2e-3)
+        costs = [
+            (r.weight, sum(r.terms.values()))
+            for r in trace.rollouts
+            if r.weight is not None and plan_of(r)[:1] == (first.action,)
+        ]
+        if costs:
+            compared += 1
+            assert sum(w for w, _ in costs) == pytest.approx(1.0, abs=1e-4)
+            assert -sum(w * c for w, c in costs) == pytest.approx(first.value, abs=2e-3)
+    assert compared > len(DECISIONS) / 2
 
 
-@pytest.mark.parametrize("ride", ["", *RIDES])
+@pytest.mark.parametrize("ride", RIDES)
 def test_the_terms_of_a_difference_sum_to_that_of_the_values(ride: str) -> None:
     for trace in decided(ride):
         model = CausalModel(trace)
@@ -87,7 +89,7 @@ def by_value(model: CausalModel, foil: Intervention, fact: Intervention) -> floa
     return sum(p * (here[j].reward - there[j].reward) for j, p in common.items()) / total
 
 
-@pytest.mark.parametrize("ride", ["", *RIDES])
+@pytest.mark.parametrize("ride", RIDES)
 def test_what_is_told_bears_the_verdict_out(ride: str) -> None:
     for trace in decided(ride):
         model = CausalModel(trace)
@@ -127,7 +129,8 @@ def test_other_costs_in_the_trace_give_other_terms() -> None:
         if plan is not None and plan.outcomes["done"] > 0.99:
             stops = 2.0 * plan.plan.count("stop") + plan.plan.count("change-right")
             effort = costs_of(model, plan).get("effort", 0.0)
-            assert effort == pytest.approx(7.0 * changes(plan.plan) + stops)
+            wanted = 7.0 * changes(plan.plan) + stops
+            assert effort == pytest.approx(wanted * plan.outcomes["done"])
 
 
 def changes(plan: Actions) -> int:
@@ -195,3 +198,19 @@ def test_the_error_is_that_of_the_part_that_was_not_tried() -> None:
     assert terms._error(weights, values, 1.0) == 0.0
     # mean 2.5; sum of squares of w (v - mean): 0.5625 + 0.015625 + 0.390625, times 3/2 and 0.4
     assert terms._error(weights, values, 0.6) == pytest.approx((0.96875 * 1.5 * 0.4) ** 0.5)
+
+
+def test_evidence_counts_each_simulation_once() -> None:
+    ride = single(squeezed(10.0), (2,))
+    why_not = Why(Not(Happens(Event("change-lane", side="left", tense="present"))))
+    once = told(ride, why_not, 10.0).contrast
+    (trace,) = ride.traces
+    assert once.evidence.rollouts == 8  # four joint samples of either side
+    doubled = msgspec.structs.replace(trace, rollouts=trace.rollouts * 2)
+    model = CausalModel(doubled)
+    here, there = model.intervene(once.fact), model.intervene((*once.foil, *once.continued))
+    assert here is not None
+    assert there is not None
+    assert here.draws + there.draws == 16
+    assert evidence(Ride(Record(10.0, (doubled,))), model, here, there).rollouts == 8
+    assert {effect.n for effect in effects(there, here)} <= set(range(1, 9))

@@ -20,12 +20,16 @@ class Agreement(msgspec.Struct, frozen=True):
     foils: int
     declined: int  # for want of evidence; these count in nothing below
     agree: float | None  # share of foils that came to the outcome that is named
+    agree_blind: float | None  # the same where the others of a rollout do not react to the ego
     commonest: float | None  # the same for always naming the commonest outcome
     brier: float | None  # of the outcome probabilities: 0 is perfect, 2 the worst
+    brier_blind: float | None  # of those where the others do not react
     brier_commonest: float | None  # of always giving the shares of all outcomes
     timed: int  # foils that were foreseen to arrive and did, as did the fact
     error_p50: float | None  # [s] absolute error of the difference of the arrival times
     error_p90: float | None
+    error_p50_blind: float | None  # where the others do not react
+    error_p90_blind: float | None
     within: float | None  # share of them within the range that is given
     clear: int  # of these, with a difference of more than a second
     sign: float | None  # share of them with the right sign
@@ -57,18 +61,30 @@ def agreement(scenario: str, cases: Sequence[Case]) -> Agreement:
     shares = _shares(told)
     timed = [c for c in told if c.later is not None and c.foreseen.time is not None]
     errors = [abs(_foreseen_time(c) - _later(c)) for c in timed]
+    blind = [_as_blind(c) for c in cases if c.blind is not None and c.blind.declined is None]
+    errors_blind = [
+        abs(_foreseen_time(c) - _later(c))
+        for c in blind
+        if c.later is not None and c.foreseen.time is not None
+    ]
     clear = [c for c in timed if abs(_later(c)) > CLEAR]
     return Agreement(
         scenario=scenario,
         foils=len(cases),
         declined=len(cases) - len(told),
         agree=_share(told, right),
+        agree_blind=_share(blind, right),
         commonest=max(shares.values()) if told else None,
         brier=_rounded(mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in told])),
+        brier_blind=_rounded(
+            mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in blind])
+        ),
         brier_commonest=_rounded(mean([_brier(shares, c.happened.outcome) for c in told])),
         timed=len(timed),
         error_p50=_rounded(quantile(errors, 50)) if errors else None,
         error_p90=_rounded(quantile(errors, 90)) if errors else None,
+        error_p50_blind=_rounded(quantile(errors_blind, 50)) if errors_blind else None,
+        error_p90_blind=_rounded(quantile(errors_blind, 90)) if errors_blind else None,
         within=_share(timed, _within),
         clear=len(clear),
         sign=_share(clear, same_sign),
@@ -139,6 +155,12 @@ def tables(rows: Sequence[Agreement], outcomes: Sequence[OutcomeRow], bins: Sequ
         [f"{b.low:.1f} to {b.high:.1f}", str(b.n), _cell(b.said), _cell(b.happened)] for b in bins
     ]
     return "\n\n".join(in_columns(table) for table in (first, second, third))
+
+
+def _as_blind(case: Case) -> Case:
+    """A case in which that is said which would be if the others did not react."""
+    assert case.blind is not None
+    return msgspec.structs.replace(case, foreseen=case.blind)
 
 
 def _within(case: Case) -> bool:

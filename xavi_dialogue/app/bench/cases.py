@@ -3,7 +3,9 @@
 import msgspec
 
 from planner.driver import Driver
-from planner.trace import Action, EgoGoal
+from planner.trace import Action, EgoGoal, PlanTrace
+from planner.whatif import decide_again
+from sim.network import Network
 from sim.scenario import Scenario, load
 from sim.sumo import Simulation
 from xavi_dialogue.app.bench.foresight import Foreseen, foresee
@@ -24,6 +26,7 @@ class Case(msgspec.Struct, frozen=True):
     foreseen: Foreseen
     happened: Happened
     later: float | None = None  # [s] by which the foil arrived later than the fact, if both did
+    blind: Foreseen | None = None  # what would be said if the others of a rollout did not react
 
 
 class Compared(msgspec.Struct, frozen=True):
@@ -70,6 +73,7 @@ def _ride(
         taken += free
         if trace is not None and free and (taken - 1) % every == 0:
             aim = Aim.of(network, trace)
+            blind = foresee(_blind(trace, network), network)
             cases = [
                 Case(
                     name,
@@ -79,6 +83,7 @@ def _ride(
                     foil,
                     foreseen,
                     drive_foil(world, driver, aim, foil, scene, scenario.step),
+                    blind=blind.get(foil),
                 )
                 for foil, foreseen in foresee(trace, network).items()
             ]
@@ -90,6 +95,13 @@ def _ride(
         if touched:
             break
     return pending
+
+
+def _blind(trace: PlanTrace, network: Network) -> PlanTrace:
+    """The decision as it would have been searched among others that do not react to the ego."""
+    settings = msgspec.structs.replace(trace.settings, reacting=False)
+    again = decide_again(trace, network, settings)
+    return msgspec.structs.replace(again, plan=trace.plan)
 
 
 def _settled(one: _Pending) -> list[Case]:

@@ -2,7 +2,8 @@
 
 At each decision of each ride, for each foil that applies, SUMO is run on from the very same
 state with the ego doing the foil (see `resimulate`), and what an answer would say is compared
-with what happened: the outcome, and by how much the ego arrives later than it did.
+with what happened: the outcome, and by how much the ego arrives later than it did. Beside it
+stands what would be said if the others of a rollout did not react to the ego.
 """
 
 from collections.abc import Callable, Sequence

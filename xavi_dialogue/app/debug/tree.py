@@ -89,11 +89,22 @@ def replayed(trace: PlanTrace) -> Tree:
 
 
 def compared(trace: PlanTrace) -> dict[Action, float]:
-    """Mean reward of each first action over the samples that all of them were tried with.
+    """Expected reward of each first action over the joint samples that all were tried with.
 
-    These rollouts follow upon those of the search, so many of each first action in turn; where
-    the record does not hold them so, the result is empty.
+    Older traces hold no weights: there, these rollouts follow upon those of the search, so many
+    of each first action in turn, and count alike. Where the record holds none, the result is
+    empty.
     """
+    found: dict[Action, float] = {}
+    for one in trace.rollouts:
+        action = _first(one)
+        if one.weight is not None and action is not None:
+            found[action] = found.get(action, 0.0) + one.weight * one.reward
+    return found or _alike(trace)
+
+
+def _alike(trace: PlanTrace) -> dict[Action, float]:
+    """The same from a trace without weights."""
     drawn = [rollout for rollout in trace.rollouts if not rollout.forced]
     added = trace.rollouts[len(drawn) :]
     rivals = [action for action in ACTIONS if any(_first(one) == action for one in drawn)]

@@ -4,6 +4,7 @@ from collections import Counter
 
 from msgspec.structs import replace
 
+from xavi_dialogue.causal.model import plan_of
 from xavi_dialogue.domain.answers import Answer, Options
 from xavi_dialogue.domain.meaning import WhatIf, Which
 from xavi_dialogue.domain.terms import Ego, Event, Happens
@@ -44,8 +45,9 @@ def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
     if not found:
         return None
     option, evidence = found[0], situations(Premise(trace, None))
-    drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == option.action]
-    struck = Counter(r.collided_with for r in drives if r.collided_with is not None)
+    begun = (r for r in trace.rollouts if r.actions and r.actions[0].action == option.action)
+    drives = {(r.samples, plan_of(r)): r for r in begun}  # each simulation once
+    struck = Counter(r.collided_with for r in drives.values() if r.collided_with is not None)
     if option.collided_with is None and struck:
         option = replace(option, collided_with=struck.most_common(1)[0][0])
     hits = sum(struck.values())

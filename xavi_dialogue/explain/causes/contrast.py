@@ -224,14 +224,14 @@ def outcome(intervention: Intervention) -> OutcomeEstimate:
 
 
 def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:
-    """Tell what an explanation of one decision rests on."""
+    """Tell what an explanation of one decision rests on; each simulation counts once."""
     joints = {result.joint for plan in plans for result in plan.results}
-    draws = {result.rollout.index: result.draws for plan in plans for result in plan.results}
+    simulations = {result.rollout.index for plan in plans for result in plan.results}
     trace = model.trace
     original = any(trace is one for one in ride.traces)
     return Evidence(
         method="tree" if original else "rollouts",
-        rollouts=sum(draws.values()),
+        rollouts=len(simulations),
         distinct_samples=len(joints),
         traces=(trace.trace_id,),
     )

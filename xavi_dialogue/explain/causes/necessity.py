@@ -87,12 +87,14 @@ def proven(
     if found.kind in ("both", "either"):  # none of them comes first but the surest
         told.sort(key=lambda cause: -cause.probability)
     needed = found.kind in ("one", "both")
+    causes = tuple(
+        replace(cause, decision_changes=tests.changes(cause.vehicle), necessary=needed)
+        for cause in told
+    )
+    otherwise = foil is None or all(cause.decision_changes is not False for cause in causes)
     return Proven(
-        tuple(
-            replace(cause, decision_changes=tests.changes(cause.vehicle), necessary=needed)
-            for cause in told
-        ),
-        found,
+        causes,
+        replace(found, decides=otherwise),
         tests.replaced(found),
     )
 

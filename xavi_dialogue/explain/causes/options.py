@@ -2,7 +2,7 @@
 
 from planner.trace import Action
 from xavi_dialogue.causal.effects import effects
-from xavi_dialogue.causal.model import Intervention
+from xavi_dialogue.causal.model import Intervention, plan_of
 from xavi_dialogue.domain.answers import Evidence
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.explain.causes.contrast import alternatives, factual, outcome
@@ -69,7 +69,8 @@ def _option(
 
 
 def situations(found: Premise) -> Evidence:
-    """Tell how many rollouts and distinct situations a decision rests on."""
+    """Tell how many distinct simulations and situations a decision rests on."""
     trace = found.trace
     distinct = len({rollout.samples for rollout in trace.rollouts})
-    return Evidence("tree", len(trace.rollouts), distinct, (trace.trace_id,))
+    simulations = len({(rollout.samples, plan_of(rollout)) for rollout in trace.rollouts})
+    return Evidence("tree", simulations, distinct, (trace.trace_id,))

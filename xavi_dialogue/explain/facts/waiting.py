@@ -178,11 +178,14 @@ def _holders(trace: PlanTrace, vehicle: int) -> dict[Holder, float]:
 def _of_ego(trace: PlanTrace) -> dict[Holder, float]:
     chosen = trace.plan[0].action if trace.plan else None
     drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == chosen]
+    weighed = any(drive.weight is not None for drive in drives)
+    total = sum(drive.weight or 0.0 for drive in drives) if weighed else float(len(drives))
     found: dict[Holder, float] = {}
     for drive in drives:
+        weight = (drive.weight or 0.0) if weighed else 1.0
         now = {(s.vehicle, s.how) for s in drive.held_up if s.since <= trace.sim_time + AT_ONCE}
         for holder in now:
-            found[holder] = found.get(holder, 0.0) + 1.0 / len(drives)
+            found[holder] = found.get(holder, 0.0) + weight / total
     return found
 
 

@@ -85,7 +85,14 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     if causation is None or causation.kind in ("one", "open"):
         return None
     one, other = (*(Who(Vehicle(v), time) for v in causation.vehicles[:2]), None, None)[:2]
-    return message("HANGS_ON", kind=causation.kind, one=one, other=other, past=past)
+    return message(
+        "HANGS_ON",
+        kind=causation.kind,
+        one=one,
+        other=other,
+        past=past,
+        decides=causation.decides,
+    )
 
 
 def is_needed(causation: Causation | None) -> bool:

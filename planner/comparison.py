@@ -1,0 +1,95 @@
+"""Joint samples of the others: drawn for the search; with weights, to compare first actions in.
+
+Where few joint samples make up nearly all of the probability, they are enumerated, and the mean
+reward of an action is its exact expectation. Where there are more, the likeliest are enumerated
+and draws of the search stand for the rest: a stratified estimate without bias.
+"""
+
+import heapq
+import itertools
+import math
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+from planner.recognise import Belief
+from planner.trace import Sample
+
+Samples: TypeAlias = tuple[Sample, ...]
+
+COVERED = 0.99  # probability from which on what is left is left out
+INEXACT = 0.5  # of the bound: joint samples where that does not suffice to cover enough
+
+
+def draw(beliefs: Mapping[int, Sequence[Belief]], draws: Mapping[int, random.Random]) -> Samples:
+    """Draw a goal and a trajectory for every other vehicle, each from its own generator."""
+    found = []
+    for vehicle, known in beliefs.items():
+        rng = draws[vehicle]
+        goal = _drawn(rng, [belief.probability for belief in known])
+        ways = [way.probability for way in known[goal].trajectories]
+        found.append(Sample(vehicle, goal, _drawn(rng, ways)))
+    return tuple(found)
+
+
+def _drawn(rng: random.Random, probabilities: Sequence[float]) -> int:
+    return rng.choices(range(len(probabilities)), weights=probabilities)[0]
+
+
+def weighted(
+    beliefs: Mapping[int, Sequence[Belief]], drawn: Sequence[Samples], most: int
+) -> list[tuple[Samples, float]]:
+    """Joint samples with weights that sum to 1; the likeliest first.
+
+    Where they cannot all be enumerated, as many are as make the error least: with n draws for
+    the mass q that is left, its variance is that of the rewards times q squared over n.
+
+    Args:
+        beliefs: of every other vehicle.
+        drawn: by the search, independently of one another.
+        most: joint samples that are enumerated at most.
+    """
+    found: dict[Samples, float] = {}
+    mass = [0.0]  # of the first 0, 1, 2, ... of them
+    for samples, probability in itertools.islice(likeliest(beliefs), most):
+        found[samples] = probability
+        mass.append(mass[-1] + probability)
+        if mass[-1] >= COVERED:
+            return [(samples, weight / mass[-1]) for samples, weight in found.items()]
+    budget = max(1, round(INEXACT * most))
+    kept = min(range(min(budget, len(mass))), key=lambda m: (1.0 - mass[m]) ** 2 / (budget - m))
+    found = dict(itertools.islice(found.items(), kept if drawn else budget))
+    rest = [samples for samples in drawn if samples not in found][: budget - kept]
+    for samples in rest:
+        found[samples] = found.get(samples, 0.0) + (1.0 - mass[kept]) / len(rest)
+    total = sum(found.values())
+    return [(samples, weight / total) for samples, weight in found.items()]
+
+
+def likeliest(beliefs: Mapping[int, Sequence[Belief]]) -> Iterator[tuple[Samples, float]]:
+    """Yield the joint samples of others that are independent, with probabilities, likeliest first.
+
+    Best-first over ranks: a vehicle's next choice is considered once all before it are.
+    """
+    choices = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
+    ranks = (0,) * len(choices)
+    waiting = [(-math.prod(own[0][1] for own in choices), ranks, 0)]
+    while waiting:
+        probability, ranks, since = heapq.heappop(waiting)
+        yield tuple(own[k][0] for own, k in zip(choices, ranks, strict=True)), -probability
+        for i in range(since, len(choices)):
+            k = ranks[i] + 1
+            if k < len(choices[i]):
+                after = probability * choices[i][k][1] / choices[i][k - 1][1]
+                heapq.heappush(waiting, (after, (*ranks[:i], k, *ranks[i + 1 :]), i))
+
+
+def _choices(vehicle: int, known: Sequence[Belief]) -> list[tuple[Sample, float]]:
+    """What one vehicle may do, the likeliest first; what cannot be is left out."""
+    found = [
+        (Sample(vehicle, goal, way), belief.probability * trajectory.probability)
+        for goal, belief in enumerate(known)
+        for way, trajectory in enumerate(belief.trajectories)
+        if belief.probability * trajectory.probability > 0.0
+    ]
+    return sorted(found, key=lambda pair: -pair[1])

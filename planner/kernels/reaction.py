@@ -1,0 +1,323 @@
+"""How others react to a vehicle that is, or comes, ahead of them on their own path.
+
+Car-following is the Intelligent Driver Model (IDM; Treiber, Hennecke and Helbing 2000, Equations
+3 and 4) without its free-road term: a driver who is not held up moves as predicted. Where it
+brakes harder than the constant-acceleration heuristic finds necessary, as behind a vehicle that
+has just cut in, it is softened as by Kesting, Treiber and Helbing (2010, Equation 11).
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+STEP = 0.2  # [s] of the common time base
+ACCELERATION = 2.0  # [m/s2] most when speeding up
+COMFORT = 2.0  # [m/s2] braking that is found comfortable
+FIRM = 4.4  # [m/s2] the hardest braking
+HEADWAY = 0.9  # [s] that is kept to a leader
+MIN_GAP = 2.0  # [m] to a standing leader
+COOLNESS = 0.99  # share of the constant-acceleration heuristic
+DELAY = 3  # steps after which a driver reacts to who has come onto its path
+NOTICEABLE = 0.5  # [m/s2] of braking beyond what is predicted, from which on a driver reacts
+RELAXATION = 0.5  # [s] in which a wanted speed is approached
+STANDING = 0.05  # [m/s] below which a predicted motion waits
+BESIDE = 0.2  # [m] kept free beside the body
+CLEARED = 0.5  # [s] before a driver arrives by which a crossing vehicle must be off its path
+NEAREST = 0.1  # [m] least gap reckoned with
+ALIGNED = 0.9  # cosine of the angle between two headings from which both drive alike
+MOVES = 0.2  # [m] in two steps from which a path shows where it leads
+CROSSING = 0.1  # [m/s] sideways from which a vehicle is about to leave a path
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+class Drivers(NamedTuple):
+    """The others, as they go on."""
+
+    paths: Floats  # [M, T, 4] predicted states
+    arcs: Floats  # [m] [M, T] along them
+    sizes: Floats  # [m] [M, 2] length and width
+    at: Floats  # [M] step of the prediction that each has come to; behind the time once it is late
+    pace: Floats  # [m/s] [M]
+    noticed: Ints  # [M] steps for which the ego has been on their path
+    late: Bools  # [M] who has braked
+
+
+class Leader(NamedTuple):
+    """Who may be ahead of a driver."""
+
+    x: float  # [m] of the middle
+    y: float  # [m]
+    cos: float  # of the heading
+    sin: float
+    speed: float  # [m/s]
+    gain: float  # [m/s2] acceleration
+    length: float  # [m]
+    width: float  # [m]
+
+
+@_jit
+def react(
+    own: Floats,
+    size: tuple[float, float],
+    first: int,
+    states: Floats,
+    sizes: Floats,
+    noticed: Ints,
+    braking: Bools,
+) -> tuple[Floats, Ints, Bools]:
+    """How others move on where a vehicle, the ego, drives along a line.
+
+    Each keeps to its predicted path and never gets ahead of its prediction. It brakes for the ego
+    while that is ahead on its path, and for others that do; after the line it goes on, late.
+
+    Args:
+        own, size, first: states [S, 4] of the ego from step `first` on; length and width [m].
+        states, sizes: [M, T, 4] and [M, 2] of the others, as predicted.
+        noticed, braking: [M] steps for which the ego has been on their path; who has braked.
+
+    Returns:
+        The states, `noticed` and `braking` after the line; the same states where nobody reacts.
+    """
+    count, total = states.shape[:2]
+    pace = states[:, min(first, total - 1), 3].copy()
+    at, late = np.full(count, float(first)), braking.copy()
+    them = Drivers(states, _arcs(states), sizes, at, pace, noticed.copy(), late)
+    moved, ends = states, min(first + len(own), total) - 1
+    for t in range(first, total - 1):
+        if t >= ends and moved is states:
+            break  # nobody reacts
+        pushes = np.full(count, math.inf)  # [m/s2] left to each
+        if t < ends:
+            _mind(them, pushes, _ego(own, t - first, size), moved, t)
+        for m in range(count):
+            if at[m] == t and not _brakes(them, m, pushes[m]):
+                at[m], pace[m] = float(t + 1), states[m, t + 1, 3]
+                continue
+            moved = states.copy() if moved is states else moved
+            _drive_on(them, m, t, pushes[m], moved[m, t + 1])
+    return moved, them.noticed, late
+
+
+@_jit
+def _norm(x: float, y: float) -> float:
+    return math.sqrt(x * x + y * y)
+
+
+@_jit
+def _ego(own: Floats, k: int, size: tuple[float, float]) -> Leader:
+    return _leader(own[k], size, (own[k, 3] - own[max(k - 1, 0), 3]) / STEP)
+
+
+@_jit
+def _leader(state: Floats, size: tuple[float, float], gain: float) -> Leader:
+    cos, sin = math.cos(state[2]), math.sin(state[2])
+    x, y = state[0] - 0.5 * size[0] * cos, state[1] - 0.5 * size[0] * sin
+    return Leader(x, y, cos, sin, state[3], gain, size[0], size[1])
+
+
+@_jit
+def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> None:
+    """Lower what is left to each driver [m/s2]: by the ego, and by those that brake for it.
+
+    A driver reacts to the ego once it has been on its path for DELAY; who has it ahead from the
+    very first step on knows of it.
+    """
+    paths, sizes, at, pace = them.paths, them.sizes, them.at, them.pace
+    for m in range(len(pushes)):
+        push, k = math.inf, int(at[m])
+        x, y = moved[m, t, 0], moved[m, t, 1]
+        if _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], ego):
+            push = _push(them, m, moved, t, ego)
+        if push == math.inf:
+            them.noticed[m] = 0
+        else:
+            them.noticed[m] += DELAY + 1 if t == 0 else 1
+            if them.noticed[m] > DELAY:
+                pushes[m] = push
+    for n in range(len(pushes)):
+        if them.late[n]:
+            leader = _leader(moved[n, t], (them.sizes[n, 0], them.sizes[n, 1]), 0.0)
+            for m in range(len(pushes)):
+                x, y, k = moved[m, t, 0], moved[m, t, 1], int(at[m])
+                if n != m and _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], leader):
+                    pushes[m] = min(pushes[m], _push(them, m, moved, t, leader))
+
+
+@_jit
+def _brakes(them: Drivers, m: int, push: float) -> bool:
+    """Whether a driver that is as predicted now brakes harder than that, so that it shows."""
+    if push == math.inf:
+        return False
+    k = int(them.at[m])
+    planned = (them.paths[m, k + 1, 3] - them.pace[m]) / STEP
+    least = planned if them.late[m] else min(planned, 0.0) - NOTICEABLE
+    return bool(push < least and them.pace[m] > STANDING)
+
+
+@_jit
+def _drive_on(them: Drivers, m: int, t: int, push: float, state: Floats) -> None:
+    """Move a late driver on by one step, into its state at the next one."""
+    path, at, pace = them.paths[m], them.at[m], them.pace[m]
+    wanted = path[min(int(at) + 1, len(path) - 1), 3]
+    free = max(min((wanted - pace) / RELAXATION, ACCELERATION), -FIRM)
+    faster = max(pace + max(min(free, push), -FIRM) * STEP, 0.0)
+    room = 0.5 * (pace + faster) * STEP
+    them.late[m] = True
+    them.at[m] = min(_onward(path, at, room), float(t + 1))
+    them.pace[m] = faster
+    _put(path, them.at[m], faster, state)
+
+
+@_jit
+def _concerns(
+    paths: Floats, m: int, k: int, x: float, y: float, pace: float, length: float, leader: Leader
+) -> bool:
+    """Whether a leader may concern a driver at (x, y): it is ahead, and not too far away."""
+    dx, dy = leader.x - x, leader.y - y
+    away = _norm(dx, dy) - leader.length - length
+    if not away <= _wished(pace, pace):
+        return False  # far away, or out of the network
+    cos, sin = _direction(paths, m, k)
+    if dx * cos + dy * sin < -0.5 * length:
+        return False
+    alike = cos * leader.cos + sin * leader.sin
+    return alike <= ALIGNED or away <= _wished(pace, pace - leader.speed * alike)
+
+
+@_jit
+def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader) -> float:
+    """The acceleration [m/s2] that a leader allows a driver at a step; infinite if not ahead."""
+    pace, length, width = them.pace[m], them.sizes[m, 0], them.sizes[m, 1]
+    ahead, aside, k = _along(them, m, moved[m, t], leader.x, leader.y)
+    cos, sin = _direction(them.paths, m, k)
+    along, across = leader.cos * cos + leader.sin * sin, leader.sin * cos - leader.cos * sin
+    half = 0.5 * (leader.length * abs(along) + leader.width * abs(across))
+    wide = 0.5 * (leader.length * abs(across) + leader.width * abs(along) + width) + BESIDE
+    if abs(aside) >= wide or ahead < -0.5 * length:
+        return math.inf
+    gap, along, across = max(ahead - half, NEAREST), leader.speed * along, leader.speed * across
+    if abs(across) > CROSSING:
+        clear = (wide - aside * math.copysign(1.0, across)) / abs(across)
+        if gap > (pace - along) * (clear + CLEARED):
+            return math.inf
+    return _follow(gap, pace, max(along, 0.0), leader.gain)
+
+
+@_jit
+def _wished(speed: float, closing: float) -> float:
+    """The gap [m] that is wanted to a leader, at a speed and a closing speed [m/s]."""
+    catching_up = speed * closing / (2.0 * math.sqrt(ACCELERATION * COMFORT))
+    return MIN_GAP + max(speed * HEADWAY + catching_up, 0.0)
+
+
+@_jit
+def _follow(gap: float, speed: float, leader: float, gain: float) -> float:
+    """The acceleration [m/s2] behind a leader at a gap [m], all speeds in m/s."""
+    closing = speed - leader
+    idm = ACCELERATION * (1.0 - (_wished(speed, closing) / gap) ** 2)
+    gain = min(gain, ACCELERATION)
+    if leader * closing <= -2.0 * gap * gain and (gain < 0.0 or closing < 0.0):
+        needed = speed * speed * gain / (leader * leader - 2.0 * gap * gain + 1e-9)
+    else:
+        needed = gain - max(closing, 0.0) ** 2 / (2.0 * gap)
+    if idm >= needed:
+        return idm
+    soft = needed + COMFORT * math.tanh((idm - needed) / COMFORT)
+    return (1.0 - COOLNESS) * idm + COOLNESS * soft
+
+
+@_jit
+def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[float, float, int]:
+    """Where a point (x, y) lies along a driver's path, at the nearest place from the driver on.
+
+    Returns:
+        How far [m] along it ahead of the driver's front and how far [m] to the left of it the
+        point lies, and the sample there.
+    """
+    path, arcs, start = them.paths[m], them.arcs[m], int(them.at[m])
+    mine = arcs[start] + _norm(here[0] - path[start, 0], here[1] - path[start, 1])
+    wanted = mine + _norm(x - here[0], y - here[1])
+    k = min(start + np.searchsorted(arcs[start:], wanted), len(path) - 1)
+    while k > start and math.isnan(path[k, 0]):
+        k -= 1
+    best = (path[k, 0] - x) ** 2 + (path[k, 1] - y) ** 2
+    for way in (-1, 1):
+        while start <= k + way < len(path):
+            d = (path[k + way, 0] - x) ** 2 + (path[k + way, 1] - y) ** 2
+            if not d <= best:
+                break
+            k, best = k + way, d
+    cos, sin = _direction(them.paths, m, k)
+    dx, dy = x - path[k, 0], y - path[k, 1]
+    return arcs[k] - mine + dx * cos + dy * sin, dy * cos - dx * sin, k
+
+
+@_jit
+def _arcs(states: Floats) -> Floats:
+    """How far [m] each has come along its path by each step [M, T]."""
+    found = np.zeros(states.shape[:2])
+    for m in range(len(states)):
+        for k in range(1, states.shape[1]):
+            dx, dy = states[m, k, 0] - states[m, k - 1, 0], states[m, k, 1] - states[m, k - 1, 1]
+            step = _norm(dx, dy)
+            found[m, k] = found[m, k - 1] + (0.0 if math.isnan(step) else step)
+    return found
+
+
+@_jit
+def _direction(paths: Floats, m: int, k: int) -> tuple[float, float]:
+    """The direction (cosine, sine) of a path at a sample; where it rests, its heading."""
+    before, after = max(k - 1, 0), min(k + 1, paths.shape[1] - 1)
+    dx = paths[m, after, 0] - paths[m, before, 0]
+    dy = paths[m, after, 1] - paths[m, before, 1]
+    step = _norm(dx, dy)
+    if step > MOVES:
+        return dx / step, dy / step
+    return math.cos(paths[m, k, 2]), math.sin(paths[m, k, 2])
+
+
+@_jit
+def _onward(path: Floats, at: float, room: float) -> float:
+    """The step of a prediction that a driver has come to after driving on by `room` [m].
+
+    Where the prediction waits, so does the driver: that takes its time.
+    """
+    last = len(path) - 1
+    if path[min(int(at) + 1, last), 3] < STANDING:
+        return min(at + 1.0, float(last))
+    while room > 0.0 and at < last:
+        k = int(at)
+        if math.isnan(path[k + 1, 0]):
+            return float(k + 1)
+        if path[k + 1, 3] < STANDING:
+            return at
+        length = _norm(path[k + 1, 0] - path[k, 0], path[k + 1, 1] - path[k, 1])
+        left = length * (k + 1 - at)
+        if left > room:
+            return at + room / length
+        room -= left
+        at = float(k + 1)
+    return at
+
+
+@_jit
+def _put(path: Floats, at: float, speed: float, state: Floats) -> None:
+    """Write the state of a driver that has come to a step of its prediction."""
+    k = int(at)
+    after, share = min(k + 1, len(path) - 1), at - k
+    if share <= 0.0 or math.isnan(path[after, 0]):
+        after = k
+    turned = path[after, 2] - path[k, 2]
+    turned = math.atan2(math.sin(turned), math.cos(turned))
+    state[0] = path[k, 0] + share * (path[after, 0] - path[k, 0])
+    state[1] = path[k, 1] + share * (path[after, 1] - path[k, 1])
+    state[2] = path[k, 2] + share * turned
+    state[3] = speed
