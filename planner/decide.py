@@ -27,7 +27,7 @@ from planner.trace import (
     TrajectoryPrediction,
     VehiclePrediction,
 )
-from planner.tracks import Observed, lanes_at
+from planner.tracks import Observed, indicating, lanes_at
 from planner.trajectory import Array, Roads
 from planner.waypoints import waypoint
 from sim.scene import EGO, Point, VehicleState
@@ -123,6 +123,7 @@ def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
         np.array(track.position),
         np.array(track.heading),
         np.array(track.speed),
+        indicating(state),
     )
 
 

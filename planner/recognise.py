@@ -14,6 +14,7 @@ from planner.actions import COMFORT, ActionPlan, Situation, Stop
 from planner.astar import SOLUTIONS, Solution, held, ways
 from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view
+from planner.indication import indicated
 from planner.likelihood import likelihoods
 from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.rollout import Leg, Task, held_up
@@ -143,6 +144,9 @@ def _beliefs(
         if settings.recognition
         else [0.0 if driving is None else 1.0 for driving in left]
     )
+    if settings.recognition:
+        shown = indicated(roads, observed, starts[0], goals, settings.view_radius)
+        likelihood = [like * share for like, share in zip(likelihood, shown, strict=True)]
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
     if sum(weights) == 0.0:
         return _unknown(roads, observed, steps)

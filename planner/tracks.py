@@ -4,6 +4,7 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -14,11 +15,14 @@ from planner.obstacles import Obstacle, Traffic
 from planner.routes import onward
 from planner.trajectory import Array, Path, Roads
 from sim.network import Location
-from sim.scene import Point
+from sim.scene import Point, VehicleState
+
+Side: TypeAlias = Literal["left", "right"]
 
 TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
+SIDES: tuple[Side, ...] = ("left", "right")
 LEAST_PACE = 3.0  # [m/s] below which nobody wants to drive for long
 CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
 QUEUE = 60.0  # [m] over which one stands behind another
@@ -37,6 +41,7 @@ class Observed:
     position: Array  # [m] [N, 2]
     heading: Array  # [rad] [N]
     speed: Array  # [m/s] [N]
+    indicating: frozenset[Side] = frozenset()  # the sides that it indicates now
     paced: bool = True  # False: how fast it drove says nothing of how fast it wants to drive
 
     @property
@@ -70,6 +75,11 @@ class Observed:
             Situation(time, (x, y), heading, speed, 0.0, location)
             for location in lanes_at(roads, (x, y), heading)
         )
+
+
+def indicating(state: VehicleState) -> frozenset[Side]:
+    """Return the sides that a vehicle indicates."""
+    return frozenset(side for side in SIDES if side in state.signals)
 
 
 def queued(tracks: Sequence[Observed]) -> list[Observed]:

@@ -5,6 +5,7 @@ import pytest
 
 from planner.decide import predict
 from planner.goals import STOP_PRIOR, goals_in_view, stopping_time
+from planner.indication import MEANT, SHOWN, WRONG
 from planner.recognise import Belief
 from planner.trace import Settings, Track
 from sim.scene import VehicleState
@@ -113,10 +114,15 @@ def test_probabilities_sum_to_one(samples: int, settings: Settings) -> None:
         assert sum(way.probability for way in belief.trajectories) == pytest.approx(1.0)
 
 
-def test_a_vehicle_seen_once_keeps_the_prior() -> None:
-    for belief in beliefs("s1", {1: changed(1)})[1]:
-        assert belief.likelihood == 1.0
-        assert belief.probability == pytest.approx(belief.goal.prior)
+def test_of_a_vehicle_seen_once_only_the_lights_speak() -> None:
+    found = beliefs("s1", {1: changed(1)})[1]
+    likelihoods = {belief.goal.kind: belief.likelihood for belief in found}
+    assert likelihoods["continue"] == likelihoods["stop"] == 1.0 - 2.0 * MEANT[False]
+    assert likelihoods["exit-right"] == pytest.approx(1.0 - SHOWN[1] - WRONG)
+    total = sum(belief.goal.prior * belief.likelihood for belief in found)
+    for belief in found:
+        known = belief.goal.prior * belief.likelihood / total
+        assert belief.probability == pytest.approx(known)
 
 
 @pytest.mark.parametrize("samples", [1, 5, 15])

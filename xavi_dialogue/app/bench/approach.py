@@ -6,16 +6,14 @@ way to go in view, until it enters one of those roads; that one is the truth. Wh
 before, or goes where nobody expected, tells nothing and is left out.
 """
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from planner.goals import Goal, goals_in_view
-from planner.tracks import Observed, lanes_at
+from planner.tracks import Observed, indicating, lanes_at
 from planner.trajectory import Roads
-from sim.network import point_at
 from sim.scene import EGO, Scene, VehicleState
 
 SHORTEST = 10  # samples of an approach that is worth watching
@@ -30,11 +28,6 @@ class Approach:
     last: int  # sample before it enters the road that it takes
     choices: tuple[Goal, ...]  # all goals at the first sample, stopping among them
     truth: str  # edge of the road that it takes
-    nearest: str  # edge of the choice nearest to it at first, as the crow flies
-
-    def sample(self, tenth: int) -> int:
-        """The sample at which so many tenths of the approach have been seen."""
-        return self.first + round((self.last - self.first) * tenth / 10.0)
 
 
 def approaches(roads: Roads, scenes: Sequence[Scene], view: float) -> tuple[Approach, ...]:
@@ -67,6 +60,7 @@ def track_at(scenes: Sequence[Scene], sample: int, vehicle: int, longest: int) -
         np.round([state.position for state in states], 2),
         np.round([state.heading for state in states], 4),
         np.round([state.speed for state in states], 2),
+        indicating(states[-1]),
     )
 
 
@@ -98,11 +92,9 @@ def _approaches(
         taken = next((k for k in range(at + 1, len(edges)) if edges[k] in roads_to_take), None)
         if taken is None:
             return
-        truth, here = edges[taken], scenes[stretch[at]].vehicles[vehicle]
+        truth = edges[taken]
         if taken - at > SHORTEST and truth is not None:
-            near = _nearest(roads, choices, here)
-            first, last = stretch[at], stretch[taken - 1]
-            yield Approach(vehicle, first, last, choices, truth, near)
+            yield Approach(vehicle, stretch[at], stretch[taken - 1], choices, truth)
         at = taken
 
 
@@ -123,12 +115,3 @@ def _choices(roads: Roads, state: VehicleState, view: float) -> tuple[Goal, ...]
         np.array([state.speed]),
     ).situation(roads, -1, 0.0)
     return goals_in_view(roads, now, view) if now else ()
-
-
-def _nearest(roads: Roads, choices: Sequence[Goal], state: VehicleState) -> str:
-    def distance(edge: str, position: float) -> float:
-        lines = (lane.centreline for lane in roads.network.edge_lanes(edge))
-        return min(math.dist(point_at(line, position)[0], state.position) for line in lines)
-
-    targets = [goal.target for goal in choices if goal.target is not None]
-    return min(targets, key=lambda target: distance(target.edge, target.position)).edge
