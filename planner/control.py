@@ -17,7 +17,7 @@ from planner.kernels.driving import (
     safe_speed,
     towards,
 )
-from planner.manoeuvres import ActionPlan
+from planner.manoeuvres import ActionPlan, GiveWay
 from planner.memory import Memory
 from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.recognise import Belief
@@ -87,15 +87,22 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Hindran
 def _clear(
     driving: Driving, around: Around, chosen: tuple[float, Hindrance | None], dt: float
 ) -> tuple[float, Hindrance | None]:
-    """Stop before a vehicle that stands so near the path that turning would touch it."""
+    """Stop before a vehicle that stands so near the path that turning would touch it.
+
+    Inside a junction, do not even set off: between the two of them nobody could go on.
+    """
     motion, now = driving.motion, around.memory.now
     standing = {v: s for v, s in now.items() if v != EGO and s.speed <= CRAWL}
     reach = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + SPARE
+    halted = motion.speed <= CRAWL
+    if halted:
+        reach = max([reach, *(line.clear - motion.arc for line in _crossing(driving))])
     found = first_touch(driving.plan.path, motion.arc, reach, around.scene.ego, standing)
     if found is None:
         return chosen
     free, vehicle = found
-    wanted = safe_speed(free - motion.arc, 0.0, FOLLOWING)
+    held = halted and any(line.clear > free for line in _crossing(driving))
+    wanted = 0.0 if held else safe_speed(free - motion.arc, 0.0, FOLLOWING)
     braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
     if braking >= chosen[0]:
         return chosen
@@ -136,8 +143,13 @@ def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
 
     Else the two would wait for one another forever.
     """
-    arc = driving.motion.arc
-    if not any(line.stop + INSIDE < arc < line.clear for line in driving.plan.give_ways):
+    if not _crossing(driving):
         return False
     speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
     return len(speeds) == PATIENCE and max(speeds) < STANDING
+
+
+def _crossing(driving: Driving) -> list[GiveWay]:
+    """List the lines behind which the ego is in the way of those who may go first."""
+    arc = driving.motion.arc
+    return [line for line in driving.plan.give_ways if line.stop + INSIDE < arc < line.clear]

@@ -223,6 +223,7 @@ def _goal(belief: Belief) -> GoalPrediction:
         likelihood=round(belief.likelihood, 6),
         probability=round(belief.probability, 6),
         trajectories=tuple(_trajectory(way) for way in belief.trajectories),
+        indicators=round(belief.indicators, 4),
     )
 
 

@@ -52,6 +52,7 @@ class Belief:
     likelihood: float
     probability: float
     trajectories: tuple[Trajectory, ...]
+    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,6 +145,7 @@ def _beliefs(
         if settings.recognition
         else [0.0 if driving is None else 1.0 for driving in left]
     )
+    shown = [1.0] * len(goals)
     if settings.recognition:
         shown = indicated(roads, observed, starts[0], goals, settings.view_radius)
         likelihood = [like * share for like, share in zip(likelihood, shown, strict=True)]
@@ -152,8 +154,10 @@ def _beliefs(
         return _unknown(roads, observed, steps)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings))
-        for goal, like, weight, onward in zip(goals, likelihood, weights, onwards, strict=True)
+        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings), share)
+        for goal, like, weight, onward, share in zip(
+            goals, likelihood, weights, onwards, shown, strict=True
+        )
         if weight > 0.0
     )
 

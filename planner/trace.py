@@ -145,6 +145,7 @@ class GoalPrediction(msgspec.Struct, frozen=True):
     likelihood: float  # of the observed track, relative to the most rational one
     probability: float
     trajectories: tuple[TrajectoryPrediction, ...]
+    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
 
 
 class VehiclePrediction(msgspec.Struct, frozen=True):

@@ -2,7 +2,8 @@
 
 Our own networks are written as plain XML (nodes, edges, connections) and shipped compiled;
 `compile_plain` compiles them, and so does `python -m sim.netconvert FOLDER...`.
-`convert_opendrive` reads a map in OpenDRIVE.
+`convert_opendrive` reads a map in OpenDRIVE. `generate` has netgenerate, which comes with the same
+extra, make up a network.
 
     NetconvertError
     ├── NetconvertMissing    netconvert is not installed
@@ -16,7 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -113,30 +114,44 @@ def _priorities(priority: Mapping[str, int]) -> str:
     return "<edges>" + "".join(lines) + "</edges>"
 
 
-def program() -> str:
-    """Where netconvert is.
+def generate(arguments: Sequence[str], target: Path) -> None:
+    """Make up a network without signals and turns back.
+
+    Args:
+        arguments: of netgenerate: the kind of network, its sizes, its seed.
+        target: the .net.xml file to write.
+
+    Raises:
+        NetconvertMissing: netgenerate is not installed.
+        ConversionFailed: netgenerate did not accept the arguments.
+    """
+    _run(*arguments, "--no-turnarounds", "-o", str(target), tool="netgenerate")
+
+
+def program(tool: str = "netconvert") -> str:
+    """Where a program of the extra is.
 
     Raises:
         NetconvertMissing: nowhere.
     """
-    beside = Path(sys.executable).parent / "netconvert"
-    found = str(beside) if beside.exists() else shutil.which("netconvert")
+    beside = Path(sys.executable).parent / tool
+    found = str(beside) if beside.exists() else shutil.which(tool)
     if found is None:
         raise NetconvertMissing
     return found
 
 
-def _run(*arguments: str) -> None:
-    command = [program(), *arguments, "--xml-validation", "never"]
+def _run(*arguments: str, tool: str = "netconvert") -> None:
+    command = [program(tool), *arguments, "--xml-validation", "never"]
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=PATIENCE
         )
     except subprocess.TimeoutExpired as error:
-        raise ConversionFailed(f"netconvert did not finish within {PATIENCE:g} s") from error
+        raise ConversionFailed(f"{tool} did not finish within {PATIENCE:g} s") from error
     if done.returncode != 0:
         reason = next((x for x in done.stderr.splitlines() if x.startswith("Error")), done.stderr)
-        raise ConversionFailed(f"netconvert failed: {reason.strip()}")
+        raise ConversionFailed(f"{tool} failed: {reason.strip()}")
 
 
 def main(folders: list[str]) -> None:

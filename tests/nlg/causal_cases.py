@@ -35,6 +35,7 @@ from xavi_dialogue.domain.answers import (
     Unavailable,
     WhichOne,
 )
+from xavi_dialogue.domain.evidence import TimeRange
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, OptionValue
 from xavi_dialogue.domain.terms import (
     At,
@@ -80,6 +81,7 @@ LATER = Contrast(
     terms=(Share("time", 4.0),),
     told=(Share("time", 4.0),),
     error=0.4,
+    likely=TimeRange(1.0, 6.0, 0.9, 120),
 )
 CHANGED = Episode(E, "change-left", THEN, 9.0)
 TURNED = Episode(E, "exit-right", 12.0, 15.0)
@@ -101,6 +103,7 @@ EFFORT = replace(
     fact=("continue",),
     foil=("change-left",),
     effects=(effect("time", -1.0),),
+    likely=None,
     terms=(Share("effort", 1.0), Share("angular-acceleration", 1.5), Share("time", -1.0)),
     told=(Share("angular-acceleration", 1.5), Share("time", -1.0)),
 )
@@ -111,6 +114,7 @@ CLOSE = replace(
     told=(Share("jerk", 1.0), Share("time", -1.5)),
     error=0.8,
     effects=(effect("time", -1.5), effect("jerk", 0.4)),
+    likely=TimeRange(-3.5, 0.5, 0.9, 120),
 )
 WORSE = replace(
     CLOSE, verdict="worse", told=(Share("time", -1.5), Share("jerk", 1.0)), error=0.2, causes=()
@@ -120,6 +124,7 @@ RISKY = replace(
     fact=("exit-right",),
     foil=("exit-straight",),
     effects=(effect("time", -2.5),),
+    likely=TimeRange(-4.0, -0.1, 0.9, 120),
     terms=(Share("collision", 80.0, 0.46, 0.02), Share("time", -1.6)),
     told=(Share("collision", 80.0, 0.46, 0.02), Share("time", -1.6)),
     collision=0.46,
@@ -131,6 +136,7 @@ ALONE = replace(LATER, foil=(), outcome=None, effects=(), verdict="alone", terms
 STEERING = replace(
     LATER,
     effects=(effect("angular-acceleration", 0.1), effect("time", -2.0)),
+    likely=None,
     terms=(Share("angular-acceleration", 3.0), Share("time", -2.0)),
     told=(Share("angular-acceleration", 3.0), Share("time", -2.0)),
     causes=(),
@@ -237,7 +243,7 @@ MOTIONS: tuple[Answer, ...] = (
     OtherReason(2, None),
 )
 
-SOONER = replace(LATER, foil=("continue",), effects=(effect("time", -2.0),))
+SOONER = replace(LATER, foil=("continue",), effects=(effect("time", -2.0),), likely=None)
 LEFT = Event("turn", CAR, side="left")
 SUPPOSITIONS: tuple[Answer, ...] = tuple(
     case

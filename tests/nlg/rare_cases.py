@@ -261,4 +261,11 @@ CASES: tuple[Answer, ...] = (
     Priority(NOW, "give-way", 1, grounds=True),
     Priority(NOW, "priority", 1, ring=True),
     Options(OPTIONS[:1], 2.0, Evidence(), risk=True),
+    ChoiceReason("why-not", None, EFFORT, ahead=MotionCause("lane-beside", 3)),
+    ChoiceReason(
+        "why",
+        Episode(E, "change-left", 8.0, 11.0),
+        replace(EFFORT, foil=("continue",), verdict="close", causes=()),
+        ahead=MotionCause("leader", 1, speed=8.0),
+    ),
 )

@@ -106,6 +106,15 @@ class Aim(Value, frozen=True):
     time: float | None = None  # [s] that the fact takes to it
 
 
+class TimeRange(Value, frozen=True):
+    """How much later a foil comes to the destination, as it held in so many cases of its kind."""
+
+    low: float  # [s] foil minus fact
+    high: float
+    coverage: float  # share of cases that lay within
+    cases: int
+
+
 class Contrast(Value, frozen=True):
     """A fact and a foil compared: the heart of causal answers about our own choice.
 
@@ -133,6 +142,7 @@ class Contrast(Value, frozen=True):
     terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart; largest first
     told: tuple[Share, ...] = ()  # those that are told, the decisive one first
     error: float = 0.0  # [s] standard error of the difference
+    likely: TimeRange | None = None  # None: what was calibrated does not reach this
     route: MacroAction | None = None  # what comes next on our way, where the foil misses it
 
     def __post_init__(self) -> None:

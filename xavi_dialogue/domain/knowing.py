@@ -24,6 +24,7 @@ class Grounds(Value, frozen=True):
     deed: Episode | None = None  # what the vehicle was doing between them that it had not before
     rival: tuple[MacroAction, ...] = ()  # what goes with the likeliest goal that it excludes
     fit: float | None = None  # how many times better its path fits the goal believed than that
+    light: Literal["left", "right"] | None = None  # an indicator that speaks for it
 
 
 class Certainty(Value, frozen=True):

@@ -22,7 +22,7 @@ class ChoiceReason(Value, frozen=True):
     suspect: int | None = None  # a vehicle that the question takes for the cause ...
     suspected: Suspected | None = None  # ... and whether it is
     past: bool = True
-    ahead: "MotionCause | None" = None  # who stood or crept in the lane that we left
+    ahead: "MotionCause | None" = None  # who was in the way in the lane that we left, or left alone
     of_causes: bool = False  # it was asked who or what causes it
 
 
@@ -34,6 +34,8 @@ class MotionCause(Value, frozen=True):
         "right-of-way",  # somebody goes first
         "cut-in",
         "blocked",
+        "lane-beside",  # somebody is beside us in the lane that is asked about ...
+        "lane-ahead",  # ... or drives slower there, or stands, at `value` [m]
         "no-room",  # somebody is in the way of leaving the lane
         "turn",  # a turn to be taken at this speed
         "bend",  # likewise a bend of the road
@@ -47,6 +49,7 @@ class MotionCause(Value, frozen=True):
         "starting",  # we have only just set off
         "picking-up",  # we speed up again, and are not there yet
         "parked",  # it has stood there since it was first seen
+        "next-move",  # the change of lanes that `actions` are comes next
         "given-up",  # a stop, or the turn that `actions` are, was decided, and given up again
         "light",
     ]
@@ -169,6 +172,7 @@ class SupposedOfUs(Value, frozen=True):
     asked: ActionName | None = None  # where the foil is only the nearest to it: "brake" for a stop
     form: Asking = "what-if"
     arrival: float | None = None  # [s] when we would be there
+    claimed: float | None = None  # [s] what the question takes it to gain or cost
     ahead: MotionCause | None = None  # who stood in the lane that we would have stayed in
 
 

@@ -4,7 +4,17 @@ from collections.abc import Sequence
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Act, Ask, Doing, Elliptic, Question, Request, Whether, Why
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    Doing,
+    Elliptic,
+    Question,
+    Request,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -19,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     That,
 )
 from xavi_dialogue.nlu.compose.polar import way_asked
+from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -37,6 +48,11 @@ def chosen_between(units: Sequence[Node], rows: Rows) -> list[tuple[Act, ...] | 
             asked = _either(first[-1], later[0])
         elif len(later) == 1 and first and units[index].name == "imperative":
             asked = _guessed(first[-1], later[0])
+        if len(later) == 1 and first and _is_purpose(
+            units[index - 1 : index + 1], first[-1], later[0]
+        ):
+            found[index] = None
+            continue
         if asked is None:
             last = index
         else:
@@ -50,6 +66,19 @@ def _is_other(unit: Node) -> bool:
     return isinstance(lead, Leaf) and lead.category == "OR"
 
 
+def _is_purpose(pair: Sequence[Node], first: Act, later: Act) -> bool:
+    """Say whether "so it moves" is what for something is requested: it asks nothing."""
+    before, unit = pair
+    lead = unit.parts[0] if unit.parts else None
+    led = isinstance(lead, Leaf) and lead.category == "SO"
+    if not (led or words_of(before).endswith(" so")) or not isinstance(first, Request):
+        return False
+    match later:
+        case Ask(question=Whether(that=Happens(event=event))) | Claim(that=Happens(event=event)):
+            return not isinstance(event.actor, Ego)
+    return False
+
+
 def _either(first: Act, later: Act) -> Question | None:
     """Ask which of two is so; None where they are no alternatives."""
     match first:
@@ -57,6 +86,8 @@ def _either(first: Act, later: Act) -> Question | None:
             pass
         case Ask(question=Whether(that=that)):
             contents = (that,)
+        case Claim(that=Happens() as that) if _is_of_two(that, later):
+            contents = (that,)  # "he waits for us, or we wait for him?"
         case Ask(question=Doing(actor=Ego(), tense="future")) if isinstance(later, Ask):
             return later.question if isinstance(later.question, Whether) else None
         case _:
@@ -70,6 +101,15 @@ def _either(first: Act, later: Act) -> Question | None:
         return Whether(contents[0])
     of = Both((*contents, other), "or")
     return way_asked(of) or Whether(of)
+
+
+def _is_of_two(first: Happens, later: Act) -> bool:
+    """Say whether a deed that is stated and one that is asked after are alternatives."""
+    match later:
+        case Ask(question=Whether(that=Happens(event=event))):
+            told = first.event
+            return told.tense == event.tense and told != event
+    return False
 
 
 def _is_own_choice(later: Act) -> bool:

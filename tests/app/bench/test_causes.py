@@ -166,6 +166,7 @@ def test_a_set_holds_where_the_deed_vanishes_without_it_and_stays_with_it_alone(
         ("either", (1, 2), (), [{1, 2}]),
         ("pre-empted", (1, 2), (), [{1, 2}]),
         ("distractor", (1,), (2,), [{1}]),
+        ("interactive", (1, 2), (), [{1}, {2}]),
     ],
 )
 def test_a_world_is_of_its_kind_where_removal_shows_it(kind, planted, idle, groups) -> None:

@@ -6,10 +6,15 @@ import msgspec
 import pytest
 
 from xavi_dialogue.app.bench.agreement import agreement, by_outcome, calibration
-from xavi_dialogue.app.bench.cases import Case, Compared, compare
-from xavi_dialogue.app.bench.fidelity import measure, report
+from xavi_dialogue.app.bench.cases import Case, Compared, Task, compare
+from xavi_dialogue.app.bench.fidelity import measure, report, tasks
 from xavi_dialogue.app.bench.foresight import Foreseen
+from xavi_dialogue.app.bench.ranging import coverage, extension, learn
 from xavi_dialogue.app.bench.resimulate import Happened
+from xavi_dialogue.app.bench.rivals import Guess, by_name, key_of
+from xavi_dialogue.explain.causes.ranges import LEAST, Group, Ranges, Source
+
+RANGES = Ranges(0.9, 3.0, (Group("exit", None, 30, 50, 1.0),), Source("", {}, 0, 0, 0))
 
 
 def case(said: dict, happened: str, time: float | None = None, later: float | None = None) -> Case:
@@ -47,6 +52,76 @@ def test_agreement_counts_what_was_told() -> None:
     assert found.sign == 0.5
     assert found.within == 0.5
     assert found.error_p50 == pytest.approx(2.0)  # of 0.5 and 3.5
+    assert found.error == pytest.approx(2.0)
+    assert found.bias == pytest.approx(2.0)  # both were foreseen too late
+
+
+def at(one: Case, **changed: object) -> Case:
+    return msgspec.structs.replace(one, **changed)
+
+
+def test_the_name_of_a_foil_is_a_rival_that_knows_other_rides_only() -> None:
+    here = at(CASES[0], seed=1, foil="stop", later=2.0)
+    others = [
+        at(CASES[0], seed=2, foil="stop", later=4.0),
+        at(CASES[0], seed=3, foil="stop", later=6.0),
+        at(CASES[3], seed=4, foil="stop"),
+        at(CASES[3], seed=1, foil="exit-left"),
+    ]
+    found = by_name([here, *others])
+    assert found[key_of(here)] == Guess("done", 5.0)
+    assert key_of(others[3]) not in found  # no other ride has a foil of that name
+    row = agreement("s1", [here], found)
+    assert row.agree_name == 1.0
+    assert row.error_name == pytest.approx(3.0)  # 5.0 instead of 2.0
+    assert row.error == pytest.approx(2.0)  # 4.0 instead of 2.0
+    assert row.skill == pytest.approx(1.0 - 2.0 / 3.0, abs=1e-3)
+
+
+def timed(later: float | None, **changed: object) -> Case:
+    one = at(case({"done": 1.0}, "done", 4.0, later), foil="exit-left", fact_arrived=True)
+    return at(one, **changed)
+
+
+def test_coverage_is_that_of_cases_of_which_a_range_is_said() -> None:
+    cases = [timed(3.5), timed(6.5), timed(None), timed(4.0, foil="stop")]
+    found = coverage("s1", [*cases, timed(4.0, fact_arrived=False)], RANGES)
+    assert (found.n, found.missed, found.refused) == (4, 1, 1)
+    assert found.covered == pytest.approx(1 / 3, abs=1e-3)  # 3 to 5: the first alone
+    assert found.width == pytest.approx(2.0)
+    assert found.rollouts == pytest.approx(1 / 3, abs=1e-3)  # 3 to 5
+    assert found.constant == pytest.approx(2 / 3, abs=1e-3)  # 1 to 7
+    assert found.constant_width == pytest.approx(6.0)
+
+
+def test_ranges_are_learnt_of_the_rides_that_were_driven() -> None:
+    rides = [Compared("learning", 7 + k, (timed(4.0 + 0.1 * k, seed=k),)) for k in range(2 * LEAST)]
+    found = learn([*rides, Compared("learning", 99, error="no")], "again")
+    cases = 2 * LEAST
+    assert found.source == Source("again", {"learning": (7, 6 + cases)}, cases, cases, 0)
+    whole = found.group("exit", "road")
+    assert whole is not None
+    assert (whole.rides, whole.cases) == (cases, cases)
+    assert whole.reach == pytest.approx(3.6)  # the 37th of 40, for ceil(41 * 0.9)
+    assert found.constant == pytest.approx(3.6)
+    with pytest.raises(ValueError, match="too few"):
+        learn(rides[:5], "again")
+
+
+def test_times_beyond_a_waypoint_are_compared_with_the_arrival() -> None:
+    foreseen = Foreseen({"done": 1.0}, 4.0, 3.0, 5.0, extended=4.5)
+    cases = [timed(5.0, foreseen=foreseen, waypoint=True), timed(5.0, foreseen=foreseen)]
+    found = extension("s1", cases)
+    assert (found.n, found.error, found.bias) == (1, 1.0, -1.0)
+    assert (found.error_extended, found.bias_extended) == (0.5, -0.5)
+
+
+def test_random_networks_come_after_the_scenarios() -> None:
+    assert tasks(["s1"], [0, 1], [5], 2) == [
+        Task("s1", 0, 2),
+        Task("s1", 1, 2),
+        Task("random", 5, 2),
+    ]
 
 
 def test_brier_scores_are_sums_of_squares_over_outcomes() -> None:
@@ -79,10 +154,12 @@ def test_calibration_sorts_probabilities_into_bins() -> None:
 
 
 def test_what_is_wrong_is_listed_with_how_to_see_it_again() -> None:
-    found = report([Compared("s1", 0, tuple(CASES)), Compared("s2", 3, error="SumoFailed: no")])
+    found = report(
+        [Compared("s1", 0, tuple(CASES)), Compared("s2", 3, error="SumoFailed: no")], RANGES
+    )
     assert len(found.wrong) == 2
     assert "said done 0.60, collision 0.40, +1.0 s; came to collision" in found.wrong[1].what
-    assert found.wrong[0].reproduce == "xavi bench fidelity --scenario s1 --seed 0"
+    assert found.wrong[0].reproduce == "xavi bench fidelity --networks 0 --scenario s1 --seed 0"
     assert found.failed[0].startswith("SumoFailed: no")
     assert found.all.agree == 0.75
     assert "s1, seed 0, 3 s: continue instead of change-left" in found.table()
@@ -90,18 +167,18 @@ def test_what_is_wrong_is_listed_with_how_to_see_it_again() -> None:
 
 
 def test_a_scenario_that_cannot_be_driven_is_told_in_the_report() -> None:
-    found = compare(("no-such-scenario", 0, 1))
+    found = compare(Task("no-such-scenario", 0))
     assert found.cases == ()
     assert found.error is not None
     assert found.error.startswith("ScenarioNotFound")
-    whole = report([found])
+    whole = report([found], RANGES)
     assert whole.all.agree is None
     assert "no-such-scenario" in whole.table()
 
 
 def test_foils_of_a_story_are_foreseen() -> None:
     notes: list[str] = []
-    found = measure(["s1"], [0], 5, 1, notes.append)
+    found = measure(tasks(["s1"], [0], [], 5), 1, notes.append)
     assert notes == ["1 of 1: s1, seed 0"]
     assert found.failed == ()
     assert found.all.foils > 5

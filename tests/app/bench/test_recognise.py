@@ -14,8 +14,12 @@ from planner.trajectory import Roads
 from sim import scenario
 from sim.network import Network, point_at
 from sim.scene import Scene, VehicleState
-from xavi_dialogue.app.bench.approach import Approach, approaches, track_at
-from xavi_dialogue.app.bench.recognise import Guess, Seen, Watched, guess, report, watch
+from xavi_dialogue.app.bench.approach import approaches, track_at
+from xavi_dialogue.app.bench.displacement import METHODS, Error
+from xavi_dialogue.app.bench.foretold import Foretold
+from xavi_dialogue.app.bench.goal_scores import FLOOR
+from xavi_dialogue.app.bench.recognise import Task, Watched, tasks, watch
+from xavi_dialogue.app.bench.recognise_report import report
 from xavi_dialogue.app.bench.recording import MEMORY
 from xavi_dialogue.app.bench.stories import Story, likely, manoeuvre
 from xavi_dialogue.app.ride import network_of
@@ -67,9 +71,6 @@ def test_the_road_that_a_vehicle_took_is_read_off_its_way(network: Network, road
     assert found.last * SPEED * STEP > length
     edges = {goal.target.edge for goal in found.choices if goal.target is not None}
     assert {"exit_s", "main_out"} <= edges
-    assert found.nearest in edges
-    assert found.sample(10) == found.last
-    assert found.first < found.sample(1) < found.sample(5) < found.last
 
 
 def test_who_goes_out_of_view_before_it_chose_tells_nothing(network: Network) -> None:
@@ -100,17 +101,6 @@ def belief(kind: Action, edge: str | None, probability: float) -> Belief:
     return Belief(Goal(kind, "", target, 0.5), 1.0, probability, ())
 
 
-def test_a_guess_is_measured_by_what_came_true() -> None:
-    beliefs = (belief("exit-left", "a", 0.5), belief("exit-right", "b", 0.5))
-    found = guess(beliefs, "b", 2)
-    assert (found.probability, found.right) == (0.5, 0.5)
-    assert found.entropy == pytest.approx(1.0)
-    assert guess(beliefs, "b", 4).entropy == pytest.approx(0.5)
-    assert guess(beliefs, "elsewhere", 2) == Guess(0, 0.0, 1.0)
-    sure = guess((belief("stop", None, 0.0), belief("exit-left", "a", 1.0)), "a", 2)
-    assert sure == Guess(1.0, 1.0, 0.0)
-
-
 def test_goals_of_one_kind_are_taken_together() -> None:
     beliefs = [belief("exit-left", "a", 0.5), belief("exit-left", "b", 0.3)]
     assert likely(beliefs, "exit-left") == pytest.approx(0.8)
@@ -128,52 +118,62 @@ def test_a_manoeuvre_given_up_is_none() -> None:
     assert manoeuvre(events[:2], "change-left") == (None, None)
 
 
-def test_reports_take_means_by_scenario_and_over_all() -> None:
-    def seen(probability: float) -> Seen:
-        none = Guess(0.25, 0.25, 1.0)
-        return Seen(1, Guess(probability, 1.0, 0.0), none, none)
+def moment(chances: tuple[float, ...], truth: int, network: str = "s1/0") -> Foretold:
+    kinds: tuple[Action, ...] = ("exit-left", "exit-right", "continue")[: len(chances)]
+    errors = tuple(Error(method, 2.0, 1.0, 2.0, 1) for method in METHODS)
+    family = network.partition("/")[0]
+    return Foretold(network, family, 1, "two roads", 1.0, 3.0, chances, kinds, truth, errors)
 
+
+def test_reports_have_a_part_for_each_set_of_networks() -> None:
     story = Story("s1", 0, 1, "exit-right", 2.5, 3.0, 3.5, True)
     found = report(
         [
-            Watched("s1", 0, (seen(0.5), seen(1.0)), story),
-            Watched("s2", 0, (seen(0.0),)),
-            Watched("s2", 1, error="SumoFailed: no"),
+            Watched(Task("s1", 0), (moment((0.5, 0.5), 0), moment((0.9, 0.1), 0)), (), story),
+            Watched(Task(None, 7), (moment((0.0, 1.0), 0, "network 7/7"),)),
+            Watched(Task("s2", 1), error="SumoFailed: no"),
         ]
     )
-    rows = {row.scenario: (row.n, row.ours.probability) for row in found.rows}
-    assert rows == {"s1": (2, 0.75), "s2": (1, 0.0), "all": (3, 0.5)}
+    [development, held_out] = found.parts
+    rows = {row.group: row for row in development.goals}
+    assert set(rows) == {"s1", "two roads", "seen 1 to 2 s", "left 2 to 4 s", "all"}
+    ours = rows["all"].scores["ours"]
+    assert ours.log == pytest.approx(-(math.log(0.5) + math.log(0.9)) / 2.0)
+    assert ours.top == pytest.approx(0.75)
+    assert held_out.goals[-1].scores["ours"].log == pytest.approx(-math.log(FLOOR))
+    lines = [row for row in held_out.lines if row.group == "all"]
+    assert [row.method for row in lines] == list(METHODS)
+    assert {(row.average, row.final, row.moments) for row in lines} == {(1.0, 2.0, 1)}
+    assert [row.networks for row in found.maps] == ["development", "held out"]
     assert [(f.name, f.unit, f.p50) for f in found.figures] == [("s1 known ahead", "s", 1.0)]
-    assert found.failed == ("SumoFailed: no\n    xavi drive --scenario s2 --seed 1",)
+    assert found.failed == ("SumoFailed: no\n    s2, seed 1",)
     assert json.loads(msgspec.json.encode(found))["bench"] == "recognise"
-    assert "xavi drive --scenario s2 --seed 1" in found.table()
+    assert "s2, seed 1" in found.table()
+
+
+def test_rides_are_scenarios_by_seed_and_networks_by_number() -> None:
+    found = tasks(["s1"], 2, 3, 100, 1)
+    assert [(one.name, one.seed) for one in found[:2]] == [("s1", 0), ("s1", 1)]
+    assert [one.seed for one in found[2:]] == [100, 101, 102]
+    assert [one.constants for one in found] == [False, False, True, False, False]
 
 
 @pytest.mark.slow
 def test_others_are_watched_the_same_every_time() -> None:
-    once = watch(("s2", 0))
+    once = watch(Task("s2", 0))
     assert once.error is None
-    assert once == watch(("s2", 0))
-    assert once.seen
-    assert {seen.tenth for seen in once.seen} == set(range(1, 11))
-    for seen in once.seen:
-        assert 0.0 <= seen.ours.probability <= 1.0
-        assert 0.0 <= seen.ours.entropy <= 1.0 + 1e-9
-    ends = [seen.ours.probability for seen in once.seen if seen.tenth == 10]
-    starts = [seen.ours.probability for seen in once.seen if seen.tenth == 1]
-    assert sum(ends) > sum(starts)
+    assert once == watch(Task("s2", 0))
     assert once.story is not None
+    for seen in once.moments:
+        assert sum(seen.chances) <= 1.0 + 1e-9
+        assert seen.left >= 0.0
+    ends = [seen.chances[seen.truth] for seen in once.moments if seen.left < 1.0]
+    starts = [seen.chances[seen.truth] for seen in once.moments if seen.left > 4.0]
+    assert sum(ends) / len(ends) > sum(starts) / len(starts)
 
 
 def test_an_approach_that_breaks_is_told() -> None:
-    found = watch(("nowhere", 1))
+    found = watch(Task("nowhere", 1))
     assert found.error is not None
     assert found.error.startswith("ScenarioNotFound")
-    assert found.seen == ()
-
-
-def test_tenths_lie_within_the_approach() -> None:
-    approach = Approach(1, 7, 40, (), "a", "a")
-    samples = [approach.sample(tenth) for tenth in range(11)]
-    assert (samples[0], samples[-1]) == (7, 40)
-    assert samples == sorted(samples)
+    assert found.moments == ()

@@ -37,10 +37,10 @@ class Halted:
                 return found
             self.scene = self.world.step(step.command)
 
-    def foil(self, trace: PlanTrace, action: Action) -> Happened:
+    def foil(self, trace: PlanTrace, *plan: Action) -> Happened:
         """What comes of a foil."""
         aim = Aim.of(self.network, trace)
-        return drive_foil(self.world, self.driver, aim, action, self.scene, self.scenario.step)
+        return drive_foil(self.world, self.driver, aim, plan, self.scene, self.scenario.step)
 
 
 @contextmanager
@@ -74,11 +74,18 @@ def test_foils_come_to_what_the_roads_say_and_the_ride_goes_on_as_it_was() -> No
         assert trace.plan[0].action == "change-left"
         before = ride.scene
         found = {action: ride.foil(trace, action) for action in ("continue", "stop", "exit-right")}
-        assert found["exit-right"] == Happened("dead")
+        assert found["exit-right"] == Happened("dead", carried=1)
         slow, stopped = found["continue"].time, found["stop"].time
         assert slow is not None
         assert stopped is not None
         assert ride.world.scene() == before
+        assert found["continue"].arrived == slow  # no waypoint: it is the destination
+        both = ride.foil(trace, "stop", "change-left")  # the whole plan is carried out
+        assert both.carried == 2
+        assert both.time is not None
+        assert both.time > slow
+        rest = ride.foil(trace, "continue", "change-left")  # after it there is no lane to the left
+        assert rest == found["continue"]
         again = ride.foil(trace, "continue")
         assert again == found["continue"]  # the same state gives the same drive
     with halted("s1") as ride:
@@ -98,4 +105,4 @@ def test_two_that_wait_for_one_another_do_not_wait_forever_and_nobody_is_touched
         trace = ride.drive_to(3.9)
         # Past its line, the ego stops for one that goes first, which stops for the ego, while a
         # third stands so near its way that the side of the ego would touch it.
-        assert ride.foil(trace, "exit-left") == Happened("dead")
+        assert ride.foil(trace, "exit-left") == Happened("dead", carried=1)

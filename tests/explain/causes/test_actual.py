@@ -111,3 +111,24 @@ def test_the_first_suspect_is_tried_first(order: tuple[int, int]) -> None:
     trial, tried = trying(lambda without: bool(without))
     actual_causes(order, (), trial)
     assert tried[0] == (order[0],)
+
+
+def test_who_makes_a_necessary_one_do_so_is_a_cause_with_it() -> None:
+    trial, tried = trying(lambda without: 1 in without)
+    found = actual_causes((1,), (), trial, {1: (4,)}.__getitem__)
+    assert (found.kind, found.vehicles) == ("both", (1, 4))
+    assert tried == [(1,)]
+    again = actual_causes((1,), (), trial, lambda _: (1,))  # nobody is behind himself
+    assert (again.kind, again.vehicles) == ("one", (1,))
+
+
+def test_who_stands_behind_one_that_makes_no_difference_is_not_looked_for() -> None:
+    trial, _ = trying(lambda without: False)
+    asked: list[int] = []
+
+    def behind(one: int) -> tuple[int, ...]:
+        asked.append(one)
+        return (4,)
+
+    found = actual_causes((1,), (), trial, behind)
+    assert (found.kind, asked) == ("none", [])

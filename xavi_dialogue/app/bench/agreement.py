@@ -1,38 +1,44 @@
 """Agreement of what was foreseen of foils with what happened, in numbers."""
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import msgspec
 
 from planner.trace import OUTCOMES, Outcome
 from xavi_dialogue.app.bench.cases import Case
 from xavi_dialogue.app.bench.figures import in_columns, mean, quantile
+from xavi_dialogue.app.bench.rivals import Guess, Key, key_of
 
 CLEAR = 1.0  # [s] of difference from which its sign counts
 ALL = "all"
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """How the foils of one scenario, or of all, turned out."""
+    """How the foils of one scenario, of one kind, or all of them, turned out."""
 
-    scenario: str
+    scenario: str  # or family of networks, or kind of foil
     foils: int
     declined: int  # for want of evidence; these count in nothing below
     agree: float | None  # share of foils that came to the outcome that is named
     agree_blind: float | None  # the same where the others of a rollout do not react to the ego
+    agree_name: float | None  # the same for what foils of that name came to on other rides
     commonest: float | None  # the same for always naming the commonest outcome
     brier: float | None  # of the outcome probabilities: 0 is perfect, 2 the worst
     brier_blind: float | None  # of those where the others do not react
     brier_commonest: float | None  # of always giving the shares of all outcomes
-    timed: int  # foils that were foreseen to arrive and did, as did the fact
-    error_p50: float | None  # [s] absolute error of the difference of the arrival times
+    timed: int  # foils that were foreseen to arrive and came to the destination, as the fact did
+    error: float | None  # [s] mean absolute error of the difference of the arrival times
+    error_blind: float | None  # where the others do not react
+    error_name: float | None  # of what foils of that name took longer on other rides
+    skill: float | None  # 1 - error / error_name: 0 is no better than the name, 1 is perfect
+    bias: float | None  # [s] mean of foreseen minus happened
+    error_p50: float | None  # [s]
     error_p90: float | None
-    error_p50_blind: float | None  # where the others do not react
-    error_p90_blind: float | None
     within: float | None  # share of them within the range that is given
     clear: int  # of these, with a difference of more than a second
     sign: float | None  # share of them with the right sign
+    sign_name: float | None  # the same by the name
 
 
 class OutcomeRow(msgspec.Struct, frozen=True):
@@ -55,18 +61,16 @@ class Bin(msgspec.Struct, frozen=True):
     happened: float | None  # share that happened
 
 
-def agreement(scenario: str, cases: Sequence[Case]) -> Agreement:
-    """The cases of a scenario in numbers."""
+def agreement(
+    scenario: str, cases: Sequence[Case], guesses: Mapping[Key, Guess] | None = None
+) -> Agreement:
+    """The cases of a scenario in numbers, with what their names alone would have said."""
     told = [case for case in cases if case.foreseen.declined is None]
     shares = _shares(told)
-    timed = [c for c in told if c.later is not None and c.foreseen.time is not None]
-    errors = [abs(_foreseen_time(c) - _later(c)) for c in timed]
     blind = [_as_blind(c) for c in cases if c.blind is not None and c.blind.declined is None]
-    errors_blind = [
-        abs(_foreseen_time(c) - _later(c))
-        for c in blind
-        if c.later is not None and c.foreseen.time is not None
-    ]
+    known = guesses or {}
+    named = [c for c in told if key_of(c) in known]
+    timed = [c for c in told if c.later is not None and c.foreseen.time is not None]
     clear = [c for c in timed if abs(_later(c)) > CLEAR]
     return Agreement(
         scenario=scenario,
@@ -74,21 +78,49 @@ def agreement(scenario: str, cases: Sequence[Case]) -> Agreement:
         declined=len(cases) - len(told),
         agree=_share(told, right),
         agree_blind=_share(blind, right),
+        agree_name=_share(named, lambda c: known[key_of(c)].outcome == c.happened.outcome),
         commonest=max(shares.values()) if told else None,
-        brier=_rounded(mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in told])),
-        brier_blind=_rounded(
-            mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in blind])
-        ),
+        brier=_brier_of(told),
+        brier_blind=_brier_of(blind),
         brier_commonest=_rounded(mean([_brier(shares, c.happened.outcome) for c in told])),
         timed=len(timed),
-        error_p50=_rounded(quantile(errors, 50)) if errors else None,
-        error_p90=_rounded(quantile(errors, 90)) if errors else None,
-        error_p50_blind=_rounded(quantile(errors_blind, 50)) if errors_blind else None,
-        error_p90_blind=_rounded(quantile(errors_blind, 90)) if errors_blind else None,
+        **_times(timed, blind, known),
         within=_share(timed, _within),
         clear=len(clear),
         sign=_share(clear, same_sign),
+        sign_name=_share(
+            [c for c in clear if (key_of(c) in known and known[key_of(c)].later is not None)],
+            lambda c: ((known[key_of(c)].later or 0.0) > 0.0) == (_later(c) > 0.0),
+        ),
     )
+
+
+def _times(
+    timed: Sequence[Case], blind: Sequence[Case], known: Mapping[Key, Guess]
+) -> dict[str, float | None]:
+    """The errors of the differences in time [s]; skill is that over cases with a rival."""
+    errors = [_foreseen_time(c) - _later(c) for c in timed]
+    sizes = [abs(error) for error in errors]
+    blindly = [
+        abs(_foreseen_time(c) - _later(c))
+        for c in blind
+        if c.later is not None and c.foreseen.time is not None
+    ]
+    pairs = [
+        (abs(_foreseen_time(c) - _later(c)), abs(later - _later(c)))
+        for c in timed
+        if key_of(c) in known and (later := known[key_of(c)].later) is not None
+    ]
+    ours, rival = (mean([pair[k] for pair in pairs]) for k in (0, 1))
+    return {
+        "error": _rounded(mean(sizes)),
+        "error_blind": _rounded(mean(blindly)),
+        "error_name": _rounded(rival),
+        "skill": None if ours is None or not rival else round(1.0 - ours / rival, 3),
+        "bias": _rounded(mean(errors)),
+        "error_p50": _rounded(quantile(sizes, 50)) if sizes else None,
+        "error_p90": _rounded(quantile(sizes, 90)) if sizes else None,
+    }
 
 
 def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
@@ -181,6 +213,10 @@ def _later(case: Case) -> float:
 def _shares(cases: Sequence[Case]) -> dict[Outcome, float]:
     counts = Counter(case.happened.outcome for case in cases)
     return {outcome: counts[outcome] / max(len(cases), 1) for outcome in OUTCOMES}
+
+
+def _brier_of(cases: Sequence[Case]) -> float | None:
+    return _rounded(mean([_brier(c.foreseen.outcomes, c.happened.outcome) for c in cases]))
 
 
 def _brier(said: dict[Outcome, float], happened: Outcome) -> float:

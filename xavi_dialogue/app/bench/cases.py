@@ -1,9 +1,15 @@
 """Cases: foils of decisions, as they were foreseen and as they turned out in SUMO."""
 
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
 import msgspec
 
 from planner.driver import Driver
 from planner.trace import Action, EgoGoal, PlanTrace
+from planner.trajectory import Roads
 from planner.whatif import decide_again
 from sim.network import Network
 from sim.scenario import Scenario, load
@@ -11,8 +17,23 @@ from sim.sumo import Simulation
 from xavi_dialogue.app.bench.foresight import Foreseen, foresee
 from xavi_dialogue.app.bench.resimulate import Aim, Happened, drive_foil
 from xavi_dialogue.app.bench.runs import warm
+from xavi_dialogue.app.bench.worlds.nets import write_net
 from xavi_dialogue.app.ride import network_of, settings_of
 from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.explain.causes.ranges import FoilKind, RoadKind, foil_kind, road_kind
+
+#: Families of random networks: those that ranges are learnt on, and those that nothing was made on.
+LEARNING, RANDOM = "learning", "random"
+
+
+class Task(msgspec.Struct, frozen=True):
+    """A ride whose foils are to be compared."""
+
+    world: str  # a scenario by name or folder; or a family of random networks
+    seed: int  # of a random network: its number, too
+    every: int = 1  # 2: every other decision that has alternatives
+    blind: bool = True  # also what would be said if the others of a rollout did not react
+    timed: bool = False  # only foils that are foreseen to arrive
 
 
 class Case(msgspec.Struct, frozen=True):
@@ -27,6 +48,15 @@ class Case(msgspec.Struct, frozen=True):
     happened: Happened
     later: float | None = None  # [s] by which the foil arrived later than the fact, if both did
     blind: Foreseen | None = None  # what would be said if the others of a rollout did not react
+    road: RoadKind = "road"
+    waypoint: bool = False  # rollouts aim for a place on the way
+    passed: float | None = None  # [s] as `later`, to what the rollouts aim for
+    fact_arrived: bool = False  # the ride came to the destination
+
+    @property
+    def kind(self) -> FoilKind:
+        """The kind of the foil."""
+        return foil_kind(self.foil)
 
 
 class Compared(msgspec.Struct, frozen=True):
@@ -44,57 +74,80 @@ class _Pending(msgspec.Struct):
     aim: Aim
     cases: list[Case]
     fact: Happened | None = None
+    arrived: float | None = None  # [s] after which the ride came to the destination
 
 
-def compare(task: tuple[str, int, int]) -> Compared:
+def compare(task: Task) -> Compared:
     """Compare all foils of every so many decisions of one ride; errors are told in the result."""
-    name, seed, every = task
     try:
         warm()
-        scenario = load(name)
-        with Simulation(scenario, seed) as world:
-            pending = _ride(name, world, scenario, seed, every)
-        return Compared(name, seed, tuple(case for one in pending for case in _settled(one)))
+        with _scenario(task) as scenario, Simulation(scenario, task.seed) as world:
+            pending = _ride(task, world, scenario)
+        cases = tuple(case for one in pending for case in _settled(one))
+        return Compared(task.world, task.seed, cases)
     except Exception as error:
-        return Compared(name, seed, error=f"{type(error).__name__}: {error}")
+        return Compared(task.world, task.seed, error=f"{type(error).__name__}: {error}")
 
 
-def _ride(
-    name: str, world: Simulation, scenario: Scenario, seed: int, every: int
-) -> list[_Pending]:
+@contextmanager
+def _scenario(task: Task) -> Iterator[Scenario]:
+    if task.world not in (LEARNING, RANDOM):
+        yield load(task.world)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        yield write_net(task.world, task.seed, Path(folder))
+
+
+def _ride(task: Task, world: Simulation, scenario: Scenario) -> list[_Pending]:
     network = network_of(scenario)
+    roads = Roads(network)
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
-    driver = Driver(network, goal, settings_of(scenario), seed)
+    driver = Driver(network, goal, settings_of(scenario), task.seed)
     scene, pending, taken = world.scene(), [], 0
     while not driver.finished and scene.time < scenario.duration - EPSILON:
         driven = driver.step(scene, scenario.step)
         trace = driven.trace
         free = trace is not None and trace.under_way is None
         taken += free
-        if trace is not None and free and (taken - 1) % every == 0:
+        if trace is not None and free and (taken - 1) % task.every == 0:
             aim = Aim.of(network, trace)
-            blind = foresee(_blind(trace, network), network)
             cases = [
-                Case(
-                    name,
-                    seed,
-                    trace.sim_time,
-                    trace.plan[0].action,
-                    foil,
-                    foreseen,
-                    drive_foil(world, driver, aim, foil, scene, scenario.step),
-                    blind=blind.get(foil),
+                msgspec.structs.replace(
+                    case,
+                    happened=drive_foil(
+                        world, driver, aim, case.foreseen.plan or (case.foil,), scene, scenario.step
+                    ),
                 )
-                for foil, foreseen in foresee(trace, network).items()
+                for case in _foils(task, trace, roads)
             ]
             pending.append(_Pending(aim, cases))
         scene = world.step(driven.command)
         touched = world.collisions()
         for one in pending:
             one.fact = one.fact or one.aim.come_to(scene, touched)
+            one.arrived = one.arrived or one.aim.arrived(scene)
         if touched:
             break
     return pending
+
+
+def _foils(task: Task, trace: PlanTrace, roads: Roads) -> Iterator[Case]:
+    """Yield the foils of a decision, as they are foreseen."""
+    blind = foresee(_blind(trace, roads.network), roads) if task.blind else {}
+    for foil, foreseen in foresee(trace, roads).items():
+        if not task.timed or (foreseen.time is not None and foreseen.likeliest == "done"):
+            yield Case(
+                task.world,
+                task.seed,
+                trace.sim_time,
+                trace.plan[0].action,
+                foil,
+                foreseen,
+                Happened("termination"),
+                blind=blind.get(foil),
+                road=road_kind(trace),
+                waypoint=trace.waypoint is not None,
+            )
 
 
 def _blind(trace: PlanTrace, network: Network) -> PlanTrace:
@@ -108,8 +161,15 @@ def _settled(one: _Pending) -> list[Case]:
     """The cases of a decision, with how much later the foils arrived."""
     fact = one.fact.time if one.fact is not None else None
     return [
-        msgspec.structs.replace(case, later=round(case.happened.time - fact, 3))
-        if fact is not None and case.happened.time is not None
-        else case
+        msgspec.structs.replace(
+            case,
+            later=_minus(case.happened.arrived, one.arrived),
+            passed=_minus(case.happened.time, fact),
+            fact_arrived=one.arrived is not None,
+        )
         for case in one.cases
     ]
+
+
+def _minus(there: float | None, here: float | None) -> float | None:
+    return None if there is None or here is None else round(there - here, 3)

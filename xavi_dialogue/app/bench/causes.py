@@ -48,6 +48,7 @@ EXPECTED: dict[Kind, tuple[bool, ...]] = {
     "pre-empted": (False, False, True),
     "distractor": (False, True),
     "none": (False, False),
+    "interactive": (True, True, True),
 }
 
 Task = tuple[int, Family, str | None]
@@ -132,8 +133,10 @@ def _are_seen(world: World, whole: Ridden, asked: Question) -> bool:
 
 def _is_of_its_kind(world: World, deeds: Deeds) -> bool:
     """Tell whether the deed hangs on whom the story has it hang on."""
-    hiding = len(world.idle) if world.kind == "one" else 0
-    expected = (False,) * hiding + EXPECTED[world.kind]
+    alone = world.kind == "interactive" and len(world.planted) == 1
+    kind: Kind = "one" if alone else world.kind
+    besides = len(world.idle) if kind == "one" else 0
+    expected = (False,) * besides + EXPECTED[kind]
     return agrees(deeds, world.planted, world.idle, expected)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 import typer
 
 from xavi_dialogue.app.bench.chosen import ours, processes, there
+from xavi_dialogue.app.bench.fidelity_commands import of_foils
 
 if TYPE_CHECKING:
     from xavi_dialogue.app.bench.figures import Report
@@ -67,14 +68,21 @@ def commands(show: Show) -> typer.Typer:
     @group.command("recognise")
     def _recognise(
         scenario: Scenarios = None,
-        seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 10,
+        seeds: Annotated[int, typer.Option(min=0, help="How many of each scenario.")] = 2,
+        networks: Annotated[int, typer.Option(min=0, help="How many made at random.")] = 40,
+        seed: Annotated[int, typer.Option(min=0, help="Of the first; the next one follows.")] = 100,
+        constants: Annotated[
+            int, typer.Option(min=0, help="In so many networks each constant is changed.")
+        ] = 0,
         jobs: Jobs = None,
         as_json: AsJson = False,
     ) -> None:
-        """How early, and how surely, it is known where others will go."""
-        show(lambda note: recognise(scenario, seeds, jobs, note), as_json)
+        """How well it is known where others will go, and where they will be."""
+        counts = (seeds, networks, seed, constants)
+        show(lambda note: recognise(scenario, counts, jobs, note), as_json)
 
     _of_answers(group, show)
+    of_foils(group, show)
     _of_parsing(group, show)
     return group
 
@@ -93,19 +101,6 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
     ) -> None:
         """Whether the deed vanishes without those named, in worlds drawn at random."""
         show(lambda note: causes(worlds, seed, roads, jobs, keep, note), as_json)
-
-    @group.command("fidelity")
-    def _fidelity(
-        scenario: Scenarios = None,
-        seeds: Annotated[int, typer.Option(min=1, help="How many of each scenario.")] = 2,
-        seed: Annotated[int | None, typer.Option(min=0, help="Only this one.")] = None,
-        every: Annotated[int, typer.Option(min=1, help="1: each decision; 2: every other.")] = 1,
-        jobs: Jobs = None,
-        as_json: AsJson = False,
-    ) -> None:
-        """What is said of foils, beside what SUMO makes of them from the same state."""
-        chosen = range(seeds) if seed is None else (seed,)
-        show(lambda note: fidelity(scenario, chosen, every, jobs, note), as_json)
 
     @group.command("sufficiency")
     def _sufficiency(
@@ -236,12 +231,24 @@ def drive(
 
 
 def recognise(
-    scenarios: list[str] | None, seeds: int, jobs: int | None, note: Callable[[str], None]
+    scenarios: list[str] | None,
+    counts: tuple[int, int, int, int],
+    jobs: int | None,
+    note: Callable[[str], None],
 ) -> "Report":
-    """Measure recognition in scenarios, or in those where others have a choice."""
-    from xavi_dialogue.app.bench.recognise import SCENARIOS, measure
+    """Measure recognition in scenarios where others have a choice, and in random networks.
 
-    return measure(there(scenarios or list(SCENARIOS)), seeds, processes(jobs), note)
+    Args:
+        scenarios: names or folders; None: ours.
+        counts: seeds of each, networks, number of the first, networks with constants changed.
+        jobs: processes side by side.
+        note: is told the progress.
+    """
+    from xavi_dialogue.app.bench.recognise import SCENARIOS, measure, tasks
+    from xavi_dialogue.app.bench.recognise_report import report
+
+    asked = tasks(there(scenarios or list(SCENARIOS)), *counts)
+    return report(measure(asked, processes(jobs), note))
 
 
 def causes(
@@ -256,22 +263,6 @@ def causes(
     from xavi_dialogue.app.bench.causes import measure
 
     return measure(worlds, seed, roads, processes(jobs), keep, note)
-
-
-def fidelity(
-    scenarios: list[str] | None,
-    seeds: Sequence[int],
-    every: int,
-    jobs: int | None,
-    note: Callable[[str], None],
-) -> "Report":
-    """Measure what is said of foils in scenarios, or in all of ours."""
-    from msgspec.structs import replace
-
-    from xavi_dialogue.app.bench.fidelity import measure
-
-    chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
-    return replace(measure(chosen, seeds, every, processes(jobs), note), left_out=left_out)
 
 
 def sufficiency(

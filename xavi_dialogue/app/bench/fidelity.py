@@ -1,9 +1,10 @@
 """`xavi bench fidelity`: what we say of foils, beside what SUMO makes of them.
 
 At each decision of each ride, for each foil that applies, SUMO is run on from the very same
-state with the ego doing the foil (see `resimulate`), and what an answer would say is compared
-with what happened: the outcome, and by how much the ego arrives later than it did. Beside it
-stands what would be said if the others of a rollout did not react to the ego.
+state with the ego carrying out the foil and what it is told to be followed by (see `resimulate`),
+and what an answer would say is compared with what happened: the outcome, and by how much the ego
+arrives later at the destination than it did. Beside it stands what would be said if the others of
+a rollout did not react to the ego, and what the foil's name alone lets one expect.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,8 +24,21 @@ from xavi_dialogue.app.bench.agreement import (
     same_sign,
     tables,
 )
-from xavi_dialogue.app.bench.cases import Case, Compared, compare
+from xavi_dialogue.app.bench.cases import LEARNING, RANDOM, Case, Compared, Task, compare
+from xavi_dialogue.app.bench.ranging import (
+    Coverage,
+    Extension,
+    coverage,
+    coverage_table,
+    extension,
+    extension_table,
+    learn,
+)
+from xavi_dialogue.app.bench.rivals import by_name
 from xavi_dialogue.app.bench.runs import in_processes
+from xavi_dialogue.explain.causes.ranges import Ranges, table
+
+KINDS = ("stop", "exit", "manoeuvre")  # of foils
 
 
 class Wrong(msgspec.Struct, frozen=True):
@@ -39,7 +53,10 @@ class FidelityReport(msgspec.Struct, frozen=True):
 
     bench: str
     scenarios: tuple[Agreement, ...]
+    kinds: tuple[Agreement, ...]  # of foils
     all: Agreement
+    coverage: tuple[Coverage, ...]
+    extension: tuple[Extension, ...]
     outcomes: tuple[OutcomeRow, ...]
     calibration: tuple[Bin, ...]
     wrong: tuple[Wrong, ...]
@@ -48,7 +65,9 @@ class FidelityReport(msgspec.Struct, frozen=True):
 
     def table(self) -> str:
         """The report for people."""
-        parts = [tables((*self.scenarios, self.all), self.outcomes, self.calibration)]
+        rows = (*self.scenarios, *self.kinds, self.all)
+        parts = [tables(rows, self.outcomes, self.calibration)]
+        parts += [coverage_table(self.coverage), extension_table(self.extension)]
         parts.append("\n".join(["wrong:", *(one.what for one in self.wrong)]))
         if self.failed:
             parts.append("\n".join(("failed:", *self.failed)))
@@ -57,50 +76,111 @@ class FidelityReport(msgspec.Struct, frozen=True):
         return "\n\n".join(parts)
 
 
-def measure(
-    scenarios: Sequence[str],
-    seeds: Sequence[int],
-    every: int,
-    jobs: int,
-    note: Callable[[str], None],
-) -> FidelityReport:
-    """Compare the foils of scenarios (names or folders).
+class Learnt(msgspec.Struct, frozen=True):
+    """The table of ranges that was made."""
+
+    bench: str
+    ranges: Ranges
+    failed: tuple[str, ...]
+
+    def table(self) -> str:
+        """The table for people."""
+        source = self.ranges.source
+        lines = [f"{source.cases} foils of {source.rides} rides, {source.missed} never arrived"]
+        lines += [
+            f"{one.foil}, {one.road or 'all roads'}: {one.reach:.1f} s to either side"
+            f" ({one.cases} foils of {one.rides} rides)"
+            for one in self.ranges.groups
+        ]
+        return "\n".join([*lines, *(["failed:", *self.failed] if self.failed else [])])
+
+
+def tasks(
+    scenarios: Sequence[str], seeds: Sequence[int], networks: Sequence[int], every: int
+) -> list[Task]:
+    """The rides whose foils are compared.
 
     Args:
-        scenarios: at least one.
+        scenarios: names or folders.
         seeds: of each.
+        networks: numbers of random networks, none of which ranges were learnt on.
         every: 1 for each decision of a ride that has alternatives, 2 for every other one, ...
+    """
+    found = [Task(name, seed, every) for seed in seeds for name in scenarios]
+    return found + [Task(RANDOM, number, every) for number in networks]
+
+
+def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> FidelityReport:
+    """Compare the foils of rides.
+
+    Args:
+        asked: the rides, at least one.
         jobs: processes side by side.
         note: is told the progress.
     """
-    tasks = [(name, seed, every) for seed in seeds for name in scenarios]
+    return report(_driven(asked, jobs, note), table())
+
+
+def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str], None]) -> Learnt:
+    """Make the table of ranges on networks that serve nothing else.
+
+    Args:
+        networks: their numbers, in a row.
+        every: as in `tasks`.
+        jobs: processes side by side.
+        note: is told the progress.
+
+    Raises:
+        ValueError: there are too few rides.
+    """
+    asked = [Task(LEARNING, number, every, blind=False, timed=True) for number in networks]
+    found = _driven(asked, jobs, note)
+    first = f"--seed {networks[0]} --networks {len(networks)}" if networks else "--networks 0"
+    command = f"xavi bench fidelity --learn FILE {first} --every {every}"
+    return Learnt("fidelity-learn", learn(found, command), _failed(found))
+
+
+def _driven(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> list[Compared]:
     found = []
-    for one in in_processes(compare, tasks, jobs, _died):
+    for one in in_processes(compare, asked, jobs, _died):
         found.append(one)
-        note(f"{len(found)} of {len(tasks)}: {one.scenario}, seed {one.seed}")
-    return report(found)
+        note(f"{len(found)} of {len(asked)}: {one.scenario}, seed {one.seed}")
+    return found
 
 
-def _died(task: tuple[str, int, int]) -> Compared:
-    return Compared(task[0], task[1], error="its process died")
+def _died(task: Task) -> Compared:
+    return Compared(task.world, task.seed, error="its process died")
 
 
-def report(found: Sequence[Compared]) -> FidelityReport:
-    """The rides that were compared, in numbers."""
-    names = list(dict.fromkeys(one.scenario for one in found))
+def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
+    """The rides that were compared, in numbers, with ranges that were learnt on others."""
     cases = [case for one in found for case in one.cases]
+    groups = {
+        name: [case for case in cases if case.scenario == name]
+        for name in dict.fromkeys(one.scenario for one in found)
+    }
+    kinds = {kind: [case for case in cases if case.kind == kind] for kind in KINDS}
+    named = by_name(cases)
+    every = {**groups, **kinds, ALL: cases}
     return FidelityReport(
         bench="fidelity",
-        scenarios=tuple(agreement(n, [c for c in cases if c.scenario == n]) for n in names),
-        all=agreement(ALL, cases),
+        scenarios=tuple(agreement(name, own, named) for name, own in groups.items()),
+        kinds=tuple(agreement(name, own, named) for name, own in kinds.items()),
+        all=agreement(ALL, cases, named),
+        coverage=tuple(coverage(name, own, ranges) for name, own in every.items()),
+        extension=tuple(extension(name, own) for name, own in every.items()),
         outcomes=by_outcome(cases),
         calibration=calibration(cases),
         wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
-        failed=tuple(
-            f"{one.error}\n    xavi bench fidelity --scenario {one.scenario} --seed {one.seed}"
-            for one in found
-            if one.error is not None
-        ),
+        failed=_failed(found),
+    )
+
+
+def _failed(found: Sequence[Compared]) -> tuple[str, ...]:
+    return tuple(
+        f"{one.error}\n    {_again(one.scenario, one.seed)}"
+        for one in found
+        if one.error is not None
     )
 
 
@@ -126,4 +206,11 @@ def _what(case: Case) -> str:
 
 
 def _command(case: Case) -> str:
-    return f"xavi bench fidelity --scenario {case.scenario} --seed {case.seed}"
+    return _again(case.scenario, case.seed)
+
+
+def _again(scenario: str, seed: int) -> str:
+    """The command that repeats a ride."""
+    if scenario == RANDOM:
+        return f"xavi bench fidelity --seeds 0 --networks 1 --seed {seed}"
+    return f"xavi bench fidelity --networks 0 --scenario {scenario} --seed {seed}"

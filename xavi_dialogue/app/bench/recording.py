@@ -1,14 +1,17 @@
 """A ride as scenes, and what the planner expects of the others at any moment of it."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from planner.events import Event
 from planner.recognise import Belief, recognise
 from planner.trace import SAMPLE_PERIOD, Settings
+from planner.tracks import Observed
 from planner.trajectory import Roads
 from sim.scenario import Scenario
 from sim.scene import EGO, Scene
+from sim.sumo import EgoGone, Simulation
 from xavi_dialogue.app.bench.approach import track_at
 from xavi_dialogue.app.ride import network_of, settings_of, start
 
@@ -30,10 +33,14 @@ class Recording:
         found = self._known.get(sample)
         if found is None:
             scene = self.scenes[sample]
-            tracks = [track_at(self.scenes, sample, name, MEMORY) for name in scene.vehicles]
+            tracks = [self.track(sample, name) for name in scene.vehicles]
             found = recognise(self.roads, tracks, self.settings, scene.time, EGO)
             self._known[sample] = found
         return found
+
+    def track(self, sample: int, vehicle: int) -> Observed:
+        """What the car remembers of a vehicle at a sample."""
+        return track_at(self.scenes, sample, vehicle, MEMORY)
 
 
 def record(scenario: Scenario, seed: int) -> Recording:
@@ -53,3 +60,21 @@ def record(scenario: Scenario, seed: int) -> Recording:
             if count % stride == 0:
                 scenes.append(moment.scene)
     return Recording(Roads(network), settings_of(scenario), scenes, events)
+
+
+def record_by_sumo(scenario: Scenario, seed: int) -> Recording:
+    """Watch a scenario from an ego that SUMO drives, to the end of its way or of the time.
+
+    Raises:
+        SimulationError: SUMO is not installed or fails.
+    """
+    network = network_of(scenario)
+    stride = max(1, round(SAMPLE_PERIOD / scenario.step))
+    scenes: list[Scene] = []
+    with Simulation(scenario, seed) as world, suppress(EgoGone):
+        scene = world.scene()
+        for count in range(round(scenario.duration / scenario.step) + 1):
+            if count % stride == 0:
+                scenes.append(scene)
+            scene = world.step(None)
+    return Recording(Roads(network), settings_of(scenario), scenes, ())

@@ -19,6 +19,7 @@ TOLD: dict[Kind, tuple[str | None, ...]] = {
     "either": ("either",),
     "pre-empted": ("pre-empted",),
     "none": ("none", None),
+    "interactive": ("both",),
 }
 
 

@@ -143,6 +143,6 @@ def _drive(
                 if driven.trace is not None and driven.trace.sim_time == one.decided:
                     aim, foil = Aim.of(network, driven.trace), one.foil.action
                     with suppress(ChildFailed):
-                        found[foil] = drive_foil(world, driver, aim, foil, scene, scenario.step)
+                        found[foil] = drive_foil(world, driver, aim, (foil,), scene, scenario.step)
             scene = world.step(driven.command)
     return found

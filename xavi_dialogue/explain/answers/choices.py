@@ -13,6 +13,7 @@ from xavi_dialogue.domain.answers import (
     MotionCause,
     MotionReason,
     NotApplicable,
+    TooLittle,
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Suspected
@@ -28,7 +29,7 @@ from xavi_dialogue.explain.causes.actions import (
     names_of,
     to_macros,
 )
-from xavi_dialogue.explain.causes.blocking import blocking
+from xavi_dialogue.explain.causes.blocking import blocking, in_lane_beside
 from xavi_dialogue.explain.causes.contrast import (
     SameAsPlan,
     alone,
@@ -96,6 +97,13 @@ def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | 
     return None if refuted else ahead
 
 
+def _beside(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
+    """Who is in the lane that was left alone: beside us, or slower than we drive."""
+    if found.node or against.foil[0] not in CHANGES or against.route is not None:
+        return None
+    return in_lane_beside(scene.ride, scene.world, against.decided, against.foil[0])
+
+
 def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
     """Tell why we did not do something.
 
@@ -118,8 +126,16 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
             raise Unanswered(DidNotHappen(event, told)) from None
         foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
         against = contrast(scene.ride, found.trace, foil)
+    except Unanswered as unanswered:
+        thin = unanswered.result
+        if not isinstance(thin, TooLittle) or thin.reason != "too-little-evidence" or found.node:
+            raise
+        model = scene.ride.model(found.trace)
+        against = replace(alone(scene.ride, model, factual(model, found.trace)), foil=foil)
+        if _beside(scene, found, against) is None:  # who is there tells enough
+            raise
     past = _over(scene, event, found) or is_past(scene, event)
-    ahead = _left_for(scene, found, against) if foil == STAYING else None
+    ahead = _left_for(scene, found, against) if foil == STAYING else _beside(scene, found, against)
     return ChoiceReason("why-not", deed_of(scene, found), against, past=past, ahead=ahead)
 
 

@@ -18,7 +18,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
 )
-from xavi_dialogue.domain.vocabulary import State
+from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import how_sure
@@ -54,6 +54,9 @@ NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
 BIG = 7.0  # [m] from which a vehicle is big
 #: What goes on all the time: how it feels is asked of the ride.
 GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
+#: What we do because something hinders us, what people see of it first.
+HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
+JUST = 0.3  # [s] for which what is over still goes on, to people
 LATELY = 6.0  # [s] for which what is over is what "that" was
 RIGHT_OF_WAY = ("enter", "turn", "exit-left", "exit-right", "exit-straight", "cross", "go", "merge")
 
@@ -147,6 +150,20 @@ def _judged(of: Is, asked: Asked) -> Finding:
         if answer is not None:
             return Finding(None, answer=answer)
     return unknown("not-recorded")
+
+
+def _amiss(of: Is, asked: Asked) -> Finding:
+    """Tell what hinders us now, or that all is well, where it is asked whether all is well."""
+    if of.thing is not None or of.event is not None:
+        return wrong(of, asked)
+    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
+    doing = [e for e in found if e.end is None or e.end >= asked.now - JUST]
+    plainest = min((e.action for e in doing), key=HINDERED.index, default=None)
+    why = None if plainest is None else Why(Happens(Event(plainest, tense="present")))
+    answer = None if why is None else handed(why, asked)
+    if answer is None:
+        return _safe(with_fields(of, state="dangerous"), asked)
+    return Finding(None, answer=answer)
 
 
 def _possible(of: Is, asked: Asked) -> Finding:
@@ -264,7 +281,7 @@ STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
     "stationary": still, "moving": still,
     "fast": fast, "slow": fast, "close": _close, "far": _close,
     "sure": _sure, "over": over, "late": late, "stuck": stuck,
-    "wrong": wrong, "right": wrong, "at-fault": _at_fault,
+    "wrong": _amiss, "right": _amiss, "at-fault": _at_fault,
     "first": _first, "last": _first, "big": _big, "busy": busy,
     "normal": _constant(None, "not-recorded"),
     "dirty": _constant(None, "not-sensed"),

@@ -2,8 +2,10 @@
 
 from msgspec.structs import replace
 
+from sim.network import angle_between
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Counted, Measures, NotRecorded
-from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import HowMany
 from xavi_dialogue.domain.terms import (
     Described,
@@ -33,6 +35,7 @@ from xavi_dialogue.explain.answers.occasions import merged, within
 from xavi_dialogue.explain.answers.onward import WAYS, junctions_left, turns_left
 from xavi_dialogue.explain.answers.places import told
 from xavi_dialogue.explain.answers.plans import plan_ahead
+from xavi_dialogue.explain.history.thresholds import TURNED
 
 CHANGES: frozenset[str] = frozenset(("change-left", "change-right", "change-lane"))
 
@@ -62,9 +65,25 @@ def _events(asked: Asked, event: Event) -> Counted:
     if event.tense != "present" and about.instant:
         about = Window(asked.world.begin, asked.now)
     found = merged(asked, within(asked, event, about))
+    if event.action == "turn":
+        found = tuple(e for e in found if not _straight_over(asked, e)) or found
     times = merged(asked, (replace(e, object=None) for e in found))
     lost = any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
     return Counted(event, len(times), found, lost, about.begin, about.end)
+
+
+def _straight_over(asked: Asked, episode: Episode) -> bool:
+    """Tell whether a roundabout was left the way it was entered: no turn, as passengers count."""
+    place = episode.place
+    if not isinstance(place, Junction) or place.form != "roundabout" or place.time is None:
+        return False
+    if not is_us(episode.actor):
+        return False
+    way = asked.ride.motion(EGO)
+    before, after = way.until(place.time), way.until(episode.end or asked.now)
+    if not before.heading or not after.heading:
+        return False
+    return abs(angle_between(after.heading[-1], before.heading[-1])) < TURNED
 
 
 def _changes_left(asked: Asked, event: Event) -> Answer:

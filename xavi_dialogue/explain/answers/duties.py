@@ -160,6 +160,10 @@ def of_order(of: Both) -> Related | None:
                 action in GOING and "first" in event.manner
             ):
                 return Related("has-priority-over", event.actor, Ego(), event.time)
+            case Happens(event=Event(tense="present", modal=None) as event) if (
+                event.action in YIELDING and number(event.actor) and is_us(event.object)
+            ):  # "does he wait for us, or we for him?"
+                return Related("must-yield-to", event.actor, Ego(), event.time)
     return None
 
 

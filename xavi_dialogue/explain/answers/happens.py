@@ -28,6 +28,7 @@ from xavi_dialogue.explain.answers.foreseen import (
     macros,
     wrong_belief,
 )
+from xavi_dialogue.explain.answers.leaving import apart, left_behind, still_there
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
 from xavi_dialogue.explain.answers.nearing import closes, nears, passes, stays, trails
@@ -141,13 +142,14 @@ def _has_been(asked: Asked, event: Event) -> Finding:
         wrong = wrong_belief(asked, event, Window(found.begin, found.begin), came=True)
         believed = () if wrong is None else (wrong,)
         return Finding(True, (found,), None, believed, wrong is not None)
-    lost = _lost(asked, event, about)
+    lost = _lost(asked, event, about) or left_behind(asked, event)
     if lost is not None:
         return lost
     wrong = wrong_belief(asked, event, about, came=False) if _was_to_tell(asked, event) else None
     if wrong is not None and is_open(asked, wrong):
         wrong = None
-    facts: tuple[Fact, ...] = _how_hard(asked, event) or instead(asked, event, about)
+    facts: tuple[Fact, ...] = _how_hard(asked, event) or still_there(asked, event)
+    facts = facts or instead(asked, event, about)
     if event.tense == "present" or not facts:
         facts = (*_under_way(asked, event, about), *_speeds(asked, event, about)) or facts
     shown = () if wrong is None else (wrong,)
@@ -242,7 +244,10 @@ def _arrived(asked: Asked, event: Event) -> Finding:
 
 def _collides(asked: Asked, event: Event) -> Finding:
     """Tell whether there was a collision, nearly was one, or may be."""
-    vehicle = number(event.actor) or number(event.object)
+    others = (number(event.actor), number(event.object))
+    if others[0] is not None and others[1] is not None:
+        return apart(asked, event)
+    vehicle = others[0] or others[1]
     about = window(asked, event.time, event.tense)
     ahead = is_ahead(asked, event.time, event.tense) or event.tense == "present"
     crash = occasion(asked, Event("collide", Ego(), event.object, time=event.time))

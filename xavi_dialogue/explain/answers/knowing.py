@@ -28,7 +28,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers import choices, foils
+from xavi_dialogue.explain.answers import choices, foils, others
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import ruled, since_when
 from xavi_dialogue.explain.answers.foreseen import besides, chance, collision_chance
@@ -99,6 +99,8 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
             return rule
     event = event_of(of)
     vehicle = _whom(scene, of, event)
+    if vehicle is not None and event is not None and _stays(event, vehicle, scene):
+        return others.why(Event("stand", Vehicle(vehicle), tense="present"), scene, negated=False)
     if vehicle is not None:
         of_it = event is not None and not is_own(event.actor) and event.action != "do"
         found = beliefs(scene, vehicle, event if of_it else None)
@@ -116,6 +118,12 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
     return certain(scene, event, negated=negated)
 
 
+def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
+    """Tell whether it is asked if one that stands now goes on standing: what for tells that."""
+    here = event.action in HALTS and not is_own(event.actor) and not is_past(scene, event)
+    return here and scene.ride.motion(vehicle).trend == "standing"
+
+
 def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Certainty:
     """Tell how surely a deed was better than the best alternative, or the plan goes well.
 
@@ -125,9 +133,8 @@ def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Cert
     ride = scene.ride
     if event is None and scene.past is None:
         found = Premise(ride.latest, None)
-        return certainty.of_choice(ride, options.free(ride, found)) or certainty.of_plan(
-            ride, found
-        )
+        chosen = certainty.of_choice(ride, options.free(ride, found))
+        return chosen or certainty.of_plan(ride, found)
     if event is not None and (negated or event.modal == "would"):  # what was not done
         about = Subject(None, (), is_past(scene, event), scene.span)
         found = about_foil(ride, about, foils.settled(scene, event)[:1])

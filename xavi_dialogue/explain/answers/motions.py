@@ -22,7 +22,7 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes import when
 from xavi_dialogue.explain.causes.driving import Reasons, as_of, reasons_for
-from xavi_dialogue.explain.causes.natural import natural
+from xavi_dialogue.explain.causes.natural import stopping
 from xavi_dialogue.explain.causes.premise import episode_of
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.slowness import Slowness, slowness
@@ -218,7 +218,8 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     if deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
-        contrast = natural(scene.ride, reasons.trace)
+        going_on = deed.end is None and scene.moment >= scene.now - BEGUN
+        contrast = stopping(scene.ride, reasons.trace, going_on=going_on)
         if _speaks(contrast, somebody=bool(ours)):
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
         if not ours and _given_up(scene, deed):
@@ -233,7 +234,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         limit=limit_at(scene.ride, deed.begin),
         cleared=reasons.cleared,
         causation=reasons.causation,
-        past=event.tense == "past" or _before(scene),
+        past=(event.tense == "past" and deed.end is not None) or _before(scene),
         halted=_halted(scene, deed, reasons),
     )
 

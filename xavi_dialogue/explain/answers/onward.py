@@ -247,10 +247,16 @@ def _is_exit(thing: Thing | None) -> bool:
 def _by_exit(asked: Asked, steps: tuple[WayStep, ...], event: Event) -> Course | None:
     """Compare the exit that we take with the one asked about."""
     ring = next((s for s in steps if s.kind == "roundabout"), None)
+    rank = event.object.rank if isinstance(event.object, Exit) else None
     if ring is None or ring.exit is None:
         turning = tuple(s for s in steps if _turned(s))[:1]
-        return course(asked, "way", turning, holds=False) if turning else course(asked, "road", ())
-    rank = event.object.rank if isinstance(event.object, Exit) else None
+        if not turning:
+            return course(asked, "road", ())
+        if rank is not None and 0 < rank <= len(steps):
+            step = steps[rank - 1]
+            turned = _turned(step) if event.action == "leave" else _agrees(event, step)
+            return course(asked, "way", (step,), holds=turned)
+        return course(asked, "way", turning, holds=False)
     holds = ring.exit == (rank or 1) if rank is not None or ring.inside else None
     return course(asked, "way", (ring,), holds=holds)
 

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
+    At,
     Compares,
     Ego,
     Event,
@@ -24,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Measured,
     Proposition,
+    Quantity,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, reacting
@@ -76,6 +78,23 @@ def form_of(then: Question | None) -> Asking:
         case HowMuch(of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time")):
             return "arrival"
     return "what-if"
+
+
+def claimed_in(that: Proposition | None, now: float) -> float | None:
+    """Tell how long [s] a delay is said or asked to be; a time that is yet to come is a length."""
+    match that:
+        case Compares(left=Measured(attribute="delay"), right=Quantity(value=value, unit="s")):
+            return value
+        case Compares(left=Measured(attribute="delay", time=At(at), tense="past")) if at > now:
+            return at
+    return None
+
+
+def claimed(found: Answer, amount: float | None) -> Answer:
+    """Add what is claimed to be gained or lost, so that what it would be is held against it."""
+    if amount is None or not isinstance(found, SupposedOfUs):
+        return found
+    return structs.replace(found, claimed=amount, form="quicker")
 
 
 def is_sooner(then: Question | None) -> bool:
@@ -182,7 +201,9 @@ def _staying(event: Event, scene: Asked) -> Event:
     lane = None if event.where is None else event.where.to
     if isinstance(lane, Lane) and lane.which == "own" and event.action in ("pass", "overtake"):
         return structs.replace(event, action="keep-lane", object=None, where=None)
-    if event.action != "follow" and not (behind and event.action in ("stand", "wait", "stop")):
+    lets = event.action in ("let-go", "give-way", "wait") and vehicle_in(event.object) is not None
+    stands = behind and event.action in ("stand", "wait", "stop")
+    if event.action != "follow" and not stands and not lets:
         return event
     deed = manoeuvre(scene.ride, scene.span)
     if deed is None or deed.action not in CHANGES:

@@ -50,6 +50,7 @@ YIELDS: dict[str, bool] = {
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
 STILL = 0.5  # [m/s] below which somebody stands
 GOING = 1.0  # [m/s] from which we go
+ASIDE = 1.5  # [m] sideways from which somebody is in another lane
 LEAD = 3.0  # [s] before a crossing at which its rule is read off
 
 
@@ -210,9 +211,24 @@ def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
         found = asked.world.episodes(actor=who, actions=CHANGES)
         if any(overlaps(asked, e, near) for e in found):
             return cast(Rule, rule)
+    if _indicates_to_us(asked, vehicle, about.end):
+        return "it-changes"
     trace = asked.ride.at(about.end)
-    meant = () if trace is None else planned(trace)
+    meant = () if trace is None else planned(trace)[:1]
     return "we-change" if any(step in CHANGES for step in meant) else None
+
+
+def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:
+    """Tell whether a vehicle beside or behind us on our road indicates towards our lane."""
+    look = asked.world.look(vehicle, at)
+    shown = asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",), begin=at, end=at)
+    sides = {e.side for e in shown if e.begin <= at and (e.end is None or e.end >= at)}
+    road = asked.world.road(at)
+    places = {} if road is None else road.places
+    here, there = places.get(EGO), places.get(vehicle)
+    if look is None or not sides or here is None or there is None or here.edge != there.edge:
+        return False
+    return ("left" if look.left < 0.0 else "right") in sides and abs(look.left) > ASIDE
 
 
 _WHO: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way", "depends": "depends"}

@@ -30,7 +30,7 @@ SUDDEN = frozenset[ActionName](
 DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "see", "slow-down"))
 IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
 #: What is sudden of whoever stands or was about to stop.
-STARTING = frozenset[ActionName](("go", "move", "enter", "cross", "continue"))
+STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 LOOK_BACK = 15.0  # [s] in which what might have happened is looked for
@@ -109,12 +109,13 @@ def reaction(
     found = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
     if found is None:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=time))
+    along = in_lane and action in STARTING and found.left is not None  # it gets under way ahead
     sayable = event if event is None or event.action not in ("do", "happen") else None
     if sayable is not None and not isinstance(sayable.object, Ego | Vehicle):
         sayable = replace(sayable, object=None)
     return Reaction(
         vehicle=vehicle,
-        kind=found.kind,
+        kind="joins" if along else found.kind,
         supposed=sayable,
         time=time,
         speed=found.speed,

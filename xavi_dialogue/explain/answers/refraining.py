@@ -22,6 +22,7 @@ from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
 from xavi_dialogue.explain.causes.actions import CHANGES, HALTS
+from xavi_dialogue.explain.causes.yielding import leads
 from xavi_dialogue.explain.history.deeds import Deed
 
 #: What one does who goes on behind somebody, or lets him go first.
@@ -51,6 +52,7 @@ def refrained(event: Event, scene: Asked) -> Answer:
     change, crossed = _change(scene), going.crossed(scene)
     behind = isinstance(event.where, Related) and event.where.relation == "behind"
     stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
+    stays |= change is not None and _passed_by(event, scene, change)
     since = math.inf if change is None else scene.moment - change.time
     own = event.action in ("slow-down", "brake", "stop")  # each is compared by itself
     fresh = crossed is None and not own and (since <= FRESH or event.action == "wait")
@@ -66,6 +68,12 @@ def refrained(event: Event, scene: Asked) -> Answer:
     if crossed is None:
         return _undone(event, scene)
     return _went(event, scene, crossed)
+
+
+def _passed_by(event: Event, scene: Asked, change: Deed) -> bool:
+    """Tell whether slowing down is for whom we changed lanes for: staying behind it, then."""
+    slowing = event.action in ("slow-down", "brake")
+    return slowing and leads(scene.world, vehicle_in(event.object), change.time)
 
 
 def _aside(event: Event, scene: Asked) -> ActionName | None:

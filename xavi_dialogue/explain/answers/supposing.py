@@ -38,6 +38,8 @@ from xavi_dialogue.explain.answers.hastening import hastened
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.own_suppositions import (
     arrival,
+    claimed,
+    claimed_in,
     form_of,
     is_sooner,
     of_us,
@@ -99,7 +101,8 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     struck = struck_in(question.then)
     if negated:
         return undone(event, scene, form, struck)
-    return of_us(event, scene, form, struck)
+    asked = question.then.that if isinstance(question.then, Whether) else None
+    return claimed(of_us(event, scene, form, struck), claimed_in(asked, scene.now))
 
 
 def _mistaken(

@@ -6,6 +6,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
@@ -18,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Proposition,
+    Quantity,
     Related,
     Unsaid,
     Vehicle,
@@ -31,7 +33,7 @@ from xavi_dialogue.explain.answers.lasting import staying
 from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.onward import WAYS, whether_ours
-from xavi_dialogue.explain.answers.own_suppositions import of_us
+from xavi_dialogue.explain.answers.own_suppositions import claimed, claimed_in, of_us
 from xavi_dialogue.explain.answers.weighing import weigh
 
 #: Manners that are a matter of opinion: what we did so is met with its reason.
@@ -167,20 +169,26 @@ def _disputed(that: Proposition, asked: Asked) -> Answer | None:
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
             return handed(Why(that), asked) if slow or judged else None
-        case Compares(left=Measured(attribute="delay" | "duration" as lasts) as left, right=None):
+        case Compares(left=Measured(attribute="delay" | "duration" as lasts) as left, right=right):
+            would = left.event is not None and left.event.modal in ("would", "could")
             timed = lasts == "delay" or number(left.thing) is not None
-            return _cost(HowMuch(replace(left, attribute="delay")), asked) if timed else None
+            if not timed or not (right is None or would):
+                return None
+            found = _cost(HowMuch(replace(left, attribute="delay")), asked)
+            return claimed(found, claimed_in(that, asked.now))
+        case Compares(left=Measured(attribute="delay") as left, right=Quantity(unit="s")):
+            return _cost(HowMuch(left), asked, "what-if")  # the figure itself is the reply
     return None
 
 
-def _cost(question: HowMuch, asked: Asked) -> Answer:
+def _cost(question: HowMuch, asked: Asked, form: Asking = "quicker") -> Answer:
     """Tell what something cost in time, where it is said or asked whether it cost any."""
     # Deferred: measures may themselves be of what holds.
     from xavi_dialogue.explain.answers.measures import how_much
 
     event = question.of.event
     if event is not None and event.modal in ("would", "could"):
-        return of_us(event, asked, "quicker")
+        return of_us(event, asked, form)
     return how_much(question, asked)
 
 

@@ -1,9 +1,11 @@
 """Weighing: a proposition of any kind against the record."""
 
+from collections.abc import Iterable
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Beliefs, Measures, Priority, Verdict
-from xavi_dialogue.domain.facts import Fact, Look
+from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
 from xavi_dialogue.domain.meaning import Whither, Why
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -103,11 +105,13 @@ def _contrary(found: Finding) -> Finding:
 
 def _joined(of: Both, asked: Asked) -> Finding:
     """Give several together: all must hold, or one of them."""
+    if len(set(of.contents)) == 1:
+        return weigh(of.contents[0], asked)
     if of.join == "or" and (halting := stop_or_go(of, asked)) is not None:
         return halting
     if of.join == "or" and (first := of_order(of)) is not None:
         rule = who_first(asked, first)
-        if rule is not None and rule.rule != "none":
+        if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
             return Finding(None, answer=replace(rule, holds=None))
     owed = next((part for part in of.contents if is_owed(part)), None)
     if owed is not None:  # the rule decides, also over what goes with it
@@ -116,13 +120,30 @@ def _joined(of: Both, asked: Asked) -> Finding:
         return chosen
     found = [weigh(part, asked) for part in of.contents]
     holds = [one.holds for one in found]
+    failing = [(p, one) for p, one in zip(of.contents, found, strict=True) if one.holds is False]
+    if of.join == "and" and len(failing) == 1:  # what is not so is what makes it false
+        part, one = failing[0]
+        return Finding(False, one.facts, answer=one.answer or one.verdict(part))
     decided = of.join != "and"
     whole = decided if decided in holds else (None if None in holds else not decided)
     told = [one for one in found if of.join == "and" or one.holds or whole is not True]
-    facts: tuple[Fact, ...] = tuple(fact for one in told for fact in one.facts)
+    deeds = whole is False and all(isinstance(part, Happens) for part in of.contents)
+    facts = () if deeds else _told_once(fact for one in told for fact in one.facts)
     gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
     believed = tuple(belief for one in told for belief in one.believed)
     return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
+    """Leave out what the clauses deny by themselves, and where a vehicle is a second time."""
+    found: dict[object, Fact] = {}
+    for fact in facts:
+        if isinstance(fact, Relating) and not fact.holds:
+            continue
+        of_place = isinstance(fact, Measure) and fact.attribute in ("distance", "gap")
+        key = isinstance(fact, Look) or of_place
+        found.setdefault("place" if key else fact, fact)
+    return tuple(found.values())
 
 
 def _open_to_all(found: Finding) -> Finding:

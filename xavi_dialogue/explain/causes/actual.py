@@ -7,6 +7,9 @@ none is and two are, either would have been enough (symmetric overdetermination)
 work as things are; if one of them is at work only where the other is not there, it is pre-empted
 by that one (Halpern 2016, Actual Causality, 2.3).
 
+One may matter only by what it makes a cause do, as somebody because of whom the one ahead waits.
+So those who have held a necessary vehicle up are tried as well.
+
 A trial is planning again, so they are few: the smallest and most suspicious sets come first.
 """
 
@@ -31,13 +34,19 @@ class Trial:
 Try = Callable[[tuple[int, ...]], Trial]
 
 
-def actual_causes(suspects: Sequence[int], reserve: Sequence[int], trial: Try) -> Causation:
+def actual_causes(
+    suspects: Sequence[int],
+    reserve: Sequence[int],
+    trial: Try,
+    behind: Callable[[int], Sequence[int]] = lambda _: (),
+) -> Causation:
     """Find the smallest sets of at most two vehicles that a deed hangs on.
 
     Args:
         suspects: the vehicles at work as things are, most important first.
         reserve: who may matter beside one that is necessary, without being at work itself.
         trial: plans again without a set.
+        behind: who makes a vehicle that is necessary do what it does, and so is necessary too.
     """
     known: dict[tuple[int, ...], Trial] = {}
 
@@ -52,6 +61,7 @@ def actual_causes(suspects: Sequence[int], reserve: Sequence[int], trial: Try) -
     if needed:
         others = [v for v in reserve if v not in singles][: SINGLES - len(singles)]
         needed += [vehicle for vehicle in others if without(vehicle).gone]
+        needed += dict.fromkeys(v for one in needed for v in behind(one) if v not in needed)
         return Causation("one" if len(needed) == 1 else "both", tuple(needed), _cleared(known))
     for one, other in _pairs(singles, without):
         if without(other).gone:  # who is at work is held up itself, and of no matter

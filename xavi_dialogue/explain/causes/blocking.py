@@ -1,4 +1,4 @@
-"""Blocking: who stood or crept in our lane when we decided to leave it."""
+"""Blocking: who stood or crept in our lane when we left it, or is in one that we left alone."""
 
 from planner.trace import Action
 from sim.scene import EGO
@@ -12,6 +12,8 @@ from xavi_dialogue.explain.history.ride import Ride
 
 HORIZON = 8.0  # [s] of driving within which somebody slow is a reason to leave the lane
 SLOWER = 2.0  # [m/s] by which somebody is slower than we could be
+LEAST = 8.0  # [m/s] at which we would drive at least
+OURS, MARGIN = 5.0, 2.0  # [m] our length, and the room between vehicles that are beside each other
 AFTER = 1.5  # [s] after the decision within which one may come into view whom it reckoned with
 
 
@@ -35,19 +37,40 @@ def _slower(ride: Ride, world: World, time: float, moment: float) -> Look | None
     return None
 
 
+def in_lane_beside(ride: Ride, world: World, time: float, change: Action) -> MotionCause | None:
+    """Find who is in the lane to one side: beside us, else ahead and slower than we drive."""
+    looks = _beside(ride, world, time, change)
+    for look in looks:
+        if abs(look.ahead) <= (look.length + OURS) / 2.0 + MARGIN:
+            return MotionCause("lane-beside", vehicle=look.vehicle)
+    pace = max(speed_at(ride, time) or 0.0, LEAST)
+    for look in looks:
+        near = look.ahead > 0.0 and look.distance <= HORIZON * pace
+        if near and look.speed <= pace - SLOWER:
+            return MotionCause("lane-ahead", look.vehicle, speed=look.speed, value=look.distance)
+    return None
+
+
 def _slow_beside(ride: Ride, world: World, time: float, change: Action, speed: float) -> bool:
     """Whether somebody ahead in the lane to one side is no faster than a speed [m/s]."""
+    reach = HORIZON * (speed_at(ride, time) or 0.0)
+    ahead = [look for look in _beside(ride, world, time, change) if look.ahead > 0.0]
+    return any(look.distance <= reach and look.speed <= speed for look in ahead)
+
+
+def _beside(ride: Ride, world: World, time: float, change: Action) -> list[Look]:
+    """List who is in the lane to one side of ours on our road, the nearest first."""
     trace = ride.at(time)
     places = {} if trace is None or trace.road is None else trace.road.places
     ours = places.get(EGO)
     if ours is None or ours.lane is None:
-        return False
+        return []
     target = ours.lane + (1 if change == "change-left" else -1)
-    reach = HORIZON * (speed_at(ride, time) or 0.0)
-    for vehicle in world.in_view(time):
-        place, look = places.get(vehicle), world.look(vehicle, time)
-        if place is None or look is None or (place.edge, place.lane) != (ours.edge, target):
-            continue
-        if look.ahead > 0.0 and look.distance <= reach and look.speed <= speed:
-            return True
-    return False
+    known = [(places.get(v), world.look(v, time)) for v in world.in_view(time)]
+    looks = [
+        look
+        for place, look in known
+        if place is not None and look is not None and not look.oncoming
+        if (place.edge, place.lane) == (ours.edge, target)
+    ]
+    return sorted(looks, key=lambda look: look.distance)

@@ -1,6 +1,6 @@
 """Contrast: what the ego did or plans against what it might have done instead."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -22,9 +22,13 @@ from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, same
 from xavi_dialogue.explain.causes.involved import contrastive_causes, holding_up
 from xavi_dialogue.explain.causes.necessity import Proven, proven
+from xavi_dialogue.explain.causes.ranges import likely
 from xavi_dialogue.explain.causes.terms import RISK, differences, told
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, thin
 from xavi_dialogue.explain.history.thresholds import STANDING
+
+#: The change of lanes that undoes one.
+OPPOSITE: Mapping[Action, Action] = {"change-left": "change-right", "change-right": "change-left"}
 
 
 def contrast(ride: Ride, trace: PlanTrace, foil: Actions | None, node: Actions = ()) -> Contrast:
@@ -149,11 +153,12 @@ def sides(
     causes = tuple(c for c in known if c.mechanism is not None) if close else known
     risk, own_risk = difference.risks
     struck = there.collisions()
+    found = effects(there, here)
     return Contrast(
         fact=here.plan,
         foil=foil,
         outcome=outcome(there),
-        effects=to_effects(effects(there, here)),
+        effects=to_effects(found),
         causes=causes,
         evidence=evidence(ride, model, here, there),
         decided=model.trace.sim_time,
@@ -169,6 +174,7 @@ def sides(
         terms=difference.shares,
         told=told(difference),
         error=difference.error,
+        likely=likely(model, here, there, found),
         route=missed(model.trace, there, here),
     )
 
@@ -178,8 +184,13 @@ def missed(trace: PlanTrace, there: Intervention, here: Intervention) -> Action 
 
     None where the foil probably arrives or collides, or stops, and so loses time above all.
     """
+    if there.likeliest in ("done", "collision"):
+        return None
+    back = OPPOSITE.get(there.plan[0])
+    if back is not None and back in here.plan and here.likeliest == "done":
+        return back
     route = () if trace.road is None or "stop" in there.plan else trace.road.route
-    if not route or route[0].kind != "junction" or there.likeliest in ("done", "collision"):
+    if not route or route[0].kind != "junction":
         return None
     turn = route[0].turn
     taken = next((action for action in there.plan if action in EXITS), None)

@@ -25,7 +25,7 @@ from xavi_dialogue.explain.causes.contrast import evidence, factual
 from xavi_dialogue.explain.causes.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.involved import LIKELY, expected_actions, holding_up
 from xavi_dialogue.explain.causes.necessity import proven
-from xavi_dialogue.explain.causes.ready import given_up, ready_for
+from xavi_dialogue.explain.causes.ready import given_up, next_move, ready_for
 from xavi_dialogue.explain.causes.roadside import road_causes
 from xavi_dialogue.explain.causes.yielding import close_leader, goes_first, kept, leads
 from xavi_dialogue.explain.facts.world import World
@@ -98,7 +98,7 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
     causes = as_of(ride, causes, deed.begin if over else ride.now)
     rests_on = evidence(ride, model, plan)
     if not causes:
-        causes = beside(of_road(ride, trace, deed, plan, tried.cleared), tried.cleared)
+        causes = beside(of_road(ride, world, trace, deed, plan, tried.cleared), tried.cleared)
         lead = None
         if braked and any(c.kind == "give-way-line" and not c.vehicle for c in causes[:1]):
             lead = close_leader(world, model, plan, deed.begin, speed_at(ride, deed.begin))
@@ -111,6 +111,7 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
 
 def of_road(
     ride: Ride,
+    world: World,
     trace: PlanTrace,
     deed: Episode,
     plan: Intervention,
@@ -125,7 +126,8 @@ def of_road(
     if all(one.kind == "plan" for one in found):
         first = None
         if deed.action != "speed-up":
-            first = ready_for(ride, deed, cleared) or given_up(ride, deed)
+            first = ready_for(ride, world, deed, cleared)
+            first = first or next_move(ride, trace, deed) or given_up(ride, deed)
         found = found if first is None else [first]
     line = [one.kind == "give-way-line" and not (one.vehicle or one.value) for one in found]
     return tuple(one for _, one in sorted(zip(line, found, strict=True), key=lambda pair: pair[0]))
@@ -163,6 +165,8 @@ def motion_cause(
     joins = how in ("leader", "cut-in") and goes_first(trace, cause.vehicle)
     if joins and not leads(world, cause.vehicle, time):
         how = "right-of-way"  # it will be ahead of us only once we have let it go first
+    elif how == "leader" and set(cause.actions[:1]) & set(CHANGES):
+        how = how if leads(world, cause.vehicle, time) else "cut-in"  # only once it has moved over
     since = world.episodes(Vehicle(cause.vehicle), SINCE, trace.sim_time, ride.now)
     since = tuple(e for e in since if e.begin >= trace.sim_time)
     return MotionCause(
@@ -215,7 +219,8 @@ def _decision(
         raise Unanswered(NotRecorded("gap-in-record", since=deed.begin))
     if deed.action == "speed-up":
         return trace
-    begin = deed.begin - (AHEAD if wait is None else BEFORE)
+    braked = wait is not None or deed.action == "stop"
+    begin = deed.begin - (BEFORE if braked else AHEAD)
     window = (begin + AHEAD - LEEWAY, end + LEEWAY)
     meanwhile = [t for t in ride.traces if begin <= t.sim_time <= end]
     if wait is not None and wait.vehicle is not None:

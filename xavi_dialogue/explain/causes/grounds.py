@@ -7,6 +7,7 @@ two decisions between which the odds rose most; nothing else is claimed to be a 
 import math
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import Literal
 
 from planner.trace import GoalPrediction, PlanTrace
 from xavi_dialogue.causal.model import Actions
@@ -22,6 +23,7 @@ from xavi_dialogue.explain.history.thresholds import CHANGED
 
 EVEN = 0.5  # probability from which something is more probable than not
 CERTAIN = 1e-3  # of probability, within which odds are not told apart
+SPEAKS = 3.0  # times by which its lights must fit a goal better to be told
 LEAST_FIT = 1e-3  # relative likelihood below which a path does not fit at all
 #: What predicted ways tell though the planner does not choose it.
 DRIVEN = frozenset[ActionName](("slow-down", "speed-up"))
@@ -101,7 +103,7 @@ def _grounds(
     first, then = (best, best + 1) if best is not None and grown else (0, 0)
     since = next((k for k in range(len(beliefs)) if min(beliefs[k:]) >= EVEN), None)
     start, end = known[first].sim_time, known[then].sim_time
-    rival, fit = _rival(ride, known[-1], vehicle, names)
+    rival, fit, lit = _rival(ride, known[-1], vehicle, names)
     return Grounds(
         vehicle=vehicle,
         actions=_meant(ride, known[-1], vehicle, names),
@@ -115,6 +117,7 @@ def _grounds(
         deed=_deed(ride.motion(vehicle), vehicle, start, end) if grown else None,
         rival=rival,
         fit=fit,
+        light=_light(known[-1], vehicle) if lit >= SPEAKS else None,
     )
 
 
@@ -181,24 +184,37 @@ def _speed(motion: Motion, time: float) -> float | None:
 
 def _rival(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]
-) -> tuple[Actions, float | None]:
-    """The likeliest goal under which a vehicle does not do that, and how much worse it fits.
+) -> tuple[Actions, float | None, float]:
+    """Find the likeliest goal under which a vehicle does not do that, and how much worse it fits.
 
     Likelihoods are of the goal's best way: the probability of the track under rational driving.
+
+    Returns:
+        What goes with that goal; how many times better the track, and how many times better the
+        lights fit what is believed.
     """
     known = prediction(trace, vehicle)
     if known is None:
-        return (), None
+        return (), None, 1.0
     for_it = [g for g, goal in enumerate(known.goals) if _contains(goal, names)]
     against = [g for g in range(len(known.goals)) if g not in for_it]
     if not for_it or not against:
-        return (), None
+        return (), None, 1.0
     mine = max(for_it, key=lambda g: known.goals[g].probability)
     other = max(against, key=lambda g: known.goals[g].probability)
     ways, _ = likeliest(ride.model(trace), vehicle, other)
-    one, two = known.goals[mine].likelihood, known.goals[other].likelihood
+    shown = [known.goals[g].indicators for g in (mine, other)]
+    one, two = (known.goals[g].likelihood / i for g, i in zip((mine, other), shown, strict=True))
     fit = one / two if one > 0.0 and two > LEAST_FIT * one else None
-    return ways, fit
+    return ways, fit, shown[0] / shown[1]
+
+
+def _light(trace: PlanTrace, vehicle: int) -> Literal["left", "right"] | None:
+    """Return the side that a vehicle indicates at a decision; None: neither, or both."""
+    shown = trace.scene[vehicle].signals
+    if "left" in shown:
+        return None if "right" in shown else "left"
+    return "right" if "right" in shown else None
 
 
 def _contains(goal: GoalPrediction, names: tuple[ActionName, ...]) -> bool:

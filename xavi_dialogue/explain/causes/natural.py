@@ -19,7 +19,7 @@ from xavi_dialogue.explain.causes.contrast import (
     contrast,
     factual,
 )
-from xavi_dialogue.explain.history.ride import Ride, Unanswered, planned
+from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 
 DIRECTIONS: tuple[Action, ...] = (*EXITS, "continue-next-exit")
 STAYING: Actions = ("continue",)
@@ -103,6 +103,20 @@ def _going_on(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
         if isinstance(unanswered.result, NeedRollout):
             raise
         return against_best(ride, trace, node)
+
+
+def stopping(ride: Ride, decided: PlanTrace, *, going_on: bool) -> Contrast:
+    """Compare a stop with driving on: as it is now where the stop goes on, else as decided.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    latest = ride.latest
+    if going_on and latest.sim_time > decided.sim_time and chose(latest, "stop"):
+        found = natural(ride, latest)
+        if found.verdict == "better":
+            return found
+    return natural(ride, decided)
 
 
 def _staying(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:

@@ -23,6 +23,7 @@ from xavi_dialogue.explain.causes.actions import CHANGES
 from xavi_dialogue.explain.causes.actual import SINGLES, Trial, actual_causes
 from xavi_dialogue.explain.causes.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.involved import against, holding_up, slowing
+from xavi_dialogue.explain.causes.mediated import holders
 from xavi_dialogue.explain.causes.profile import driven, speeds
 from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
@@ -74,7 +75,7 @@ def proven(
     tests = _Tests(ride, model, fact, foil)
     suspects = [cause.vehicle for cause in causes]
     reserve = () if foil is not None else _in_the_way_around(model)
-    found = actual_causes(suspects, reserve, tests.trial)
+    found = actual_causes(suspects, reserve, tests.trial, tests.behind)
     if found.kind == "open":
         kept = tuple(cause for cause in causes if cause.vehicle not in found.cleared)
         return Proven(kept, found)
@@ -83,6 +84,7 @@ def proven(
     told = [
         known.get(vehicle) or tests.instead(vehicle, suspects) or against(model, vehicle)
         for vehicle in blamed
+        if found.kind != "both" or vehicle in (*suspects, *reserve)  # else not in our own way
     ]
     if found.kind in ("both", "either"):  # none of them comes first but the surest
         told.sort(key=lambda cause: -cause.probability)
@@ -133,6 +135,28 @@ class _Tests:
         """List those, where it hangs on nobody, in whose place others would be at work."""
         alone = found.cleared if found.kind == "none" else ()
         return tuple(vehicle for vehicle in alone if self.trial((vehicle,)).instead)
+
+    def behind(self, vehicle: int) -> tuple[int, ...]:
+        """List those without whom a vehicle would not have come to be in our way.
+
+        Raises:
+            Unanswered: rollouts are needed.
+        """
+        found = holders(self.ride, self.decision, vehicle)
+        return tuple(one for one, since in found.items() if self._matters_since(one, since))
+
+    def _matters_since(self, holder: int, since: PlanTrace) -> bool:
+        """Whether most of what others cost the plan of an earlier decision goes with a vehicle."""
+        model, again = self.ride.model(since), self.ride.without(since, holder)
+        then = _again(model, planned(since))
+        plan = None if again is None else self._chosen(again)
+        if again is None or then is None or plan is None:
+            return False
+        before = _Tests(self.ride, model, in_hindsight(self.ride, model, then), None)
+        alone = before._free(plan, again)
+        gain = plan.value - before.fact.value
+        most = gain if alone is None else alone[0].value - before.fact.value
+        return gain >= max(LEAST, LEFT * most)
 
     def trial(self, vehicles: tuple[int, ...]) -> Trial:
         """Tell what it comes to without some vehicles.

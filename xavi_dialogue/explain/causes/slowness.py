@@ -4,7 +4,7 @@ Driving slowly is judged against the limit. Who drives in front of us within som
 reason where it is no faster than we are and planning without it is faster.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
@@ -69,10 +69,13 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
         speed_to=speed,
     )
     is_slow = None if limit is None else speed < SLOW * limit
-    if limit is not None and speed >= AT_LIMIT * limit:
+    behind = ahead is not None and limit is not None and ahead.speed <= limit - FASTER
+    if limit is not None and speed >= AT_LIMIT * limit and not behind:
         reasons = Reasons((MotionCause("limit", value=limit),), None, _recorded(trace), trace)
         return Slowness(deed, reasons, limit, is_slow=False)
     reasons = _reasons(ride, world, trace, deed, ahead)
+    if behind and is_slow is False and not any(c.vehicle for c in reasons.causes):
+        reasons = replace(reasons, causes=(MotionCause("limit", value=limit),))
     return Slowness(deed, reasons, limit, is_slow)
 
 
@@ -150,7 +153,7 @@ def _reasons(
     if setting_off(ride, deed.begin):
         causes.append(MotionCause("starting"))
     if not causes:
-        road = of_road(ride, trace, deed, plan, tried.cleared)
+        road = of_road(ride, world, trace, deed, plan, tried.cleared)
         causes = list(beside(road, tried.cleared))
     return Reasons(tuple(causes), tried.causation, evidence(ride, model, plan), trace)
 

@@ -155,7 +155,7 @@ def _given(ride: Ride, model: CausalModel, vehicle: int, supposed: frozenset[Cho
     given = CausalModel(trace, {vehicle: supposed})
     there, here = _best(given, planned(trace)), factual(model, trace)
     chance = min(sum(chances[choice] for choice in supposed), 1.0)
-    contrast = sides(ride, model, here, there, there.plan)
+    contrast = replace(sides(ride, model, here, there, there.plan), likely=None)
     return Supposed(trace, trace, here, there, chance, contrast)
 
 
@@ -183,7 +183,8 @@ def compared(ride: Ride, trace: PlanTrace, again: PlanTrace, prior: float | None
         one.distinct_samples + two.distinct_samples,
         (*one.traces, *two.traces),
     )
-    contrast = replace(sides(ride, model, here, there, there.plan), evidence=both)
+    contrast = sides(ride, model, here, there, there.plan)
+    contrast = replace(contrast, evidence=both, likely=None)
     return Supposed(trace, again, here, there, prior, contrast)
 
 

@@ -19,6 +19,7 @@ from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
 
 Holder = tuple[int, HoldUp]
+STARTING = 4.0  # [s] after which who waited for somebody has moved off once that one is past
 AWAY = 6.0  # [m] behind somebody from which one is past
 
 
@@ -33,7 +34,8 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         found = [wait for still in stood for wait in _stood_for(states, vehicle, still)] + [
             wait for still in stood for wait in _let_us_go(states, vehicle, still)
         ]
-        return [_until_past(states, vehicle, wait) for wait in found]
+        ended = (_until_past(states, vehicle, wait) for wait in found)
+        return [wait for wait in ended if wait is not None]
     given = _merged(_gave_way(states, stood))
     waited = [wait for still in stood for wait in _stood_for(states, EGO, still)]
     told = [
@@ -44,14 +46,21 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
     return given + told
 
 
-def _until_past(states: States, vehicle: int, wait: Episode) -> Episode:
-    """End a wait that goes on where the one waited for is past and behind."""
+def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
+    """End a wait that goes on where the one waited for is past and behind.
+
+    None where that one was past before, or it stands on long after: it stood for something else.
+    """
     other = EGO if isinstance(wait.object, Ego) else getattr(wait.object, "number", None)
-    if wait.end is not None or other is None or not _past(states, vehicle, other, states.ride.now):
+    end = _end(states, wait)
+    if other is None or not _past(states, vehicle, other, end):
         return wait
-    times = (t.sim_time for t in reversed(states.ride.traces) if t.sim_time > wait.begin)
+    times = (t.sim_time for t in reversed(states.ride.traces) if wait.begin < t.sim_time <= end)
     before = (time for time in times if not _past(states, vehicle, other, time))
-    return replace(wait, end=next(before, wait.begin))
+    until = next(before, wait.begin)
+    if until <= wait.begin or end - until > STARTING:
+        return None
+    return wait if wait.end is not None else replace(wait, end=until)
 
 
 def _past(states: States, vehicle: int, other: int, time: float) -> bool:

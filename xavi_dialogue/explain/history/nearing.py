@@ -11,6 +11,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planner.road import RouteStep
+from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.explain.history.motion import Motion
@@ -61,12 +62,23 @@ def still_to(ride: Ride, distance: float, time: float) -> float:
 def junctions_ahead(ride: Ride, time: float) -> tuple[RouteStep, ...]:
     """List the junctions on our way at a time [s], nearest first, without those passed by then.
 
-    Their distances [m] are from where we are at that time.
+    Their distances [m] are from where we are at that time. A decision whose plan does not lead to
+    the destination has no way to it: then the one before tells the way.
     """
     trace = ride.at(time)
-    route = () if trace is None or trace.road is None else trace.road.route
-    left = [(step, still_to(ride, step.distance, time)) for step in route]
+    if trace is None or trace.road is None:
+        return ()
+    on_way = [t for t in ride.traces if t.sim_time <= time and _knows_way(t)]
+    trace = trace if _knows_way(trace) or not on_way else on_way[-1]
+    way = driven(ride.motion(EGO), trace.sim_time, time)
+    route = () if trace.road is None else trace.road.route
+    left = [(step, step.distance - way) for step in route]
     return tuple(replace(step, distance=max(m, 0.0)) for step, m in left if m > PASSED)
+
+
+def _knows_way(trace: PlanTrace) -> bool:
+    """Tell whether a decision has recorded how far the destination is."""
+    return trace.road is not None and trace.road.distance is not None
 
 
 def to_destination(ride: Ride, time: float) -> float | None:

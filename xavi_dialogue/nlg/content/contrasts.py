@@ -26,6 +26,8 @@ SURE = 0.995  # probability from which none is told
 EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
 STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
+ASIDE = 2.0  # [m] sideways from which somebody is in another lane
+LANES = (("change-left",), ("change-right",))
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 
 #: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
@@ -192,6 +194,7 @@ def cause_message(
         present=present,
         past=past,
         alone=not contrast.foil,
+        there=contrast.foil[:1] in LANES and look is not None and abs(look.left) > ASIDE,
         stands=lowest is not None and lowest < STANDING and not slows,
         halts=lowest is not None and lowest < STANDING,
         slows=slows,

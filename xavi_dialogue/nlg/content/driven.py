@@ -9,6 +9,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Quantity, Who
 
 STANDING = 0.5  # [m/s]
+TURNED = ("given-up", "next-move")
 GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
 ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that we are to take
 
@@ -32,13 +33,14 @@ def motion_cause(
         past: it is past.
         deed: what we did for that reason.
     """
-    ahead = cause.kind in ("leader", "cut-in", "blocked")
+    ahead = cause.kind in ("leader", "cut-in", "blocked", "lane-beside", "lane-ahead")
     who, aside = None, False
+    foreseen = cause.kind == "cut-in" and cause.did is None and not _sure(cause)
     if cause.vehicle is not None:
         look = context.look(cause.vehicle, time)
         beside = look is not None and look.bearing in ASIDE
         aside = cause.kind == "leader" and beside and speed_told(cause.speed, context) is not None
-        who = Who(Vehicle(cause.vehicle), time, placed=aside or not ahead)
+        who = Who(Vehicle(cause.vehicle), time, placed=aside or foreseen or not ahead)
     stands = cause.speed is not None and cause.speed < STANDING
     unit = "m/s" if cause.kind == "limit" else "m"
     value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
@@ -48,7 +50,7 @@ def motion_cause(
         kind=cause.kind,
         who=who,
         past=past or _gone(cause, context),
-        turn=own_verbs(cause.actions) if cause.kind == "given-up" and cause.actions else None,
+        turn=own_verbs(cause.actions) if cause.kind in TURNED and cause.actions else None,
         stands=stands,
         aside=aside,
         speed=speed_told(cause.speed, context),
@@ -56,7 +58,7 @@ def motion_cause(
         number=None if simple else value,
         lower=deed in ("slow-down", "brake"),
         higher=deed == "speed-up",
-        foreseen=cause.kind == "cut-in" and cause.did is None and not _sure(cause),
+        foreseen=foreseen,
         **chances(cause.probability if cause.probability is not None else 1.0, context),
     )
 

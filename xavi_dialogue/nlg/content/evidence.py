@@ -16,6 +16,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Who
 
 NARROW = 1.0  # [s] a range that is not worth giving
+NOTHING = 0.25  # [s] a difference that is none
 MOST = 2  # causes beside the first that are told
 
 
@@ -37,21 +38,24 @@ def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[
 
 
 def range_of(contrast: Contrast) -> Message | None:
-    """Across which range the difference in time lay in the situations tried."""
-    effect = time_effect(contrast)
-    if kind_of(contrast) in ("alone", "collision", "dead", "late", "way") or effect is None:
+    """Tell in which range the difference in time lies, where one was calibrated for such cases."""
+    found = contrast.likely
+    if found is None or time_effect(contrast) is None or found.high - found.low < NARROW:
         return None
-    if effect.high - effect.low < NARROW:
+    if kind_of(contrast) in ("alone", "collision", "dead", "late", "way"):
         return None
-    low, high = sorted((effect.low, effect.high))
-    ends = sorted((abs(low), abs(high)))
+    ends = sorted((abs(found.low), abs(found.high)))
+    both = found.low < -NOTHING and found.high > NOTHING
     return message(
         "RANGE",
-        both=low < -0.25 and high > 0.25,
-        sooner=Quantity(abs(low), "s"),
-        later=Quantity(abs(high), "s"),
-        is_later=effect.delta > 0.0,
+        both=both,
+        sooner=Quantity(abs(found.low), "s"),
+        later=Quantity(abs(found.high), "s"),
+        is_later=found.low + found.high > 0.0,
+        up_to=ends[0] <= NOTHING or found.low < 0.0 < found.high,
+        most=Quantity(ends[1], "s"),
         range=Range(Quantity(ends[0], "s"), Quantity(ends[1], "s")),
+        waypoint=contrast.waypoint,
     )
 
 

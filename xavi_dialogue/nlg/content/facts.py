@@ -208,7 +208,6 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
         chosen=option.chosen,
         outcome=option.outcome,
         chance=Chance(option.probability),
-        sure=option.probability >= 0.995,
         later=Quantity(delta, "s") if delta is not None and delta > 0.25 else None,
         sooner=Quantity(-delta, "s") if delta is not None and delta < -0.25 else None,
         struck=Who(Vehicle(option.collided_with)) if option.collided_with is not None else None,

@@ -39,6 +39,7 @@ def plan_grounds(answer: Grounds, context: SpeechContext) -> Plan:
         "seen": answer.seen,
         "simple": simple,
         "deed": None,
+        "light": answer.light,
         "chance": None if latest is None else Chance(latest),
         "doubted": latest is not None and (latest < DOUBTED or _has_sunk(answer, latest)),
     }

@@ -45,7 +45,7 @@ def other_verbs(actions: Iterable[str]) -> tuple[Clause, ...]:
 
 def _row(row: tuple[str, ...], other: tuple[str, ...], *, ego: bool) -> tuple[Clause, ...]:
     past_exit = ego and _NEXT in other[:1] and _NEXT not in row
-    lanes = any(action in CHANGES for action in other)
+    lanes = other[:1] != ("stop",) and any(action in CHANGES for action in other)
     phrases: list[str] = []
     for rank, action in enumerate(row):
         phrase = _phrase(action, ego=ego, lanes=lanes)

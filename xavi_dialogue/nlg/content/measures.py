@@ -37,7 +37,7 @@ STANDING = 0.3  # [m/s]
 EVEN_SPEED = 0.8  # [m/s] by which a speed that is told as one may vary
 EVEN = 0.3  # [m/s2] no acceleration to speak of
 GENTLE, FIRM, HARD = 1.5, 3.2, 4.0  # [m/s2] from which braking is called normal, firm, hard
-_UNPLACED = frozenset(("place", "heading"))
+_UNPLACED = frozenset(("place", "heading", "origin"))
 _VAGUE = frozenset(("indicator", "brake-lights", "right-of-way", "visibility", "comfort", "route",
                     "cost", "value", "count", "turn"))  # fmt: skip
 _WORDED = frozenset(("colour", "kind", "place", "origin", "heading", "visibility"))
@@ -275,7 +275,7 @@ def _worded(one: Measure) -> str | None:
 
 _HEADINGS = {"left": "going left", "right": "going right", "straight": "going straight on"}
 _ORIGINS = {
-    "ahead": "from ahead", "behind": "from behind us", "left": "from the left",
+    "ahead": "into view ahead of us", "behind": "up from behind us", "left": "from the left",
     "right": "from the right", "oncoming": "towards us from ahead",
     "ahead-left": "from ahead on the left", "ahead-right": "from ahead on the right",
     "behind-left": "from behind us on the left", "behind-right": "from behind us on the right",

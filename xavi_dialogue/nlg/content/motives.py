@@ -19,8 +19,9 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
 AT_LIMIT = 0.07  # of the limit, within which one drives at it
+COMING = {"crossing-right": "right", "crossing-left": "left"}
 YIELDS = frozenset(("give-way", "wait", "let-go"))
-CREEPING = 2.5  # [m/s] up to which one may speak of stopping
+CREEPING = 2.6  # [m/s] up to which one may speak of stopping
 STOPS = frozenset(("stop", "stand"))
 MARGIN = 0.5  # [m/s] over the limit that is no more than rounding
 #: Actions that exclude one another.
@@ -84,13 +85,16 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         "speed": speed_told(answer.deed.speed_to, context),
         "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
         "at_limit": _at_limit(answer),
+        "led": causes[0].kind == "leader" and causes[0].vehicle is not None,
         "halted": None if answer.halted is None else Moment(answer.halted),
     }
     if answer.form == "why" and slots["yields"] and answer.asked in ("let-go", "give-way"):
         number = causes[0].vehicle
         time = _seen_at(causes[0], answer, context, past=past)
         who = None if number is None else Who(Vehicle(number), time)
-        return message("HAD_PRIORITY", who=who, past=past)
+        look = None if number is None else context.look(number, time)
+        side = None if look is None else COMING.get(look.bearing)
+        return message("HAD_PRIORITY", who=who, past=past, side=side)
     pace = answer.deed.action in ("move", "follow", "go", "continue")
     if answer.form == "necessary":
         need = "own" if causes[0].kind in ("plan", "starting") else "yes"

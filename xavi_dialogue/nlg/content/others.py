@@ -11,7 +11,7 @@ from xavi_dialogue.nlg.content.clauses import doing, episode_clause, event_claus
 from xavi_dialogue.nlg.content.contrasts import EVEN, chances, telling
 from xavi_dialogue.nlg.content.driven import STANDING, speed_told
 from xavi_dialogue.nlg.content.manoeuvres import other_verbs
-from xavi_dialogue.nlg.content.motives import HALTS, is_past
+from xavi_dialogue.nlg.content.motives import CREEPING, HALTS, is_past
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause, about_vehicle
 from xavi_dialogue.nlg.content.tenses import PRESENT
@@ -28,6 +28,7 @@ FOR_GOAL = frozenset(("signal", "exit-left", "exit-right", "exit-straight", "cha
                       "change-right"))  # fmt: skip
 GOING = frozenset(("go", "move", "continue", "enter", "cross", "speed-up", "come"))
 FORESEEN = 0.2  # chance below which what is announced was not foreseen
+EVENLY = 0.5  # chance below which something else is as likely as what is announced
 
 
 def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
@@ -86,6 +87,7 @@ def plan_signal(answer: SignalReason, context: SpeechContext) -> Plan:
         came=None if came is None else _it(episode_clause(came, context.now)),
         chance=None if chance is None else Chance(chance),
         low=chance is not None and chance < FORESEEN,
+        open=chance is not None and chance < EVENLY,
     )
     return Plan((core,), (), (), (), about_vehicle(answer.vehicle))
 
@@ -134,6 +136,9 @@ def _not_asked(answer: OtherReason, context: SpeechContext) -> Clause | None:
         return None
     if deed.action in HALTS and event.action in GOING:
         return None
+    slow = deed.speed_to is not None and deed.speed_to <= CREEPING
+    if deed.action in ("brake", "slow-down") and event.action in ("stop", "stand") and slow:
+        return None  # it is about to
     past = is_past(deed, context)
     return event_clause(event, context.now, tense="past" if past else "present", negated=True)
 

@@ -23,6 +23,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
 SAFER = 0.01  # probability of a collision by which something is safer
+ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
 
 
 def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
@@ -68,6 +69,13 @@ def _verbs(contrast: Contrast) -> dict[str, object]:
     return {"foil": own_verbs(contrast.foil, contrast.fact)}
 
 
+def _held_against(claimed: float | None, size: float) -> str | None:
+    """How a time [s] compares with what it is said to be; None where nothing is said of it."""
+    if claimed is None:
+        return None
+    return "less" if claimed > ABOUT * size else "more" if size > ABOUT * claimed else "same"
+
+
 def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
     """The slots for whether we could, would have collided, or when we would be there."""
     contrast = answer.contrast
@@ -86,6 +94,7 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
         "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,
         "arrival": None if answer.arrival is None else Moment(answer.arrival),
         "sooner": effect is not None and effect.delta < 0.0,
+        "claimed": None if effect is None else _held_against(answer.claimed, abs(effect.delta)),
         "safer": safer >= SAFER,
         "riskier": safer <= -SAFER,
         "risk": Chance(risk),

@@ -76,7 +76,8 @@ def clause_of(
             return clause_of(content, now, negated=not negated, tense=tense)
         case Both(contents=contents, join=join):
             first, *others = (clause_of(c, now, negated=negated, tense=tense) for c in contents)
-            tail = tuple(part for one in others for part in (join, one))
+            link = {"and": "or", "or": "and"}[join] if negated else join
+            tail = tuple(part for one in others for part in (link, one))
             return _extended(first, tail)
         case That():
             return Clause("that", "be", ("so",), tense or "present", negated=negated)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Literal
 
-from xavi_dialogue.domain.answers import ChoiceReason, Contrast
+from xavi_dialogue.domain.answers import ChoiceReason, Contrast, MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.nlg.content.contrasts import (
     RISK,
@@ -24,6 +24,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
+OTHERWISE = 1.0  # [m/s] by which a speed is another one
 DECIDED = 0.95  # [s] after a decision, from which another one is in force
 Need = Literal["forced", "needed", "not-strictly", "close", "worse", "no-choice", "way"]
 #: Terms that who was in our way accounts for.
@@ -45,11 +46,14 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         "lead": _leads(contrast),
         "ahead": _ahead(answer, context),
         "weak": _weak(answer),
+        "beside": answer.ahead is not None and answer.ahead.kind in ("lane-beside", "lane-ahead"),
     }
     rule = {
         "why": "WHY", "why-not": "WHY_NOT", "necessary": "NECESSARY", "worth-it": "WORTH_IT",
     }[answer.form]  # fmt: skip
     risk = risks(contrast, context, past=past, unsaid=_silent(rule, slots))
+    if slots["ahead"] is not None and slots["weak"] and contrast.fact_collision < RISK:
+        risk = risk if contrast.verdict == "better" else None  # a small one, of what was not done
     first = Message(rule, slots)
     if context.detail == "less":
         first = _without_cause(first)
@@ -123,8 +127,12 @@ def _weak(answer: ChoiceReason) -> bool:
         return True  # where it would go says nothing while it stands
     if how is not None and not how.present:
         return False  # what it was expected to do says more than where it was
+    if ahead.vehicle in answer.contrast.cleared:
+        return False
+    if ahead.kind in ("lane-beside", "lane-ahead") and answer.contrast.collision >= RISK:
+        return False  # the risk of what was not done goes first
     first = answer.contrast.decisive
-    return kind == "alone" or first in DELAYS or (first == "collision" and struck)
+    return kind in ("alone", "close") or first in DELAYS or (first == "collision" and struck)
 
 
 def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
@@ -141,8 +149,19 @@ def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
     """Who stood or crept in the lane that we left."""
     if answer.ahead is None:
         return None
+    if answer.ahead.vehicle == answer.contrast.collided_with and not _weak(answer):
+        return None  # the risk names it
     decided = answer.contrast.decided
-    return motion_cause(answer.ahead, decided, context, past=_told_past(answer, context))
+    past = _told_past(answer, context) or _differs(answer.ahead, context)
+    return motion_cause(answer.ahead, decided, context, past=past)
+
+
+def _differs(cause: MotionCause, context: SpeechContext) -> bool:
+    """Whether a vehicle drives at another speed by now than when it was reckoned with."""
+    look = None if cause.vehicle is None else context.look(cause.vehicle)
+    if look is None or cause.speed is None:
+        return False
+    return not look.in_view or abs(look.speed - cause.speed) > OTHERWISE
 
 
 def _denied(contrast: Contrast, *, past: bool) -> Clause:

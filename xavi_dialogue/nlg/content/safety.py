@@ -59,7 +59,9 @@ def _blamed(answer: Priority, rule: Message, past: bool, context: SpeechContext)
         told.append(rule)
     told += [episode_message(deed, context) for deed in answer.deeds[:1] if not told]
     calm = answer.conflict is False and not told
-    blame = message("BLAME", conflict=answer.conflict, calm=calm, legal=answer.legal,
+    over = answer.legal and bool(told) and bool(told[0].slots.get("over"))
+    told = told[:1] if over else told
+    blame = message("BLAME", conflict=answer.conflict, calm=calm, legal=answer.legal, over=over,
                     told=tuple(told[:2]))  # fmt: skip
     return Plan((blame,))
 

@@ -47,6 +47,8 @@ def sides(
     spoken = [s for s in risky if s.term != "collision" or s.cost > 0.0 or sign < 0.0]
     told = [(s, _term(s, contrast, context, past=past)) for s in spoken]
     for_it = tuple(one for s, one in told if sign * s.cost > 0.0)
+    fatal = any(s.term == "collision" and sign * s.cost > 0.0 for s in spoken)
+    told = [(s, one) for s, one in told if not (fatal and s.term == "late")]  # who crashes is none
     against = tuple(one for s, one in told if sign * s.cost <= 0.0)
     return (for_it, against) if for_it else (against, ())
 

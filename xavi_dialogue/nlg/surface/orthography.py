@@ -6,6 +6,7 @@ _BEFORE_STOP = re.compile(r"\s+([,.;:?!])")
 _WITHIN_BRACKETS = re.compile(r"(?<=\()\s+|\s+(?=\))")
 _COMMAS = re.compile(r",(?:\s*,)+")
 _COMMA_STOP = re.compile(r",\s*([.;:?!])")
+_AN = re.compile(r"\b([Aa]) (?=(?:8\d*|11|18)\b)")  # an 8, an 11, an 80
 _SENTENCE_START = re.compile(r"(^|[.?!]\s+)([a-z])")
 _SENTENCE = re.compile(r"[.?!](?=\s+[A-Z0-9\"]|\s*$)")
 
@@ -14,7 +15,7 @@ def join(words: tuple[str, ...]) -> str:
     """The words as running text, with single spaces, and stops joined to what precedes them."""
     text = " ".join(" ".join(words).split())
     text = _WITHIN_BRACKETS.sub("", _BEFORE_STOP.sub(r"\1", text))
-    return _COMMA_STOP.sub(r"\1", _COMMAS.sub(",", text))
+    return _AN.sub(r"\1n ", _COMMA_STOP.sub(r"\1", _COMMAS.sub(",", text)))
 
 
 def capitalise(text: str) -> str:

@@ -24,7 +24,7 @@ from xavi_dialogue.nlu.compose.clause import (
     is_share,
     takes_name,
 )
-from xavi_dialogue.nlu.compose.positions import place_of
+from xavi_dialogue.nlu.compose.positions import place_of, placeless
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.tally import often
 from xavi_dialogue.nlu.compose.things import Nouns
@@ -332,9 +332,11 @@ class Phrases(Adjuncts):
         self.notes.chained.append(chained)
 
     def _on_or_state(self, node: Node, clause: Clause) -> None:
-        other = self.slots.fill(
-            node.parts, Clause(subject=clause.subject, aux=list(clause.aux), verb=clause.verb)
-        )
+        shared = Clause(subject=clause.subject, aux=list(clause.aux), verb=clause.verb)
+        if clause.there:  # "is there anybody ahead, or behind?"
+            shared.there = True
+            shared.objects = [(placeless(sem), node) for sem, node in clause.objects]
+        other = self.slots.fill(node.parts, shared)
         clause.chained.append(("or", other))
         self.notes.chained.append(other)
 

@@ -25,7 +25,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.followers import relation_of
-from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, passed
+from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, exceeded, passed
 from xavi_dialogue.nlu.compose.predicates import against, arrived, beyond, tense_of
 from xavi_dialogue.nlu.compose.sem import Measure, as_thing
 from xavi_dialogue.nlu.compose.tree import words_of
@@ -91,6 +91,8 @@ def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None
     if phrase.key.startswith("bearing-"):
         relation: Any = relation_of(phrase.key.removeprefix("bearing-"))
         return Related(relation, thing, to or as_thing(clause.gap) or Ego(), time, tense), 0.0
+    if phrase.key == "over" and (limited := exceeded(thing, to, phrase, clause)) is not None:
+        return limited, 0.0
     if phrase.key == "over" and (gone := passed(thing, to, phrase, clause)) is not None:
         moving = isinstance(thing, Described) and thing.doing is not None
         return gone, RELATIVE if moving else 0.0  # "the car that went past us"

@@ -2,7 +2,11 @@
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
     Destination,
     Ego,
     Event,
@@ -11,19 +15,23 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Junction,
+    Measured,
     Not,
     Pronoun,
     Proposition,
     Related,
     Thing,
 )
-from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.domain.vocabulary import ActionName, Comparator
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
-from xavi_dialogue.nlu.compose.sem import as_thing
+from xavi_dialogue.nlu.compose.sem import Sem, as_thing
 from xavi_dialogue.nlu.compose.tree import words_of
 
 #: What somebody has done who is so: "out" has come out.
 _MOVED: dict[str, ActionName] = {"out": "pull-out", "off": "leave", "in": "enter"}
+_LIMITED: dict[str, Comparator] = {
+    "over": "more", "above": "more", "under": "less", "below": "less", "within": "at-most",
+}  # fmt: skip
 _OVER = frozenset(("through", "past", "over"))
 
 
@@ -64,6 +72,16 @@ def passed(thing: Thing, place: Thing | None, phrase: Complement, clause: Clause
     return Happens(Event("pass", thing, place, time=clause.time, tense=tense))
 
 
+def exceeded(thing: Thing, it: Thing | None, phrase: Complement, clause: Clause) -> Compares | None:
+    """Read "are we over it": of what one may be over that is no place, there is the limit."""
+    first = words_of(phrase.node).split()[0]
+    if first not in _LIMITED or not isinstance(it, Pronoun) or it.form not in ("it", "that"):
+        return None
+    tense: Any = clause.tense
+    speed = Measured("speed", thing, time=clause.time, tense=tense)
+    return Compares(speed, _LIMITED[first], Measured("limit", time=clause.time))
+
+
 def by_event(clause: Clause, event: Event) -> Proposition | None:
     """Read "has something got in the way", "did he come too" as states that moves lead to."""
     where = event.where
@@ -81,3 +99,8 @@ def by_origin(thing: Thing, place: Thing, clause: Clause) -> Proposition:
     if place == Feature("way"):
         return Not(Related("in-the-way-of", thing, Ego(), clause.time, tense), lexical=True)
     return Related("from", thing, place, clause.time, tense)
+
+
+def placeless(sem: Sem) -> Sem:
+    """Give a description without where the thing is."""
+    return replace(sem, bearing=None, of=None) if isinstance(sem, Described) else sem

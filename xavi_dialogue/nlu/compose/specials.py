@@ -7,6 +7,7 @@ from msgspec import structs
 
 from xavi_dialogue.domain.terms import (
     Ago,
+    At,
     Believed,
     Caused,
     Compares,
@@ -174,6 +175,9 @@ def _cost(special: Special) -> Proposition:
     quantity = special.match.second if isinstance(special.match.second, Quantity) else None
     if quantity is None and isinstance(special.object, Quantity):
         quantity = special.object
+    time = time_of(special)
+    if quantity is None and isinstance(time, At) and _nothing_but_us(special):
+        quantity, time = Quantity(time.at, "s"), Unsaid()  # "it saved us five minutes"
     takes = special.name == "take-time"
     attribute: Any = "duration" if takes or special.name == "last" else "delay"
     if special.name == "delay" and isinstance(special.subject, Ego):
@@ -184,11 +188,15 @@ def _cost(special: Special) -> Proposition:
     deed = by if isinstance(by, Event) else subject if isinstance(subject, Event) else None
     if deed is not None:
         deed = with_fields(deed, tense=tense_of(special), modal=special.clause.modal)
-    measured = Measured(attribute, whose, None, deed, None, time_of(special),
-                        tense_of(special))  # fmt: skip
+    measured = Measured(attribute, whose, None, deed, None, time, tense_of(special))
     if quantity is None:
         return Compares(measured, "too-much" if "too" in special.clause.focus else "more", None)
     return Compares(measured, "same", quantity)
+
+
+def _nothing_but_us(special: Special) -> bool:
+    """Tell whether nothing is named that is saved or lost, so that an amount of time is that."""
+    return all(isinstance(sem, Ego | Passenger | None) for sem, _ in special.clause.objects)
 
 
 def _is(

@@ -128,6 +128,8 @@ class Telling:
                 return (Ask(WhatIf(supposed)),)  # "say he had braked"
         if value.content is not None and clause.that is not None:
             return (Ask(_all_done(sem, value.content) or Whether(value.content)),)
+        if sem is None and isinstance(clause.time, WholeRide):
+            return (Ask(Summarise(time=clause.time)),)  # "tell me the whole trip"
         if sem is None or isinstance(sem, (Passenger, Pronoun)):
             return (Repair("longer" if value.name == "tell" else "repeat"),)
         if isinstance(sem, Event):

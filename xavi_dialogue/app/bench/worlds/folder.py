@@ -37,8 +37,18 @@ def write(world: World, folder: Path) -> Scenario:
     folder.mkdir(parents=True, exist_ok=True)
     _write_roads(world.roads, folder)
     compile_plain(folder, NAME, folder / f"{NAME}.net.xml")
+    names = " and ".join(map(str, world.planted)) or "nobody"
+    return write_traffic(world, folder, f"{world.kind}: what the ego does hangs on {names}.")
+
+
+def write_traffic(world: World, folder: Path, story: str) -> Scenario:
+    """Write what belongs to a world beside its compiled net, which is in the folder.
+
+    Raises:
+        ScenarioError: the vehicles do not fit the roads.
+    """
     _save(_routes(world, ()), folder / f"{NAME}.rou.xml")
-    (folder / "scenario.toml").write_text(_table(world), encoding="utf-8")
+    (folder / "scenario.toml").write_text(_table(world, story), encoding="utf-8")
     return load(folder)
 
 
@@ -100,12 +110,10 @@ def _add(root: ET.Element, name: str, vehicle: Vehicle, colour: str) -> None:
         ET.SubElement(element, "stop", {**place, **rest})
 
 
-def _table(world: World) -> str:
+def _table(world: World, story: str) -> str:
     last = world.roads.edges[world.ego.route[-1]]
     junction = 12.0 if len(world.ego.route) > 1 else 0.0
     place = min(last.length - junction - END, 120.0 if junction else last.length)
-    names = " and ".join(map(str, world.planted)) or "nobody"
-    story = f"{world.kind}: what the ego does hangs on {names}."
     return "\n".join(
         [
             f'name = "{world.kind}-{world.seed}"',

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from random import Random
 
-from xavi_dialogue.app.bench.worlds import plots, roads, stories
+from xavi_dialogue.app.bench.worlds import plots, reactions, roads, stories
 from xavi_dialogue.app.bench.worlds.bystanders import MOST, bystanders
 from xavi_dialogue.app.bench.worlds.values import KINDS, Family, Kind, Sketch, World
 
@@ -14,6 +14,7 @@ STORIES: Mapping[Kind, Callable[[Random], Sketch]] = {
     "pre-empted": plots.pre_empted,
     "distractor": plots.distractor,
     "none": plots.nobody,
+    "interactive": reactions.interactive,
 }
 
 

@@ -3,11 +3,21 @@
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-Kind: TypeAlias = Literal["one", "both", "either", "pre-empted", "distractor", "none"]
+Kind: TypeAlias = Literal[
+    "one", "both", "either", "pre-empted", "distractor", "none", "interactive"
+]
 Family: TypeAlias = Literal["straight", "bent"]  # of roads
 Shape: TypeAlias = Literal["car", "van", "truck", "bus", "motorcycle"]
 
-KINDS: tuple[Kind, ...] = ("one", "both", "either", "pre-empted", "distractor", "none")
+KINDS: tuple[Kind, ...] = (
+    "one",
+    "both",
+    "either",
+    "pre-empted",
+    "distractor",
+    "none",
+    "interactive",
+)
 
 
 @dataclass(frozen=True, slots=True)

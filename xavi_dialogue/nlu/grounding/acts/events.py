@@ -216,10 +216,17 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         return replace(found, time=window.term)
     near = like(g.context, found, *_searched(g, window))
     if not near:
-        g.notes.cost += UNMET
+        g.notes.cost += 0.0 if _is_next(found, g) else UNMET
         return replace(found, time=window.term)
     g.notes.cost += NEARLY
     return _at(found, _pick(near, window, g), g, window, inner)
+
+
+def _is_next(found: Event, g: Grounder) -> bool:
+    """Tell whether an event is the next turn of our own way: "why turn left?" is asked of it."""
+    road = g.context.world.road(g.context.now)
+    route = () if road is None or found.tense != "present" else road.route
+    return isinstance(found.actor, Ego) and bool(route) and route[0].turn == found.action
 
 
 _PACES: Final = frozenset(("speed-up", "slow-down", "brake"))

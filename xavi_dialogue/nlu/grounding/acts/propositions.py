@@ -107,7 +107,8 @@ def proposition(
             limited = within_limit(spoken, g)
             if limited is not None:
                 return g.proposition(limited, mode, outer)
-            return _is(something_wrong(spoken, g) or spoken, g, mode, outer)
+            amiss = something_wrong(spoken, g)
+            return amiss if amiss is not None else _is(spoken, g, mode, outer)
         case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
             seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
             return g.proposition(seen, mode, outer)

@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Next,
     Nobody,
     Not,
+    Now,
     Pronoun,
     Proposition,
     Rank,
@@ -306,11 +307,16 @@ def _limited(thing: Thing, spoken: Is) -> Proposition:
 
 
 def something_wrong(spoken: Is, g: Grounder) -> Is | None:
-    """Give what "was something wrong?" asks: whether it was dangerous; None: something else."""
+    """Give what "was something wrong?" asks: whether it was dangerous; None: something else.
+
+    Of now it asks what hinders us, if anything.
+    """
     if spoken.state != "wrong" or spoken.thing not in _ANYTHING:
         return None
     g.notes.leaned = True
-    of_ride = spoken.tense == "present" or isinstance(spoken.time, WholeRide)
+    if spoken.tense == "present":
+        return replace(spoken, thing=None, time=Now())
+    of_ride = isinstance(spoken.time, WholeRide)
     event = None if of_ride else discussed(g.context)
     return replace(spoken, state="dangerous", thing=None, event=event)
 

@@ -1,0 +1,63 @@
+"""What samples alone show is never said to be certain, nor said as if it were."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.nlg.causal_cases import CHANGED, ends
+from tests.nlg.scenery import CONTEXT
+from xavi_dialogue.domain.answers import ChoiceReason, SupposedOfUs
+from xavi_dialogue.domain.facts import OptionValue
+from xavi_dialogue.nlg.content.facts import option_message
+from xavi_dialogue.nlg.say import say
+from xavi_dialogue.nlg.surface.chances import chance
+from xavi_dialogue.nlg.surface.realiser import realised
+from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.tables import table
+
+GRAMMARS = Path(__file__).parents[2] / "grammars"
+#: Words of certainty; "almost certainly" and "more certain" are none.
+SURE = re.compile(
+    r"(?<!almost )\bcertainly\b|(?<!more )\bcertain to\b|\bfor (certain|sure)\b"
+    r"|\bdefinitely\b|\bbound to\b|\bguaranteed\b|\b100 %",
+    re.IGNORECASE,
+)
+
+
+@pytest.mark.parametrize("detail", ["usual", "more", "simpler"])
+@pytest.mark.parametrize("name", ["collision", "termination"])
+@pytest.mark.parametrize("past", [True, False])
+def test_what_came_of_every_sample_is_said_to_be_almost_certain(name, detail, past):
+    context = replace(CONTEXT, detail=detail)
+    struck = 2 if name == "collision" else None
+    why = ChoiceReason("why", CHANGED, ends(name, 1.0, struck))
+    for answer in (why, SupposedOfUs(ends(name, 1.0, struck), past=past)):
+        assert "almost certainly" in say(answer, context).text
+
+
+@pytest.mark.parametrize("name", ["collision", "termination"])
+def test_an_option_that_failed_in_every_sample_would_almost_certainly_have(name):
+    option = OptionValue("continue", False, name, 1.0, None, None, -5.0)
+    assert "almost certainly" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
+
+
+@pytest.mark.parametrize("form", ["adverb", "modal", "would", "verdict", "clause", "percent"])
+def test_no_probability_has_a_word_of_certainty(form):
+    for percent in range(101):
+        said = chance(percent / 100.0, form)
+        assert said
+        assert not SURE.search(said)
+        assert said not in ("0 %", "will", "would", "yes", "no")
+
+
+def test_no_rule_of_an_answer_has_a_word_of_certainty():
+    # The style of the paper is its published grammar, whose adverb for 1 is "certainly".
+    rules = sorted(set(GRAMMARS.glob("answer_*.rules")) - {GRAMMARS / "answer_paper.rules"})
+    assert rules
+    for path in rules:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        found = [x for x in lines if not x.startswith("#") and SURE.search(x)]
+        assert found == [], path.name
+    assert table("chances")["band"][0]["adverb"] == "almost certainly"
