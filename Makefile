@@ -9,8 +9,8 @@ BIN := .venv/bin
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help chat dashboard test drills lint format schema diagram bench fuzz clean runtime \
-        develop browser test-browser screenshots
+.PHONY: help chat dashboard test drills mutants lint format schema diagram bench fuzz clean \
+        runtime develop browser test-browser screenshots
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -31,6 +31,10 @@ test: develop ## everything that must hold: lint, types, tests
 
 drills: develop ## what goes wrong between real processes, tried out (docs/drills.md)
 	@$(BIN)/python -m pytest tests/drills -n 2 --dist worksteal $(ARGS)
+
+# It takes half an hour or more; ARGS="--seed 7 --count 400" chooses other faults.
+mutants: develop ## plant one-line faults and count those that tests notice (docs/mutants.md)
+	@$(BIN)/python -m tests.mutants $(ARGS)
 
 test-browser: browser ## the dashboard's page in a real browser
 	@$(BIN)/python -m pytest tests/browser -n 2 --dist loadfile $(ARGS)
