@@ -117,17 +117,31 @@ def test_a_bare_name_is_no_question_of_the_passengers(talk: Talk) -> None:
     assert turn.results[0].again
 
 
-def test_another_one_after_the_verdict_goes_on(talk: Talk) -> None:
-    posed(talk, "sooner")
-    talk.say("no idea")
+def goes_on(talk: Talk, before: Quiz) -> None:
+    """Ask for another question: what comes is not the one before, nor that one anew."""
+    kinds = {posed.kind for posed in (WHO, WHEN)} - {
+        turn.quiz.posed.kind for turn in talk.session.turns if turn.quiz is not None
+    }
     turn = talk.say("another one please")
-    assert isinstance(turn.results[0], Posed | NothingToAsk)
+    if kinds:
+        assert turn.quiz is not None
+        assert turn.results[0] == turn.quiz.posed
+        assert {turn.quiz.posed.kind} == kinds
+        assert turn.quiz.posed.kind != before.posed.kind
+        assert talk.session.phase is Phase.QUIZZING
+    else:
+        assert turn.results[0] == NothingToAsk(asked=True)
+        assert talk.session.phase is Phase.LISTENING
+
+
+def test_another_one_after_the_verdict_goes_on(talk: Talk) -> None:
+    before = posed(talk, "sooner")
+    talk.say("no idea")
+    goes_on(talk, before)
 
 
 def test_another_one_goes_on(talk: Talk) -> None:
-    posed(talk, "sooner")
-    turn = talk.say("another one please")
-    assert isinstance(turn.results[0], Posed | NothingToAsk)
+    goes_on(talk, posed(talk, "sooner"))
 
 
 DEED = Posed("deed", WhatIf(Happens(Event("exit-straight", Vehicle(1)))))

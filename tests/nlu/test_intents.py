@@ -10,7 +10,7 @@ import pytest
 
 from xavi_dialogue.app.bench.learning import Asked, Example, learnt, read
 from xavi_dialogue.domain.meaning import Ask, Why
-from xavi_dialogue.domain.terms import AtDecision, Described, Event, Happens, Vehicle
+from xavi_dialogue.domain.terms import AtDecision, Described, Ego, Event, Happens, Vehicle
 from xavi_dialogue.nlu.intents.classifier import Intent, judge, model
 from xavi_dialogue.nlu.intents.features import features
 from xavi_dialogue.nlu.intents.frames import is_of, plain
@@ -108,6 +108,8 @@ def test_a_question_put_in_a_new_way_becomes_the_plain_one() -> None:
 
     assert isinstance(act, Ask)
     assert isinstance(act.question, Why)
+    assert isinstance(act.question.of, Happens)
+    assert (act.question.of.event.action, act.question.of.event.actor) == ("brake", Ego())
 
 
 def test_a_word_that_nobody_knows_keeps_a_text_from_being_taken_for_another() -> None:

@@ -153,8 +153,10 @@ def test_goals_come_likeliest_first_and_sum_to_one() -> None:
 @pytest.mark.parametrize("seed", range(20))
 def test_ragged_records_are_told_as_far_as_they_go(seed: int) -> None:
     trace = ragged_trace(seed)
-    msgspec.json.encode(whole(trace, None))
-    msgspec.json.encode(in_short(trace, None))
+    shown, short = whole(trace, None), in_short(trace, None)
+    assert msgspec.json.decode(msgspec.json.encode(shown), type=DecisionShown) == shown
+    assert msgspec.json.decode(msgspec.json.encode(short), type=type(short)) == short
+    assert shown.words == short.words
 
 
 def test_a_plan_that_is_empty_means_to_stop() -> None:

@@ -133,7 +133,11 @@ def test_yields_to_nobody_in_particular_are_counted_for_all() -> None:
 def test_going_first_is_asked_as_right_of_way() -> None:
     ride = made(BESIDE, 4.0, roads=ring)
     going = Event("go", Wanted(), manner=("first",), tense="present")
-    assert isinstance(told(ride, Which(Wanted(), Happens(going))), Priority)
+    found = told(ride, Which(Wanted(), Happens(going)))
+    assert isinstance(found, Priority)
+    assert (found.time, found.rule, found.vehicle) == (4.0, "give-way", None)
+    assert found.ring
+    assert not found.blame
 
 
 def test_the_farthest_is_one_vehicle() -> None:

@@ -117,7 +117,10 @@ def test_who_is_out_of_view_is_told_as_seen_last() -> None:
 
 
 def test_a_vehicle_that_was_never_seen_is_refused() -> None:
-    assert isinstance(told(made(HALT, 5.0), HowMuch(Measured("speed", Vehicle(7)))), NoSuchVehicle)
+    found = told(made(HALT, 5.0), HowMuch(Measured("speed", Vehicle(7))))
+    assert isinstance(found, NoSuchVehicle)
+    assert (found.thing, found.time) == (Vehicle(7), 5.0)
+    assert [look.vehicle for look in found.known] == [1]
 
 
 def test_how_long_it_stood_and_when() -> None:

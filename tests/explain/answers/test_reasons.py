@@ -72,6 +72,8 @@ def test_a_suspect_that_was_never_seen_is_refused() -> None:
     question = Why(Happens(Event("brake")), suspect=Vehicle(77))
     found = told(story("braking"), question, 8.0)
     assert isinstance(found, NoSuchVehicle)
+    assert (found.thing, found.time) == (Vehicle(77), 8.0)
+    assert [look.vehicle for look in found.known] == [1, 2]
 
 
 def test_what_nobody_did_is_denied_with_what_was_done() -> None:
@@ -95,7 +97,8 @@ def test_an_option_that_did_not_apply_has_its_reason() -> None:
 
 
 def test_no_car_of_this_kind_honks() -> None:
-    assert isinstance(told(story("braking"), Why(Not(Happens(Event("honk")))), 8.0), CannotSay)
+    found = told(story("braking"), Why(Not(Happens(Event("honk")))), 8.0)
+    assert found == CannotSay("capability", "honk", "not-an-action")
 
 
 def test_why_we_change_lanes_is_a_choice() -> None:

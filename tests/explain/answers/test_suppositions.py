@@ -125,7 +125,7 @@ def test_a_change_of_speed_that_no_prediction_holds_is_told_by_its_name() -> Non
 def test_what_no_prediction_can_hold_is_no_belief() -> None:
     ride = story("braking")
     found = told(ride, HowKnow(Happens(Event("honk", actor=Vehicle(1), tense="future"))), 10.0)
-    assert isinstance(found, NotRecorded)
+    assert found == NotRecorded("not-recorded", Vehicle(1), about="doing")
 
 
 def test_how_we_know_what_it_will_do_is_of_what_is_most_probable() -> None:

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exists,
     Exit,
     Happens,
     Is,
@@ -159,6 +160,11 @@ def test_nobody_does_is_that_none_does() -> None:
     found = act(Claim(Happens(Event("come", Nobody(), tense="present"))), WORLD).acts[0].act
     assert isinstance(found, Claim)
     assert isinstance(found.that, Not)
+    denied = found.that.content
+    assert isinstance(denied, Exists)
+    assert isinstance(denied.thing, Nobody)
+    assert denied.thing.described is not None
+    assert denied.thing.described.doing == Event("come", Wanted(), tense="present")
 
 
 def test_what_could_not_be_known_is_what_came_true() -> None:
