@@ -40,7 +40,7 @@ WHATIF = KEYS.of("@rpc/whatif")
 ABOUT = by_ride(transcripts_in(Path(__file__).parents[2] / "transcripts"))
 # Rides about which answers name decisions and plans made again.
 RIDES = (
-    *("s1-0.ride", "s1-4.ride", "s3-0.ride", "s4-0.ride", "motorway-0.ride"),
+    *("s1-0.ride", "s1-4.ride", "s4-0.ride", "motorway-0.ride"),
     *("even.json", "lorry.ride", "waiting.ride"),
 )
 

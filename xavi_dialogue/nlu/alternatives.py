@@ -48,8 +48,10 @@ def chosen_between(units: Sequence[Node], rows: Rows) -> list[tuple[Act, ...] | 
             asked = _either(first[-1], later[0])
         elif len(later) == 1 and first and units[index].name == "imperative":
             asked = _guessed(first[-1], later[0])
-        if len(later) == 1 and first and _is_purpose(
-            units[index - 1 : index + 1], first[-1], later[0]
+        if (
+            len(later) == 1
+            and first
+            and _is_purpose(units[index - 1 : index + 1], first[-1], later[0])
         ):
             found[index] = None
             continue

@@ -41,6 +41,7 @@ from xavi_dialogue.domain.terms import (
     Next,
     Nobody,
     Not,
+    Now,
     Pronoun,
     Rank,
     Related,
@@ -375,10 +376,13 @@ def test_the_speed_that_is_allowed_is_the_limit() -> None:
     assert within_limit(Is("allowed", IT), grounder(discourse=ABOUT_WAY)) is None
 
 
-def test_something_wrong_was_dangerous() -> None:
+def test_something_wrong_is_what_hinders_us_and_was_dangerous() -> None:
     anything = Described(definite=False)
     found = something_wrong(Is("wrong", anything, tense="present"), grounder())
-    assert found == Is("dangerous", None, tense="present")
+    assert found == Is("wrong", None, time=Now(), tense="present")
+    past = something_wrong(Is("wrong", anything, tense="past"), grounder())
+    assert past is not None
+    assert (past.state, past.thing) == ("dangerous", None)
     assert something_wrong(Is("wrong", Vehicle(1)), grounder()) is None
     assert something_wrong(Is("close", anything), grounder()) is None
 

@@ -71,6 +71,8 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         raise did_not_happen(asked, of.time.anchor)
     if of.attribute == "speed" and of.to is not None:
         return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)
+    if of.attribute == "gap" and question.extreme == "lowest" and isinstance(of.to, Vehicle):
+        of = replace(of, attribute="distance")  # beside one another too, not only in line
     special = SPECIAL.get(of.attribute)
     if special is not None:
         return special(of, asked)

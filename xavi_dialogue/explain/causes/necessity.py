@@ -29,6 +29,7 @@ from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
 LEAST = 0.5  # [s] of reward that must go with vehicles ...
 SHARE = 0.5  # ... and this part of what the plan was better by than the foil
+EXPECTED = 0.5  # probability from which what a vehicle does is expected
 NEARLY = 1.0  # [m/s] above the lowest speed, up to which one is as slow
 LOST = 1.0  # [m/s] that the ego must lose to others there, where a way of driving is explained ...
 PART = 0.25  # ... and part of what it is slower there than anywhere with nobody else there ...
@@ -86,8 +87,8 @@ def proven(
         for vehicle in blamed
         if found.kind != "both" or vehicle in (*suspects, *reserve)  # else not in our own way
     ]
-    if found.kind in ("both", "either"):  # none of them comes first but the surest
-        told.sort(key=lambda cause: -cause.probability)
+    if found.kind in ("both", "either"):  # none of them comes first but what is expected
+        told.sort(key=lambda cause: cause.probability < EXPECTED)
     needed = found.kind in ("one", "both")
     causes = tuple(
         replace(cause, decision_changes=tests.changes(cause.vehicle), necessary=needed)
