@@ -22,7 +22,7 @@ Side: TypeAlias = Literal["left", "right"]
 TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
-SIDES: tuple[Side, ...] = ("left", "right")
+INDICATORS: tuple[Side, ...] = ("left", "right")
 LEAST_PACE = 3.0  # [m/s] below which nobody wants to drive for long
 CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
 QUEUE = 60.0  # [m] over which one stands behind another
@@ -79,7 +79,7 @@ class Observed:
 
 def indicating(state: VehicleState) -> frozenset[Side]:
     """Return the sides that a vehicle indicates."""
-    return frozenset(side for side in SIDES if side in state.signals)
+    return frozenset(side for side in INDICATORS if side in state.signals)
 
 
 def queued(tracks: Sequence[Observed]) -> list[Observed]:

@@ -16,7 +16,6 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
-    At,
     Compares,
     Ego,
     Event,
@@ -80,13 +79,11 @@ def form_of(then: Question | None) -> Asking:
     return "what-if"
 
 
-def claimed_in(that: Proposition | None, now: float) -> float | None:
-    """Tell how long [s] a delay is said or asked to be; a time that is yet to come is a length."""
+def claimed_in(that: Proposition | None) -> float | None:
+    """Tell how long [s] a delay is said or asked to be; None where nothing is said of it."""
     match that:
         case Compares(left=Measured(attribute="delay"), right=Quantity(value=value, unit="s")):
             return value
-        case Compares(left=Measured(attribute="delay", time=At(at), tense="past")) if at > now:
-            return at
     return None
 
 

@@ -102,7 +102,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if negated:
         return undone(event, scene, form, struck)
     asked = question.then.that if isinstance(question.then, Whether) else None
-    return claimed(of_us(event, scene, form, struck), claimed_in(asked, scene.now))
+    return claimed(of_us(event, scene, form, struck), claimed_in(asked))
 
 
 def _mistaken(

@@ -6,7 +6,6 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
-from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
@@ -169,26 +168,22 @@ def _disputed(that: Proposition, asked: Asked) -> Answer | None:
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
             return handed(Why(that), asked) if slow or judged else None
-        case Compares(left=Measured(attribute="delay" | "duration" as lasts) as left, right=right):
-            would = left.event is not None and left.event.modal in ("would", "could")
-            timed = lasts == "delay" or number(left.thing) is not None
-            if not timed or not (right is None or would):
-                return None
-            found = _cost(HowMuch(replace(left, attribute="delay")), asked)
-            return claimed(found, claimed_in(that, asked.now))
-        case Compares(left=Measured(attribute="delay") as left, right=Quantity(unit="s")):
-            return _cost(HowMuch(left), asked, "what-if")  # the figure itself is the reply
+        case Compares(left=Measured(attribute="delay") as left, right=None | Quantity(unit="s")):
+            return claimed(_cost(HowMuch(left), asked), claimed_in(that))
+        case Compares(left=Measured(attribute="duration") as left, right=None):
+            timed = number(left.thing) is not None
+            return _cost(HowMuch(replace(left, attribute="delay")), asked) if timed else None
     return None
 
 
-def _cost(question: HowMuch, asked: Asked, form: Asking = "quicker") -> Answer:
+def _cost(question: HowMuch, asked: Asked) -> Answer:
     """Tell what something cost in time, where it is said or asked whether it cost any."""
     # Deferred: measures may themselves be of what holds.
     from xavi_dialogue.explain.answers.measures import how_much
 
     event = question.of.event
     if event is not None and event.modal in ("would", "could"):
-        return of_us(event, asked, form)
+        return of_us(event, asked, "quicker")
     return how_much(question, asked)
 
 

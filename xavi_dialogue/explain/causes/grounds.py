@@ -204,6 +204,8 @@ def _rival(
     other = max(against, key=lambda g: known.goals[g].probability)
     ways, _ = likeliest(ride.model(trace), vehicle, other)
     shown = [known.goals[g].indicators for g in (mine, other)]
+    if min(shown) <= 0.0:
+        return ways, None, 1.0
     one, two = (known.goals[g].likelihood / i for g, i in zip((mine, other), shown, strict=True))
     fit = one / two if one > 0.0 and two > LEAST_FIT * one else None
     return ways, fit, shown[0] / shown[1]

@@ -160,8 +160,8 @@ def told_cause(contrast: Contrast) -> Cause | None:
     """The cause that goes with the reason: who makes the foil worse, or has us drive so."""
     kind = kind_of(contrast)
     told = {s.term for s in contrast.told if s.cost > 0.0}
-    turns = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
-    due = (contrast.verdict == "better" or turns) and bool(told & {"collision", "late", "time"})
+    decides = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
+    due = (contrast.verdict == "better" or decides) and bool(told & {"collision", "late", "time"})
     if kind != "alone" and not due:
         return None
     if kind in ("collision", "risk"):
