@@ -14,13 +14,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from sim.network import Direction, Lane, Link, Network, cumulative
+from sim.network import UNSIGNALLED, Control, Direction, Lane, Link, Network, cumulative
 from sim.rings import find_rings
-from sim.scene import Point
+from sim.scene import Point, Signal
 
 CAR = "passenger"
 DEFAULT_WIDTH = 3.2  # [m] SUMO's width of a lane that states none
 EQUAL = "right_before_left"
+RAIL = "rail_crossing"
 NOT_FOR_VEHICLES = ("crossing", "walkingarea")
 
 _DIRECTIONS: dict[str, Direction] = {
@@ -85,7 +86,7 @@ def parse_network(data: bytes, name: str) -> Network:
     canonical = ET.canonicalize(text, strip_text=True)
     digest = hashlib.sha256(canonical.encode()).hexdigest()[:16]
     rings = _roundabouts(root, lanes) or find_rings(lanes, links)
-    return Network(lanes, links, digest, rings, _equal(root))
+    return Network(lanes, links, digest, rings, _of_type(root, EQUAL), _of_type(root, RAIL))
 
 
 def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
@@ -160,9 +161,9 @@ def _roundabouts(root: ET.Element, lanes: dict[str, Lane]) -> tuple[frozenset[st
     return tuple(ring for ring in named if ring)
 
 
-def _equal(root: ET.Element) -> frozenset[str]:
-    """The junctions at which no road has priority over another."""
-    return frozenset(x.get("id", "") for x in root.iter("junction") if x.get("type") == EQUAL)
+def _of_type(root: ET.Element, kind: str) -> frozenset[str]:
+    """The junctions of a type."""
+    return frozenset(x.get("id", "") for x in root.iter("junction") if x.get("type") == kind)
 
 
 def _open_to_cars(lane: ET.Element) -> bool:
@@ -210,8 +211,17 @@ def _links(root: ET.Element, lanes: dict[str, Lane]) -> Iterator[Link]:
         index = indices.get(id(connection))
         if index is None:
             raise NetworkInvalid(f"junction {junction!r} does not list incoming lane {start!r}")
-        links.append(Link(junction, index, start, end, via, direction, (), (), False))
+        control = _control(connection)
+        links.append(Link(junction, index, start, end, via, direction, (), (), False, control))
     yield from _with_right_of_way(links, _requests(root))
+
+
+def _control(connection: ET.Element) -> Control:
+    """The place of a connection in a traffic light, if it has one."""
+    controller = connection.get("tl")
+    if not controller:
+        return UNSIGNALLED
+    return Signal(controller, int(_number(connection, "linkIndex")))
 
 
 def _is_internal(connection: ET.Element) -> bool:

@@ -10,11 +10,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, TypeAlias
 
-from sim.scene import Point
+from sim.scene import Point, Signal
 
 Direction = Literal["left", "straight", "right", "turnaround"]
+
+
+@dataclass(frozen=True, slots=True)
+class Unsignalled:
+    """No traffic light controls the link."""
+
+
+Control: TypeAlias = Signal | Unsignalled
+UNSIGNALLED = Unsignalled()
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +53,7 @@ class Link:
     yields_to: tuple[int, ...]  # links of the same junction that go first
     foes: tuple[int, ...]  # links of the same junction whose paths cross or merge
     waits_inside: bool  # may enter and wait at the end of via[0] for oncoming traffic
+    control: Control = UNSIGNALLED
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,10 +74,15 @@ class Network:
     hash: str  # of the network, independent of comments in its file
     roundabouts: tuple[frozenset[str], ...] = ()  # the edges of each ring
     equal: frozenset[str] = frozenset()  # junctions where who comes from the right goes first
+    rail_crossings: frozenset[str] = frozenset()  # junctions where roads cross rails
 
     def roundabout(self, edge: str) -> frozenset[str] | None:
         """The ring that an edge is part of."""
         return next((ring for ring in self.roundabouts if edge in ring), None)
+
+    def signalled(self, signal: Signal) -> tuple[Link, ...]:
+        """The links that a signal controls."""
+        return self._signalled.get(signal, ())
 
     def links_from(self, lane: str) -> tuple[Link, ...]:
         """The links that begin at the end of a lane (not of an internal one)."""
@@ -135,6 +150,14 @@ class Network:
         result: dict[str, tuple[Link, ...]] = {}
         for link in self.links:
             result[link.from_lane] = (*result.get(link.from_lane, ()), link)
+        return result
+
+    @cached_property
+    def _signalled(self) -> dict[Signal, tuple[Link, ...]]:
+        result: dict[Signal, tuple[Link, ...]] = {}
+        for link in self.links:
+            if isinstance(link.control, Signal):
+                result[link.control] = (*result.get(link.control, ()), link)
         return result
 
     @cached_property

@@ -5,6 +5,7 @@ SI units; angles in radians anticlockwise from east; simulation time in seconds.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
 
 Point = tuple[float, float]  # [m] (x east, y north)
 
@@ -26,20 +27,56 @@ class VehicleState:
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
 
 
+class LightState(Enum):
+    """What a traffic light shows to one link; the values are SUMO's letters."""
+
+    RED = "r"
+    RED_AMBER = "u"  # about to turn green
+    AMBER = "y"  # about to turn red
+    GREEN = "G"  # go: nobody has priority
+    GREEN_YIELD = "g"  # go, but give way as the junction says
+    STOP_FIRST = "s"  # go after a full stop, giving way: a turn on red
+    FLASHING = "o"  # out of order: give way as the signs say
+    OFF = "O"  # switched off: the signs give this link priority
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """One place in a traffic light: every link that has it is shown the same."""
+
+    controller: str  # id of the traffic light in SUMO
+    index: int  # in the controller's state
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """What one signal in view shows."""
+
+    signal: Signal
+    state: LightState
+    since: float  # [s] when it was first seen to be so without a break
+    change_seen: bool  # whether it changed to this state then, or only came into view
+
+
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Every vehicle in view at one instant, the ego among them.
+    """Everything in view at one instant, the ego among it.
 
     Keys are the vehicles' names (0 is the ego), in increasing order.
     """
 
     time: float  # [s] simulation time
     vehicles: Mapping[int, VehicleState]
+    lights: tuple[Light, ...] = ()  # in view, by controller and index
 
     @property
     def ego(self) -> VehicleState:
         """The state of our own car."""
         return self.vehicles[EGO]
+
+    def light(self, signal: Signal) -> Light | None:
+        """What a signal shows; None where it is out of view."""
+        return next((light for light in self.lights if light.signal == signal), None)
 
 
 @dataclass(frozen=True, slots=True)

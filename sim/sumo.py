@@ -26,8 +26,9 @@ from sim.network import angle_between
 from sim.options import start_arguments
 from sim.quiet import errors_to, first_error
 from sim.scenario import Scenario
-from sim.scene import EGO, Command, Scene, VehicleState
+from sim.scene import EGO, Command, Point, Scene, Signal, VehicleState
 from sim.sight import Body, hidden
+from sim.signals import Signals
 
 SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
 KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
@@ -100,6 +101,10 @@ class Simulation:
         _running = self._open = True
         try:
             self._start(seed)
+            api = self._sumo.trafficlight.getRedYellowGreenState
+            self._signals = Signals(
+                self._stop_lines(), lambda controller: self._call(api, controller)
+            )
             self._scene = self._look(None)
         except BaseException:
             self.close()
@@ -267,7 +272,20 @@ class Simulation:
         }
         seen = self._names.in_order(self._seen())
         named = {self._names.of(x): states[x] for x in seen}
-        return Scene(self.time, dict(sorted(named.items())))
+        lights = self._signals.look(self.time, ego, radius)
+        return Scene(self.time, dict(sorted(named.items())), lights)
+
+    def _stop_lines(self) -> dict[Signal, tuple[Point, ...]]:
+        """Where the links of each signal begin."""
+        api = self._sumo.trafficlight
+        found: dict[Signal, tuple[Point, ...]] = {}
+        for controller in self._call(api.getIDList):
+            for index, links in enumerate(self._call(api.getControlledLinks, controller)):
+                lanes = dict.fromkeys(start for start, _, _ in links)
+                shapes = [self._call(self._sumo.lane.getShape, lane) for lane in lanes]
+                if shapes:
+                    found[Signal(controller, index)] = tuple(shape[-1] for shape in shapes)
+        return found
 
     def _seen(self) -> list[str]:
         """The vehicles near the ego that nothing hides from it, the ego among them."""

@@ -1,0 +1,83 @@
+"""Which traffic lights a passenger sees, and since when they show what they show.
+
+All lights of a junction count whose stop line is near and not behind: what the other arms are
+shown can be told from how the junction is worked, and from who goes.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+
+from sim.scene import Light, LightState, Point, Signal, VehicleState
+
+BEHIND = 15.0  # [m] how far behind the ego's front a stop line may be
+_STATES = {
+    **{state.value: state for state in LightState},
+    # SUMO reads these as well, of old files.
+    "R": LightState.RED,
+    "Y": LightState.AMBER,
+}
+
+
+class Signals:
+    """The traffic lights of a network as the ego sees them during a ride."""
+
+    def __init__(
+        self, stop_lines: Mapping[Signal, tuple[Point, ...]], state: Callable[[str], str]
+    ) -> None:
+        """Begin with no light seen.
+
+        Args:
+            stop_lines: where the links of each signal begin [m].
+            state: the letters of SUMO for a controller, as they are at the time of the call.
+        """
+        self._state = state
+        self._lines: dict[str, dict[int, tuple[Point, ...]]] = {}
+        for signal, points in stop_lines.items():
+            self._lines.setdefault(signal.controller, {})[signal.index] = points
+        self._seen: dict[Signal, Light] = {}
+
+    def look(self, time: float, ego: VehicleState, radius: float) -> tuple[Light, ...]:
+        """The lights in view, by controller and index.
+
+        Args:
+            time: [s] of this look, later than that of the last one.
+            ego: whose view it is.
+            radius: [m] how far it sees.
+
+        Raises:
+            ValueError: SUMO shows a letter that stands for no state of a light.
+        """
+        now = {light.signal: light for light in self._lights(time, ego, radius)}
+        self._seen = dict(sorted(now.items(), key=lambda x: (x[0].controller, x[0].index)))
+        return tuple(self._seen.values())
+
+    def _lights(self, time: float, ego: VehicleState, radius: float) -> Iterator[Light]:
+        for controller, lines in self._lines.items():
+            near = [index for index, points in lines.items() if _in_view(points, ego, radius)]
+            letters = self._state(controller) if near else ""
+            for index in near:
+                if index < len(letters):
+                    yield self._light(Signal(controller, index), _named(letters[index]), time)
+
+    def _light(self, signal: Signal, state: LightState, time: float) -> Light:
+        before = self._seen.get(signal)
+        if before is not None and before.state is state:
+            return before
+        return Light(signal, state, time, change_seen=before is not None)
+
+
+def _named(letter: str) -> LightState:
+    state = _STATES.get(letter)
+    if state is None:
+        raise ValueError(f"{letter!r} is no state of a traffic light")
+    return state
+
+
+def _in_view(points: tuple[Point, ...], ego: VehicleState, radius: float) -> bool:
+    """Whether one of several points is within a radius of the ego and not far behind it."""
+    ahead_x, ahead_y = math.cos(ego.heading), math.sin(ego.heading)
+    for x, y in points:
+        dx, dy = x - ego.position[0], y - ego.position[1]
+        if dx * dx + dy * dy <= radius * radius and dx * ahead_x + dy * ahead_y >= -BEHIND:
+            return True
+    return False
