@@ -2,67 +2,45 @@
 
 Coordinates are those of the SUMO net: metres, x east, y north; headings in radians
 anticlockwise from east. `sim.netfile` reads a network from a SUMO net file.
+
+`lanes` and `links` are those that cars may use, our own among them. What is for others only
+(buses, trams, bicycles, pedestrians) stands beside them, in `other_lanes` and `other_links`.
 """
 
 import math
-from bisect import bisect_right
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
-from typing import Literal, TypeAlias
 
+from sim.lanes import (
+    UNSIGNALLED,
+    Control,
+    Crossing,
+    Direction,
+    Lane,
+    Link,
+    Location,
+    Unsignalled,
+)
+from sim.lines import angle_between, cumulative, point_at, project
+from sim.places import Places
 from sim.scene import Point, Signal
 
-Direction = Literal["left", "straight", "right", "turnaround"]
-
-
-@dataclass(frozen=True, slots=True)
-class Unsignalled:
-    """No traffic light controls the link."""
-
-
-Control: TypeAlias = Signal | Unsignalled
-UNSIGNALLED = Unsignalled()
-
-
-@dataclass(frozen=True, slots=True)
-class Lane:
-    """One lane: of an edge, or inside a junction (`internal`)."""
-
-    id: str
-    edge: str
-    index: int  # 0 is the rightmost lane of its edge
-    width: float  # [m]
-    speed_limit: float  # [m/s]
-    centreline: tuple[Point, ...]  # [m] [N >= 2] in driving direction
-    internal: bool
-    length: float  # [m] along the centreline
-
-
-@dataclass(frozen=True, slots=True)
-class Link:
-    """A way through a junction, from one lane to another."""
-
-    junction: str
-    index: int  # of this link in the junction's right-of-way matrix
-    from_lane: str
-    to_lane: str
-    via: tuple[str, ...]  # internal lanes in driving order; () where the lanes touch
-    direction: Direction
-    yields_to: tuple[int, ...]  # links of the same junction that go first
-    foes: tuple[int, ...]  # links of the same junction whose paths cross or merge
-    waits_inside: bool  # may enter and wait at the end of via[0] for oncoming traffic
-    control: Control = UNSIGNALLED
-
-
-@dataclass(frozen=True, slots=True)
-class Location:
-    """A place on a lane."""
-
-    lane: str
-    offset: float  # [m] along the lane's centreline
-    lateral: float  # [m] to the left of the centreline
+__all__ = [
+    "UNSIGNALLED",
+    "Control",
+    "Crossing",
+    "Direction",
+    "Lane",
+    "Link",
+    "Location",
+    "Network",
+    "Unsignalled",
+    "angle_between",
+    "cumulative",
+    "point_at",
+    "project",
+]
 
 
 @dataclass(frozen=True)
@@ -75,6 +53,9 @@ class Network:
     roundabouts: tuple[frozenset[str], ...] = ()  # the edges of each ring
     equal: frozenset[str] = frozenset()  # junctions where who comes from the right goes first
     rail_crossings: frozenset[str] = frozenset()  # junctions where roads cross rails
+    other_lanes: Mapping[str, Lane] = field(default_factory=dict)  # that cars may not use
+    other_links: tuple[Link, ...] = ()  # that cars may not use
+    crossings: tuple[Crossing, ...] = ()
 
     def roundabout(self, edge: str) -> frozenset[str] | None:
         """The ring that an edge is part of."""
@@ -95,6 +76,10 @@ class Network:
     def junction_links(self, junction: str) -> Mapping[int, Link]:
         """The links of a junction by their index."""
         return self._junction_links[junction]
+
+    def junction_others(self, junction: str) -> Mapping[int, Link | Crossing]:
+        """The links for others only and the crossings of a junction by their index."""
+        return self._junction_others.get(junction, {})
 
     def edge_lanes(self, edge: str) -> tuple[Lane, ...]:
         """The lanes of an edge from right to left.
@@ -134,16 +119,13 @@ class Network:
             reach: [m] largest distance from the centreline.
             turn: [rad] largest difference of heading.
         """
-        found = []
-        for lane_id in self._near(position):
-            lane = self.lanes[lane_id]
-            offset, lateral, direction = project(lane.centreline, position)
-            inside = -0.5 <= offset <= lane.length + 0.5
-            if inside and abs(lateral) <= reach and abs(angle_between(heading, direction)) <= turn:
-                clamped = min(max(offset, 0.0), lane.length)
-                found.append(Location(lane_id, clamped, lateral))
-        found.sort(key=lambda location: (round(abs(location.lateral), 3), location.lane))
-        return tuple(found)
+        return self._places.find(position, heading, reach, turn)
+
+    def locate_aside(
+        self, position: Point, heading: float, reach: float = 2.5, turn: float = math.pi / 4
+    ) -> tuple[Location, ...]:
+        """The lanes that cars may not use on which a pose may lie; otherwise as `locate`."""
+        return self._other_places.find(position, heading, reach, turn)
 
     @cached_property
     def _links_from(self) -> dict[str, tuple[Link, ...]]:
@@ -172,6 +154,15 @@ class Network:
         return result
 
     @cached_property
+    def _junction_others(self) -> dict[str, dict[int, Link | Crossing]]:
+        result: dict[str, dict[int, Link | Crossing]] = {}
+        for link in self.other_links:
+            result.setdefault(link.junction, {})[link.index] = link
+        for crossing in self.crossings:
+            result.setdefault(crossing.junction, {})[crossing.index] = crossing
+        return result
+
+    @cached_property
     def _edge_lanes(self) -> dict[str, tuple[Lane, ...]]:
         result: dict[str, list[Lane]] = {}
         for lane in self.lanes.values():
@@ -186,22 +177,12 @@ class Network:
         return {}
 
     @cached_property
-    def _grid(self) -> dict[tuple[int, int], tuple[str, ...]]:
-        """Lanes by the 20 m cells that their centrelines pass within 10 m of."""
-        cells: dict[tuple[int, int], dict[str, None]] = {}
-        for lane in self.lanes.values():
-            for (ax, ay), (bx, by) in pairwise(lane.centreline):
-                steps = max(1, math.ceil(math.hypot(bx - ax, by - ay) / 5.0))
-                for k in range(steps + 1):
-                    x, y = ax + (bx - ax) * k / steps, ay + (by - ay) * k / steps
-                    for dx in (-10.0, 10.0):
-                        for dy in (-10.0, 10.0):
-                            cell = (int((x + dx) // 20.0), int((y + dy) // 20.0))
-                            cells.setdefault(cell, {})[lane.id] = None
-        return {cell: tuple(lanes) for cell, lanes in cells.items()}
+    def _places(self) -> Places:
+        return Places(self.lanes)
 
-    def _near(self, position: Point) -> tuple[str, ...]:
-        return self._grid.get((int(position[0] // 20.0), int(position[1] // 20.0)), ())
+    @cached_property
+    def _other_places(self) -> Places:
+        return Places(self.other_lanes)
 
     def _neighbour(self, lane: str, step: int) -> Lane | None:
         here = self.lanes[lane]
@@ -229,62 +210,3 @@ class Network:
                 if start not in distance:
                     frontier[start] = min(frontier.get(start, math.inf), base + across)
         return distance
-
-
-def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, float]:
-    """Nearest place on a polyline.
-
-    Returns:
-        Offset along the line [m], distance to its left [m], heading of the line there [rad].
-        The offset is negative or beyond the length where the end segments' extensions are
-        nearest.
-    """
-    best = (math.inf, 0.0, 0.0, 0.0)
-    travelled = 0.0
-    last = len(line) - 2
-    for k in range(last + 1):
-        (ax, ay), (bx, by) = line[k], line[k + 1]
-        dx, dy = bx - ax, by - ay
-        length = math.hypot(dx, dy)
-        if length == 0.0:
-            continue
-        along = ((position[0] - ax) * dx + (position[1] - ay) * dy) / length
-        low = -math.inf if k == 0 else 0.0
-        high = math.inf if k == last else length
-        clamped = min(max(along, low), high)
-        px, py = ax + dx * clamped / length, ay + dy * clamped / length
-        distance = math.hypot(position[0] - px, position[1] - py)
-        if distance < best[0]:
-            side = dx * (position[1] - ay) - dy * (position[0] - ax)
-            lateral = math.copysign(distance, side)
-            best = (distance, travelled + clamped, lateral, math.atan2(dy, dx))
-        travelled += length
-    return best[1], best[2], best[3]
-
-
-def angle_between(a: float, b: float) -> float:
-    """The angle [rad] from b to a, in (-pi, pi]."""
-    difference = math.fmod(a - b, 2.0 * math.pi)
-    if difference > math.pi:
-        difference -= 2.0 * math.pi
-    elif difference <= -math.pi:
-        difference += 2.0 * math.pi
-    return difference
-
-
-def cumulative(line: tuple[Point, ...]) -> list[float]:
-    """Arc length [m] at each point of a polyline, from 0."""
-    total = [0.0]
-    for (ax, ay), (bx, by) in pairwise(line):
-        total.append(total[-1] + math.hypot(bx - ax, by - ay))
-    return total
-
-
-def point_at(line: tuple[Point, ...], offset: float) -> tuple[Point, float]:
-    """The point [m] and heading [rad] at an offset [m] along a polyline (clamped to it)."""
-    arc = cumulative(line)
-    k = min(max(bisect_right(arc, offset) - 1, 0), len(line) - 2)
-    (ax, ay), (bx, by) = line[k], line[k + 1]
-    span = arc[k + 1] - arc[k]
-    share = min(max((offset - arc[k]) / span, 0.0), 1.0) if span > 0.0 else 0.0
-    return (ax + (bx - ax) * share, ay + (by - ay) * share), math.atan2(by - ay, bx - ax)

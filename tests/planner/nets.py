@@ -51,7 +51,10 @@ def lane(name: str, points: Sequence[Point], limit: float = 13.89, *, inside: bo
     """A lane; the last part of its name is its index, the rest its edge."""
     edge, _, index = name.rpartition("_")
     line = tuple(points)
-    return Lane(name, edge, int(index), 3.5, limit, line, inside, cumulative(line)[-1])
+    length = cumulative(line)[-1]
+    return Lane(
+        name, edge, int(index), 3.5, limit, line, inside, length, length, frozenset({"passenger"})
+    )
 
 
 def link(

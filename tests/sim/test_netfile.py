@@ -1,25 +1,45 @@
 """The reader of SUMO nets, on the shipped networks and on small broken ones."""
 
+import gzip
+import hashlib
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
-from sim.netfile import NetworkInvalid, NetworkUnreadable, read_network
+from sim.netconvert import generate
+from sim.netfile import DrivesOnTheLeft, NetworkInvalid, NetworkUnreadable, read_network
 from sim.network import Link, Network
-from sim.scenario import load
+from sim.scenario import available, load
+from sim.scene import Signal
 
 S1 = read_network(load("s1").network)
 S2 = read_network(load("s2").network)
 
 NET = """<net>
-  <edge id="a" from="w" to="J"><lane id="a_0" index="0" speed="10" shape="0,0 10,0"/></edge>
-  <edge id="b" from="J" to="e"><lane id="b_0" index="0" speed="10" shape="10,0 20,0"/></edge>
-  <junction id="J" type="priority" incLanes="a_0" intLanes="">
+  <type id="road"><restriction vClass="truck" speed="5"/></type>
+  <edge id="a" from="w" to="J" type="road">
+    <lane id="a_0" index="0" speed="10" length="10.0" shape="0,0 10,0"/>
+  </edge>
+  <edge id="b" from="J" to="e">
+    <lane id="b_0" index="0" speed="10" length="20.0" shape="10,0 20,0"/>
+  </edge>
+  <junction id="J" type="priority" x="10" y="0" incLanes="a_0" intLanes="">
     <request index="0" response="0" foes="0" cont="0"/>
   </junction>
-  <connection from="a" to="b" fromLane="0" toLane="0" dir="s"/>
+  <connection from="a" to="b" fromLane="0" toLane="0" dir="s" state="M"/>
 </net>"""
+
+#: The lane graph of each scenario as it was when the car learnt to drive there.
+GRAPHS = {
+    "bend": "835fb7821227583b",
+    "motorway": "e186aff6153f1c31",
+    "s1": "51c50e5eb8db4c74",
+    "s2": "12acce4321c2844f",
+    "s3": "9af05fd7b7f09a1e",
+    "s4": "69447841b528d49b",
+    "town": "d8def0f99f34d8bf",
+}
 
 
 def link(network: Network, start: str, end: str) -> Link:
@@ -108,24 +128,102 @@ def test_hash_ignores_comments_and_nothing_else(tmp_path: Path) -> None:
     plain.write_text(NET)
     commented.write_text(NET.replace("<junction", "<!-- made today -->\n<junction"))
     other.write_text(NET.replace('speed="10"', 'speed="11"'))
+    packed = tmp_path / "a.net.xml.gz"
+    packed.write_bytes(gzip.compress(NET.encode()))
+    assert read_network(packed) == read_network(plain)
     assert read_network(plain).hash == read_network(commented).hash
     assert read_network(plain).hash != read_network(other).hash
     assert len(S1.hash) == 16
 
 
-def test_lanes_that_cars_may_not_use_are_left_out(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", available())
+def test_the_graphs_of_the_scenarios_stay_what_they_were(name: str) -> None:
+    network = read_network(load(name).network)
+    lanes = [
+        (x.id, x.edge, x.index, x.width, x.speed_limit, x.centreline, x.internal, x.length)
+        for x in network.lanes.values()
+    ]
+    links = [
+        (
+            *(x.junction, x.index, x.from_lane, x.to_lane, x.via, x.direction),
+            *(x.yields_to, x.foes, x.waits_inside),
+        )
+        for x in network.links
+    ]
+    rings = [sorted(ring) for ring in network.roundabouts]
+    graph = repr((lanes, links, rings, sorted(network.equal), network.hash))
+    assert hashlib.sha256(graph.encode()).hexdigest()[:16] == GRAPHS[name]
+    assert (network.other_lanes, network.other_links, network.crossings) == ({}, (), ())
+
+
+def test_lanes_that_cars_may_not_use_stand_aside(tmp_path: Path) -> None:
     path = tmp_path / "a.net.xml"
     path.write_text(
-        NET.replace('id="b_0"', 'id="b_0" allow="bicycle pedestrian"').replace(
+        NET.replace('id="b_0"', 'id="b_0" allow="bicycle pedestrian"')
+        .replace(
+            "  <junction",
+            '<edge id="c" from="J" to="e"><lane id="c_0" index="0" speed="10" length="10"'
+            ' shape="10,0 20,5" disallow="tram"/></edge><junction',
+        )
+        .replace(
             "</net>",
-            '<edge id="c" from="J" to="e"><lane id="c_0" index="0" speed="10" shape="10,0 20,5"'
-            ' disallow="tram"/></edge>'
-            '<connection from="a" to="c" fromLane="0" toLane="0" dir="l"/></net>',
+            '<connection from="a" to="c" fromLane="0" toLane="0" dir="l" state="M"/></net>',
         )
     )
     network = read_network(path)
     assert list(network.lanes) == ["a_0", "c_0"]
     assert [(way.to_lane, way.index) for way in network.links] == [("c_0", 1)]
+    assert list(network.other_lanes) == ["b_0"]
+    assert network.other_lanes["b_0"].permits == {"bicycle", "pedestrian"}
+    assert [(way.to_lane, way.index) for way in network.other_links] == [("b_0", 0)]
+    assert network.locate((15.0, 0.0), 0.0, reach=1.0) == ()
+    assert [x.lane for x in network.locate_aside((15.0, 0.0), 0.0)] == ["b_0"]
+    assert "tram" not in network.lanes["c_0"].permits
+    assert {"passenger", "bus"} <= network.lanes["c_0"].permits
+
+
+def test_a_link_that_only_bicycles_may_use_is_none_for_cars(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml"
+    path.write_text(NET.replace('dir="s"', 'dir="s" allow="bicycle"'))
+    network = read_network(path)
+    assert network.links == ()
+    assert [(way.from_lane, way.to_lane) for way in network.other_links] == [("a_0", "b_0")]
+
+
+def test_limits_are_those_of_the_class_of_vehicle(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml"
+    path.write_text(NET)
+    lane = read_network(path).lanes["a_0"]
+    assert lane.speed_limit == lane.limit_for("passenger") == lane.limit_for("bus") == 10.0
+    assert lane.limit_for("truck") == 5.0
+    path.write_text(NET.replace('vClass="truck"', 'vClass="passenger"'))
+    lane = read_network(path).lanes["a_0"]
+    assert lane.speed_limit == lane.limit_for("passenger") == 5.0
+    assert lane.limit_for("truck") == 10.0
+
+
+def test_offsets_of_the_file_are_not_those_of_the_centreline(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml"
+    path.write_text(NET)
+    lanes = read_network(path).lanes
+    assert (lanes["b_0"].length, lanes["b_0"].stated_length) == (10.0, 20.0)
+    assert lanes["b_0"].offset(20.0) == 10.0
+    assert lanes["b_0"].offset(5.0) == 2.5
+    assert lanes["a_0"].offset(5.0) == 5.0
+
+
+def test_left_hand_traffic_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml"
+    path.write_text(NET.replace("<net>", '<net lefthand="true">'))
+    with pytest.raises(DrivesOnTheLeft, match=r"keeps to the left .*netconvert without --lefth"):
+        read_network(path)
+
+
+def test_a_damaged_gzip_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml.gz"
+    path.write_bytes(gzip.compress(NET.encode())[:40])
+    with pytest.raises(NetworkUnreadable, match="damaged gzip"):
+        read_network(path)
 
 
 @pytest.mark.parametrize(
@@ -151,13 +249,16 @@ def test_missing_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('speed="10" shape="0,0', 'shape="0,0', "'a_0' has no attribute 'speed'"),
-        ('speed="10" shape="0,0', 'speed="fast" shape="0,0', "speed='fast' is not a number"),
-        ("0,0 10,0", "0,0 ten", "'ten' in its shape is no point"),
+        ('speed="10" length="10.0"', "", "<lane> 'a_0': it has no attribute 'speed'"),
+        ('speed="10" length="10.0"', 'speed="fast"', "<lane> 'a_0': could not convert"),
+        ("0,0 10,0", "0,0 ten", "<lane> 'a_0': could not convert string to float: 'ten'"),
         ("0,0 10,0", "0,0", "fewer than 2 points"),
-        (' dir="s"', "", "<connection> 'a' has no attribute 'dir'"),
+        (' dir="s"', "", "<connection> 'a': it has no attribute 'dir'"),
+        ('fromLane="0"', 'fromLane="1"', "<connection> 'a': it refers to what there is not"),
+        ('from="a" to="b"', 'from="a" to="z"', "<connection> 'a': there is no 'z' that it"),
+        ('incLanes="a_0"', 'incLanes="z_0"', "<junction> 'J': there is no 'z_0' that it"),
         ('incLanes="a_0"', 'incLanes=""', "junction 'J' does not list incoming lane 'a_0'"),
-        (' foes="0"', "", "<request> '0' has no attribute 'foes'"),
+        (' foes="0"', "", "<request> '0': it has no attribute 'foes'"),
     ],
 )
 def test_invalid_elements(tmp_path: Path, old: str, new: str, words: str) -> None:
@@ -168,3 +269,52 @@ def test_invalid_elements(tmp_path: Path, old: str, new: str, words: str) -> Non
         read_network(path)
     assert words in str(caught.value)
     assert str(path) in str(caught.value)
+
+
+@pytest.fixture(scope="module")
+def street(tmp_path_factory: pytest.TempPathFactory) -> Network:
+    """A signalised crossroads with pavements, bicycle lanes and crossings on four arms."""
+    target = tmp_path_factory.mktemp("street") / "street.net.xml"
+    guessed = ("--sidewalks.guess", "--bikelanes.guess", "--crossings.guess")
+    size = ("--grid.number", "1", "--grid.attach-length", "100", "-L", "2")
+    generate(("-g", *size, *guessed, "-j", "traffic_light"), target)
+    return read_network(target)
+
+
+def test_pavements_and_bicycle_lanes_are_not_for_cars(street: Network) -> None:
+    assert [lane.index for lane in street.edge_lanes("left0A0")] == [2, 3]
+    pavement, cycles = street.other_lanes["left0A0_0"], street.other_lanes["left0A0_1"]
+    assert (pavement.permits, cycles.permits) == ({"pedestrian"}, {"bicycle"})
+    assert street.right_of("left0A0_2") is None
+    for way in street.links:
+        for lane in (way.from_lane, *way.via, way.to_lane):
+            assert "passenger" in street.lanes[lane].permits
+
+
+def test_the_indices_of_links_and_of_lights_agree_beside_pavements(street: Network) -> None:
+    # netgenerate gives every link of a junction the same number in both.
+    for way in (*street.links, *street.other_links, *street.crossings):
+        assert way.control == Signal("A0", way.index)
+
+
+def test_a_turn_gives_way_to_bicycles_and_crossings(street: Network) -> None:
+    turn = link(street, "left0A0_2", "A0bottom0_2")
+    beside = street.junction_others("A0")
+    first = [beside[index] for index in turn.other_yields_to]
+    names = {way.from_lane if isinstance(way, Link) else way.id for way in first}
+    assert {"left0A0_1", ":A0_c2_0", ":A0_c3_0"} <= names
+    ahead = link(street, "left0A0_2", "A0right0_2")
+    assert not {"left0A0_1", ":A0_c2_0"} & {
+        way.from_lane if isinstance(way, Link) else way.id
+        for way in (beside[index] for index in ahead.other_yields_to)
+    }
+    assert set(turn.other_yields_to) <= set(turn.other_foes)
+
+
+def test_crossings_lie_across_their_roads(street: Network) -> None:
+    assert len(street.crossings) == 4
+    south = next(x for x in street.crossings if x.id == ":A0_c2_0")
+    assert set(south.edges) == {"A0bottom0", "bottom0A0"}
+    assert south.line[0][1] == south.line[-1][1]  # from west to east
+    assert south.width == 4.0
+    assert street.junction_others("nowhere") == {}

@@ -115,13 +115,14 @@ def test_roads_that_hang_together_with_nothing(
 
 
 NET = """<net>
-  <edge id="-1" from="w" to="J"><lane id="-1_0" index="0" speed="10" shape="0,0 10,0"/>
-    <lane id="-1_1" index="1" speed="10" shape="0,3 10,3"/></edge>
-  <edge id="-2" from="J" to="e"><lane id="-2_0" index="0" speed="10" shape="10,0 20,0"/></edge>
-  <junction id="J" type="priority" incLanes="-1_0 -1_1" intLanes="">
+  <edge id="-1" from="w" to="J"><lane id="-1_0" index="0" speed="10" length="10" shape="0,0 10,0"/>
+    <lane id="-1_1" index="1" speed="10" length="10" shape="0,3 10,3"/></edge>
+  <edge id="-2" from="J" to="e">
+    <lane id="-2_0" index="0" speed="10" length="10" shape="10,0 20,0"/></edge>
+  <junction id="J" type="priority" x="0" y="0" incLanes="-1_0 -1_1" intLanes="">
     <request index="0" response="0" foes="0" cont="0"/>
   </junction>
-  <connection from="-1" to="-2" fromLane="0" toLane="0" dir="s"/>
+  <connection from="-1" to="-2" fromLane="0" toLane="0" dir="s" state="M"/>
 </net>"""
 
 

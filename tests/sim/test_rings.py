@@ -66,7 +66,8 @@ def test_a_loop_to_which_nobody_gives_way_is_no_roundabout() -> None:
 
 
 def test_a_loop_with_two_directions_is_no_roundabout() -> None:
-    back = Lane("back_0", "back", 0, 3.5, 10.0, ((0.0, 0.0), (9.0, 0.0)), False, 9.0)
+    line = ((0.0, 0.0), (9.0, 0.0))
+    back = Lane("back_0", "back", 0, 3.5, 10.0, line, False, 9.0, 9.0, frozenset())
     link = next(x for x in S3.links if S3.lanes[x.from_lane].edge == "ring_east")
     after = next(x for x in S3.links if S3.lanes[x.from_lane].edge == "ring_east_north")
     ways = [

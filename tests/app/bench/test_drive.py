@@ -25,7 +25,10 @@ STEP = 0.1  # [s]
 
 
 def lane(name: str, edge: str, index: int, y: float, *, internal: bool = False) -> Lane:
-    return Lane(name, edge, index, 3.5, 14.0, ((0.0, y), (200.0, y)), internal, 200.0)
+    line = ((0.0, y), (200.0, y))
+    return Lane(
+        name, edge, index, 3.5, 14.0, line, internal, 200.0, 200.0, frozenset({"passenger"})
+    )
 
 
 # Two lanes side by side, and a way through a junction that has to give way, apart from them.

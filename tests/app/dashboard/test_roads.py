@@ -14,6 +14,7 @@ from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.web.documents import Roads
 
 SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
+PLACE = 'type="priority" x="0" y="0" incLanes="" intLanes=""'
 LANE = '<lane id="{0}_0" index="0" speed="10" length="9" shape="{1}"/>'
 
 
@@ -70,8 +71,11 @@ def test_links_are_named_by_their_place_and_yield_to_those_of_their_junction() -
         (net("0,0 1e300,1"), "farther"),
         (net("0,0 inf,1"), "farther"),
         (net(" ".join("0,0 1000000,0" for _ in range(9))), "longer"),
-        (net("0,0 9,0", '<junction id="j" shape="0,0 1,b 3,3"/>'), "is no point"),
-        (net("0,0 9,0", '<junction id="j" shape="0,0 1,1e9 3,3"/>'), "farther"),
+        (
+            net("0,0 9,0", f'<junction id="j" {PLACE} shape="0,0 1,b 3,3"/>'),
+            "to float: 'b'",
+        ),
+        (net("0,0 9,0", f'<junction id="j" {PLACE} shape="0,0 1,1e9 3,3"/>'), "farther"),
     ],
 )
 def test_roads_that_are_none_are_refused(data: bytes, complaint: str) -> None:
@@ -90,14 +94,14 @@ def test_a_bomb_does_not_go_off() -> None:
 
 
 def test_outlines_are_of_junctions_that_have_an_area() -> None:
-    text = b"""<net>
-        <junction id="a" type="priority" shape="0,0 4,0 4,4"/>
-        <junction id="b" type="internal" shape="0,0 4,0 4,4"/>
-        <junction id="c" type="dead_end" shape="0,0 4,0"/>
-        <junction id="d" type="dead_end" shape=""/>
-        <junction id="e" type="dead_end"/>
+    text = f"""<net>
+        <junction id="a" {PLACE} shape="0,0 4,0 4,4"/>
+        <junction id=":b" {PLACE.replace("priority", "internal")} shape="0,0 4,0 4,4"/>
+        <junction id="c" {PLACE} shape="0,0 4,0"/>
+        <junction id="d" {PLACE} shape=""/>
+        <junction id="e" {PLACE}/>
     </net>"""
-    assert parse_outlines(text, "it") == (((0.0, 0.0), (4.0, 0.0), (4.0, 4.0)),)
+    assert parse_outlines(text.encode(), "it") == (((0.0, 0.0), (4.0, 0.0), (4.0, 4.0)),)
 
 
 def test_a_net_without_roads_has_bounds() -> None:
