@@ -36,11 +36,11 @@ class Solution:
 
     @property
     def waits(self) -> tuple[int, ...]:
-        """The steps in which others keep it all but standing."""
+        """The steps in which others, or lights, keep it all but standing."""
         return tuple(
             step
             for leg in self.legs
-            for step in leg.hindrances.step.tolist()
+            for step in np.union1d(leg.hindrances.step, leg.stops.step).tolist()
             if leg.speed[step - leg.first] < SLOW
         )
 

@@ -1,4 +1,4 @@
-"""Joint samples of the others: drawn for the search; with weights, to compare first actions in.
+"""Joint samples of others and lights: drawn to search; with weights, to compare first actions.
 
 Where few joint samples make up nearly all of the probability, they are enumerated, and the mean
 reward of an action is its exact expectation. Where there are more, the likeliest are enumerated
@@ -13,22 +13,33 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from planner.recognise import Belief
+from planner.signals import DARK, LightPrediction, LightSample, Outlook
 from planner.trace import Sample
 
-Samples: TypeAlias = tuple[Sample, ...]
+Samples: TypeAlias = tuple[Sample | LightSample, ...]  # of vehicles, then of lights
 
 COVERED = 0.99  # probability from which on what is left is left out
 INEXACT = 0.5  # of the bound: joint samples where that does not suffice to cover enough
 
 
-def draw(beliefs: Mapping[int, Sequence[Belief]], draws: Mapping[int, random.Random]) -> Samples:
-    """Draw a goal and a trajectory for every other vehicle, each from its own generator."""
-    found = []
+def draw(
+    beliefs: Mapping[int, Sequence[Belief]],
+    draws: Mapping[int | str, random.Random],
+    lights: Outlook = DARK,
+) -> Samples:
+    """Draw a goal and a trajectory for every other vehicle, and a course for every controller.
+
+    Each is drawn from its own generator.
+    """
+    found: list[Sample | LightSample] = []
     for vehicle, known in beliefs.items():
         rng = draws[vehicle]
         goal = _drawn(rng, [belief.probability for belief in known])
         ways = [way.probability for way in known[goal].trajectories]
         found.append(Sample(vehicle, goal, _drawn(rng, ways)))
+    for one in lights.known:
+        shares = [course.probability for course in one.courses]
+        found.append(LightSample(one.controller, _drawn(draws[one.controller], shares)))
     return tuple(found)
 
 
@@ -37,7 +48,10 @@ def _drawn(rng: random.Random, probabilities: Sequence[float]) -> int:
 
 
 def weighted(
-    beliefs: Mapping[int, Sequence[Belief]], drawn: Sequence[Samples], most: int
+    beliefs: Mapping[int, Sequence[Belief]],
+    drawn: Sequence[Samples],
+    most: int,
+    lights: Outlook = DARK,
 ) -> list[tuple[Samples, float]]:
     """Joint samples with weights that sum to 1; the likeliest first.
 
@@ -48,10 +62,11 @@ def weighted(
         beliefs: of every other vehicle.
         drawn: by the search, independently of one another.
         most: joint samples that are enumerated at most.
+        lights: how they may go on.
     """
     found: dict[Samples, float] = {}
     mass = [0.0]  # of the first 0, 1, 2, ... of them
-    for samples, probability in itertools.islice(likeliest(beliefs), most):
+    for samples, probability in itertools.islice(likeliest(beliefs, lights), most):
         found[samples] = probability
         mass.append(mass[-1] + probability)
         if mass[-1] >= COVERED:
@@ -66,12 +81,15 @@ def weighted(
     return [(samples, weight / total) for samples, weight in found.items()]
 
 
-def likeliest(beliefs: Mapping[int, Sequence[Belief]]) -> Iterator[tuple[Samples, float]]:
+def likeliest(
+    beliefs: Mapping[int, Sequence[Belief]], lights: Outlook = DARK
+) -> Iterator[tuple[Samples, float]]:
     """Yield the joint samples of others that are independent, with probabilities, likeliest first.
 
     Best-first over ranks: a vehicle's next choice is considered once all before it are.
     """
-    choices = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
+    choices: list[_Choices] = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
+    choices += [_courses(one) for one in lights.known]
     ranks = (0,) * len(choices)
     waiting = [(-math.prod(own[0][1] for own in choices), ranks, 0)]
     while waiting:
@@ -84,9 +102,22 @@ def likeliest(beliefs: Mapping[int, Sequence[Belief]]) -> Iterator[tuple[Samples
                 heapq.heappush(waiting, (after, (*ranks[:i], k, *ranks[i + 1 :]), i))
 
 
-def _choices(vehicle: int, known: Sequence[Belief]) -> list[tuple[Sample, float]]:
+_Choices: TypeAlias = list[tuple[Sample | LightSample, float]]
+
+
+def _courses(known: LightPrediction) -> _Choices:
+    """How one controller may go on, the likeliest first."""
+    found: _Choices = [
+        (LightSample(known.controller, k), course.probability)
+        for k, course in enumerate(known.courses)
+        if course.probability > 0.0
+    ]
+    return sorted(found, key=lambda pair: -pair[1])
+
+
+def _choices(vehicle: int, known: Sequence[Belief]) -> _Choices:
     """What one vehicle may do, the likeliest first; what cannot be is left out."""
-    found = [
+    found: _Choices = [
         (Sample(vehicle, goal, way), belief.probability * trajectory.probability)
         for goal, belief in enumerate(known)
         for way, trajectory in enumerate(belief.trajectories)

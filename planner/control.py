@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from planner.clearance import first_touch
 from planner.decide import observed
-from planner.forward import DT, Hindrance, Lane, Motion, accelerate
+from planner.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
 from planner.kernels.driving import (
     COMFORT,
     CRAWL,
@@ -17,6 +17,7 @@ from planner.kernels.driving import (
     safe_speed,
     towards,
 )
+from planner.lookout import shown_now
 from planner.manoeuvres import ActionPlan, GiveWay
 from planner.memory import Memory
 from planner.obstacles import Obstacle, Traffic, occupancy
@@ -61,15 +62,16 @@ class Around:
     scene: Scene
 
 
-def control(driving: Driving, around: Around, dt: float) -> tuple[float, Hindrance | None]:
-    """Keep behind what is seen, and give way to what is predicted.
+def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping]:
+    """Keep behind what is seen, give way to what is predicted, and obey the lights.
 
     Returns:
-        Acceleration [m/s2] in the coming step of `dt` [s], and who is in the way.
+        Acceleration [m/s2] in the coming step of `dt` [s], and what is in the way.
     """
-    path, ego = driving.plan.path, around.scene.ego
-    seen = Traffic.of(_seen(around))
-    crossing = Traffic.of(_predicted(driving, around, 0.0) if driving.plan.give_ways else [])
+    path, ego, lights = driving.plan.path, around.scene.ego, shown_now(around.scene)
+    seen = Traffic.of(_seen(around), lights)
+    meeting = _predicted(driving, around, 0.0) if driving.plan.give_ways else []
+    crossing = Traffic.of(meeting, lights)
     foreseen = Traffic.of(_predicted(driving, around, LIKELY))
     chosen = accelerate(
         driving.plan,
@@ -85,8 +87,8 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Hindran
 
 
 def _clear(
-    driving: Driving, around: Around, chosen: tuple[float, Hindrance | None], dt: float
-) -> tuple[float, Hindrance | None]:
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
     """Stop before a vehicle that stands so near the path that turning would touch it.
 
     Inside a junction, do not even set off: between the two of them nobody could go on.
@@ -106,7 +108,7 @@ def _clear(
     braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
     if braking >= chosen[0]:
         return chosen
-    return braking, Hindrance(vehicle, "blocked", standing[vehicle].speed)
+    return braking, Keeping(Hindrance(vehicle, "blocked", standing[vehicle].speed), None)
 
 
 def _seen(around: Around) -> list[Obstacle]:

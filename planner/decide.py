@@ -14,6 +14,7 @@ from planner.reward import COSTS
 from planner.road_facts import road_facts
 from planner.rollout import Task
 from planner.search import Root, Search, Simulated
+from planner.signals import LightPrediction, Outlook
 from planner.trace import (
     SCHEMA,
     Component,
@@ -63,6 +64,12 @@ class Moment:
     root: Root
     unseen: Mapping[int, float] = field(default_factory=dict)  # [s] hidden ones were seen last
     unpaced: frozenset[int] = frozenset()  # whose pace was that of somebody who is not there
+    lights: tuple[LightPrediction, ...] = ()
+
+    @property
+    def outlook(self) -> Outlook:
+        """How the lights may go on."""
+        return Outlook(self.time, self.lights)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,7 +101,7 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
         )
         for vehicle in sorted(nearest[: 1 + CROWD])
     ]
-    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO)
+    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO, moment.outlook)
 
 
 def prepare(
@@ -111,7 +118,8 @@ def prepare(
         frame.settings.view_radius,
         reacting=frame.settings.reacting is True,
     )
-    return Search(task, moment.root, beliefs, frame.settings, f"{frame.seed}/{moment.number}{salt}")
+    seed = f"{frame.seed}/{moment.number}{salt}"
+    return Search(task, moment.root, beliefs, frame.settings, seed, moment.outlook)
 
 
 def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
@@ -154,8 +162,11 @@ def record(
         plan=plan,
         unseen=dict(sorted(moment.unseen.items())),
         waypoint=None if search.task.goal == frame.goal else search.task.goal,
-        road=road_facts(frame.roads, moment.scene, moment.root, plan, frame.goal, view),
+        road=road_facts(
+            frame.roads, moment.scene, moment.root, plan, frame.goal, view, moment.lights
+        ),
         costs=COSTS,
+        lights=moment.lights,
     )
     return fitted(trace)
 
@@ -190,6 +201,8 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 terms={term: round(cost, 4) for term, cost in one.terms.items()},
                 weight=None if one.weight is None else round(one.weight, 6),
                 braking=one.braking,
+                lights=one.lights,
+                held_by_lights=one.held_by_lights,
             )
         )
     return tuple(found)
@@ -235,6 +248,7 @@ def _trajectory(way: Trajectory) -> TrajectoryPrediction:
         path=points(way.motion.position[there]),
         speed=numbers(way.motion.speed[there]),
         held_up=way.held_up,
+        held_by_lights=way.held_by_lights,
     )
 
 

@@ -6,25 +6,30 @@ Pure: scenes in, commands, traces and events out. What it drives is what it plan
 import math
 from dataclasses import dataclass, replace
 
+import msgspec
+
 from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.control import Around, Driving, Outlook, control
 from planner.decide import Decision, Frame, Moment, decide, root_at
-from planner.events import Event, EventKind
-from planner.forward import DT, Hindrance, Lane, Motion, advance
+from planner.events import Event, EventKind, LightPlace
+from planner.forward import DT, Keeping, Lane, Motion, advance
 from planner.lights import lights
+from planner.lookout import changed, lookout
 from planner.memory import Memory
 from planner.routes import Refusal
 from planner.search import Root
+from planner.signals import LightPrediction
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
 from planner.trajectory import Roads
 from planner.waypoints import way
 from sim.network import Location, Network
-from sim.scene import EGO, Command, Scene
+from sim.scene import EGO, Command, Scene, Signal
 
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 PAUSE = 0.3  # [s] between decisions at least
 NEAR = 60.0  # [m] within which surprises count
 SURPRISE = 1.2  # [m/s] by which a speed must differ from all that was foreseen
+STANDING = 0.1  # [m/s]
 END_GAP = 1.0  # [m] before the end of the road at which to stop
 
 
@@ -74,6 +79,7 @@ class Driver:
         self._decided = -math.inf
         self._number = 0
         self._waiting_for: int | None = None
+        self._stopped_at: Signal | None = None
         self.finished = False
 
     def step(self, scene: Scene, dt: float) -> DriveStep:
@@ -130,6 +136,7 @@ class Driver:
             {vehicle: self._memory.recorded(vehicle, scene.time) for vehicle in now},
             Root(self._situation(scene), under_way),
             self._memory.unseen,
+            lights=self._lookout(scene),
         )
         decision = decide(self._frame, moment)
         self._last, self._moment, self._decided = decision, moment, scene.time
@@ -137,6 +144,13 @@ class Driver:
         if not committed:
             self._adopt(decision, moment, events)
         return decision.trace
+
+    def _lookout(self, scene: Scene) -> tuple[LightPrediction, ...]:
+        """How the lights in view may go on."""
+        roads, goal, here = self._frame.roads, self._frame.goal, self._situation(scene)
+        edges = way(roads, (here.location.lane,), goal)
+        horizon, now = self._frame.settings.horizon, round(scene.time, 3)
+        return lookout(roads, self._memory.watched, now, horizon, edges)
 
     def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
         """Take up the first action of the plan, unless it is being driven already."""
@@ -174,9 +188,14 @@ class Driver:
     def _surprised(self, scene: Scene) -> bool:
         """Whether somebody near does what the last decision did not foresee.
 
-        It matters where the ego has to give way: there it counts on what it foresaw.
+        It matters where the ego has to give way: there it counts on what it foresaw. A light that
+        it comes to matters too.
         """
-        if self._last is None or self._current is None or not self._current.plan.give_ways:
+        if self._last is None or self._current is None:
+            return False
+        if changed(self._current.plan, scene, self._last.trace.lights):
+            return True
+        if not self._current.plan.give_ways:
             return False
         step = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():
@@ -211,7 +230,7 @@ class Driver:
         )
         around = Around(self._frame.roads, self._memory, last, scene)
         driving = Driving(current.plan, current.lane, current.motion)
-        acceleration, hindrance = control(driving, around, dt)
+        acceleration, keeping = control(driving, around, dt)
         motion = advance(current.motion, acceleration, dt)
         standing = current.standing + dt if motion.speed < 0.1 else 0.0
         current = replace(current, motion=motion, standing=standing)
@@ -219,7 +238,7 @@ class Driver:
         if not current.committed and motion.arc >= current.plan.commit:
             current = replace(current, committed=True)
             events.append(_event("action-committed", later, current))
-        self._note_waiting(hindrance, motion, later, current, events)
+        self._note_waiting(keeping, motion, later, current, events)
         position, heading = current.plan.path.pose(motion.arc, scene.ego.length)
         self._current = self._close(current, later, events)
         shown = self._lights(current, motion, (motion.speed - scene.ego.speed) / dt)
@@ -246,13 +265,19 @@ class Driver:
 
     def _note_waiting(
         self,
-        hindrance: Hindrance | None,
+        keeping: Keeping,
         motion: Motion,
         time: float,
         current: _Execution,
         events: list[Event],
     ) -> None:
-        """Tell once that the ego gives way to a vehicle."""
+        """Tell once that the ego gives way to a vehicle, and that it has stopped at a light."""
+        hindrance, light = keeping.hindrance, keeping.light
+        if light is not None and motion.speed < STANDING and light != self._stopped_at:
+            self._stopped_at = light
+            events.append(_event("stopped-at-light", time, current, light=light))
+        elif motion.speed > 3.0:
+            self._stopped_at = None
         if hindrance is not None and hindrance.how == "right-of-way":
             if motion.speed < YIELDED and hindrance.vehicle != self._waiting_for:
                 self._waiting_for = hindrance.vehicle
@@ -262,8 +287,13 @@ class Driver:
 
 
 def _event(
-    kind: EventKind, time: float, current: _Execution | None, vehicle: int | None = None
+    kind: EventKind,
+    time: float,
+    current: _Execution | None,
+    vehicle: int | None = None,
+    light: Signal | None = None,
 ) -> Event:
     action = None if current is None else current.plan.action
     decision = None if current is None else current.decision
-    return Event(kind, round(time, 3), action, decision, vehicle)
+    where = msgspec.UNSET if light is None else LightPlace(light.controller, light.index)
+    return Event(kind, round(time, 3), action, decision, vehicle, light=where)

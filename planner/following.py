@@ -12,7 +12,15 @@ from planner.layout import (
     lookahead,
     waits_along,
 )
-from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LaneFollow, Situation, Stop
+from planner.manoeuvres import (
+    ActionPlan,
+    GiveWay,
+    KeepClear,
+    LaneFollow,
+    ObeyLight,
+    Situation,
+    Stop,
+)
 from planner.routes import (
     Refusal,
     direction_of,
@@ -71,7 +79,8 @@ def follow_on(
         if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
             return halt
     way = Layout.of(roads, here, tuple(lanes), goal)
-    waits = tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear))
+    kinds = GiveWay | KeepClear | ObeyLight
+    waits = tuple(m for m in way.manoeuvres() if isinstance(m, kinds))
     end = max(min(end, FAR, way.path.length), 0.1)
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
 

@@ -14,10 +14,12 @@ import numpy as np
 from planner.actions import ActionPlan
 from planner.kernels import driving
 from planner.kernels.along import braking_caps
-from planner.kernels.driving import Course, Ints
+from planner.kernels.course import Codes, Course, Ints
 from planner.obstacles import HOW, Occupancy, Traffic, occupancy
+from planner.signals import Lights
 from planner.trace import SAMPLE_PERIOD, HoldUp
 from planner.trajectory import Array, Path
+from sim.scene import Signal
 
 DT = SAMPLE_PERIOD  # [s] step of the simulation
 assert DT == driving.STEP
@@ -30,6 +32,28 @@ class Hindrance:
     vehicle: int
     how: HoldUp
     speed: float  # [m/s] of the hindering vehicle
+
+
+@dataclass(frozen=True, slots=True)
+class Keeping:
+    """What keeps a vehicle below its free speed."""
+
+    hindrance: Hindrance | None  # who
+    light: Signal | None  # which light, alone or with a queue before it
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stops:
+    """The steps in which lights kept a vehicle below its free speed, in order."""
+
+    step: Ints  # [R] of DT, in the common time base
+    which: Ints  # [R] index into `signals`
+    signals: tuple[Signal, ...]
+
+    def before(self, step: int) -> "Stops":
+        """Those before a step."""
+        n = int(np.searchsorted(self.step, step))
+        return Stops(self.step[:n], self.which[:n], self.signals)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,6 +89,7 @@ class Drive:
     finished: bool  # the action's end was reached (else the horizon came first)
     goal_time: float | None  # [s] since the time base, where the goal was passed
     hindrances: Hindrances
+    stops: Stops
 
 
 class Lane:
@@ -103,10 +128,10 @@ def drive(
     """
     others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
     motion, held, finished, goal_time = driving.drive(
-        _course(plan, np.minimum(Lane(plan.path).caps, pace)),
+        _course(plan, np.minimum(Lane(plan.path).caps, pace), traffic.lights, size[0]),
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
-        others.firsts(line.yields_to for line in plan.give_ways),
+        others.firsts(plan.give_ways),
         (float(start.arc), float(start.speed), float(start.acceleration)),
         first,
         horizon,
@@ -119,6 +144,7 @@ def drive(
         finished,
         None if math.isnan(goal_time) else goal_time,
         _hindrances(held, first, others),
+        _stops(held, first, plan),
     )
 
 
@@ -137,52 +163,74 @@ def accelerate(
     foreseen: Occupancy,
     length: float,
     dt: float,
-) -> tuple[float, Hindrance | None]:
-    """What to do in the coming step, and who is in the way.
+) -> tuple[float, Keeping]:
+    """What to do in the coming step, and what is in the way.
 
     Args:
         plan: what is being driven.
         lane: its path, prepared.
         motion: where on the path the vehicle is.
-        seen: the vehicles to keep behind of, from now on.
+        seen: the vehicles to keep behind of, from now on, and the lights.
         crossing: motions to give way to, from now on.
         foreseen: motions to make room for where they lead onto the path, from now on.
         length: [m] of the vehicle.
         dt: [s] length of the coming step.
 
     Returns:
-        Acceleration [m/s2], and the hindrance where there is one.
+        Acceleration [m/s2], and what is in the way.
     """
-    acceleration, who, how = driving.accelerate(
-        _course(plan, lane.caps),
+    acceleration, who, how, light = driving.accelerate(
+        _course(plan, lane.caps, seen.traffic.lights, length),
         (float(motion.arc), float(motion.speed), float(motion.acceleration)),
         0,
         seen.stretches,
         seen.behind(motion.arc - 0.5 * length),
         crossing.stretches,
-        crossing.firsts(line.yields_to for line in plan.give_ways),
+        crossing.firsts(plan.give_ways),
         foreseen.stretches,
         float(length),
         dt,
     )
+    signal = None if light < 0 else plan.obey_lights[light].signal
     if who < 0:
-        return acceleration, None
+        return acceleration, Keeping(None, signal)
     others = {driving.RIGHT_OF_WAY: crossing, driving.NEWCOMER: foreseen}.get(how, seen)
     speed = float(others.stretches.speed[who, 0])
-    return acceleration, Hindrance(others.traffic.vehicles[who], HOW[how], speed)
+    hindrance = Hindrance(others.traffic.vehicles[who], HOW[how], speed)
+    return acceleration, Keeping(hindrance, signal)
 
 
-def _course(plan: ActionPlan, caps: Array) -> Course:
+def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
     """A plan as the kernels know it, with the highest speed [m/s] at every metre."""
     lines = [(line.stop, line.clear) for line in plan.give_ways]
-    rooms = [(room.stop, room.out) for room in plan.keep_clears]
+    rooms = [(room.stop, room.out + length) for room in plan.keep_clears]
+    ahead = plan.obey_lights
     return Course(
-        caps, plan.halting, np.array(lines).reshape(-1, 2), np.array(rooms).reshape(-1, 2)
+        caps,
+        plan.halting,
+        np.array(lines).reshape(-1, 2),
+        np.array(rooms).reshape(-1, 2),
+        np.array([light.stop for light in ahead], np.float64),
+        _shown(lights, tuple(light.signal for light in ahead)),
     )
 
 
+def _shown(lights: Lights, signals: tuple[Signal, ...]) -> Codes:
+    """What some lights show at each step [S, T]."""
+    steps = max((len(lights.shows(signal, 1)) for signal in signals), default=1)
+    rows = [lights.shows(signal, steps) for signal in signals]
+    return np.array(rows, np.int8).reshape(len(rows), steps)
+
+
+def _stops(held: Ints, first: int, plan: ActionPlan) -> Stops:
+    """From which light held up at every step [S - 1, 3]."""
+    at = np.flatnonzero(held[:, 2] >= 0)
+    signals = tuple(light.signal for light in plan.obey_lights)
+    return Stops(first + at, held[at, 2], signals)
+
+
 def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:
-    """From who held up at every step, and how [S - 1, 2]."""
+    """From who held up at every step, and how [S - 1, 3]."""
     at = np.flatnonzero(held[:, 0] >= 0)
     who, step = held[at, 0], first + at
     names = np.array(others.traffic.vehicles, dtype=np.int64)

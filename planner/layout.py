@@ -1,22 +1,26 @@
-"""The way that a macro action takes: its path, and the junctions that it crosses."""
+"""The way that a macro action takes: its path, and the junctions and lights on it."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from planner.kernels.driving import COMFORT
 from planner.manoeuvres import (
     ActionPlan,
+    Foe,
     GiveWay,
     KeepClear,
     LaneFollow,
     Manoeuvre,
+    ObeyLight,
     Situation,
     Turn,
 )
 from planner.routes import direction_of, lane_end, onward
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Path, Roads
-from sim.network import Direction, Link
+from sim.network import Direction, Link, point_at
+from sim.scene import Signal
 
 STRAIGHTEN = 12.0  # [m] in which a vehicle off its centreline gets back to it
 AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders and bends
@@ -28,15 +32,16 @@ SHORT = 10.0  # [m] before the goal at which no action ends: the next would begi
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """A junction on the way."""
+    """A junction on the way, or a light."""
 
     link: Link
     enter: float  # [m] arc; 0 from inside
     out: float  # [m] arc
-    line: float | None  # [m] arc of the waiting line ahead, where it has to give way
+    line: float | None  # [m] arc of the waiting line ahead, where it may have to give way
     inside: bool
     turns: bool  # whether it is more than following the road
     direction: Direction
+    foes: tuple[Foe, ...]  # where a light controls it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,9 +74,11 @@ class Layout:
                 found.append(LaneFollow(at, x.enter))
             if x.link.foes and not x.inside:
                 found.append(KeepClear(x.enter - BEFORE_LINE, x.out))
+            if isinstance(x.link.control, Signal) and not x.inside:
+                found.append(ObeyLight(x.enter - BEFORE_LINE, x.link.control))
             if x.line is not None:
-                foes = frozenset((x.link.junction, index) for index in x.link.yields_to)
-                found.append(GiveWay(x.line, x.out, x.link, foes))
+                first = frozenset((x.link.junction, index) for index in x.link.yields_to)
+                found.append(GiveWay(x.line, x.out, x.link, first, x.foes))
             if x.turns:
                 found.append(Turn(x.enter, x.out, x.direction))
                 at = x.out
@@ -87,7 +94,7 @@ def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuv
         row: the lanes.
     """
     way = Layout(path, path.length, tuple(_crossings(roads, row, _begins(path, row))))
-    return tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear))
+    return tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear | ObeyLight))
 
 
 def lookahead(roads: Roads, here: Situation) -> float:
@@ -142,7 +149,8 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
             enter = begins[k + 1]
         waits = link.waits_inside and len(link.via) > 1
         line = begins[k + 1 - gone] if waits and gone <= 1 else enter
-        due = link.yields_to and (not inside or (waits and gone <= 1))
+        foes = _foes(roads, link)
+        due = (link.yields_to or foes) and (not inside or (waits and gone <= 1))
         yield Crossing(
             link,
             enter,
@@ -151,8 +159,36 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
             inside is not None,
             _turns(roads, link),
             direction_of(roads, link),
+            foes,
         )
         k += ahead
+
+
+def _foes(roads: Roads, link: Link) -> tuple[Foe, ...]:
+    """The links whose ways cross that of a link at a light."""
+    if not isinstance(link.control, Signal):
+        return ()
+    found = roads.foes.get((link.junction, link.index))
+    if found is None:
+        others = roads.network.junction_links(link.junction)
+        known = [others[k] for k in link.foes if k in others]
+        found = tuple(_foe(roads, other, other.index in link.yields_to) for other in known)
+        roads.foes[link.junction, link.index] = found
+    return found
+
+
+def _foe(roads: Roads, link: Link, first: bool) -> Foe:
+    lanes = roads.network.lanes
+    begin = link.via[1] if link.waits_inside and len(link.via) > 1 else (*link.via, "")[0]
+    before = lanes[link.from_lane]
+    (x, y), heading = (
+        point_at(lanes[begin].centreline, 0.0)
+        if begin
+        else point_at(before.centreline, before.length)
+    )
+    signal = link.control if isinstance(link.control, Signal) else None
+    line = (x, y, math.cos(heading), math.sin(heading))
+    return Foe((link.junction, link.index), first, signal, line)
 
 
 def _link_between(roads: Roads, lanes: tuple[str, ...], k: int) -> Link | None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from planner.trace import Action
 from planner.trajectory import Path
 from sim.network import Direction, Link, Location
-from sim.scene import Point
+from sim.scene import Point, Signal
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +26,16 @@ class LaneChange:
 
 
 @dataclass(frozen=True, slots=True)
+class Foe:
+    """A link whose way crosses another one at a junction with lights."""
+
+    key: tuple[str, int]  # (junction, link index)
+    first: bool  # whether it goes first where both may go
+    signal: Signal | None
+    line: tuple[float, float, float, float]  # x, y [m] beyond which it cannot wait; cosine, sine
+
+
+@dataclass(frozen=True, slots=True)
 class GiveWay:
     """Wait at a line until those who go first on the link's foes leave a gap."""
 
@@ -33,6 +43,15 @@ class GiveWay:
     clear: float  # [m] arc at which the junction is left
     link: Link
     yields_to: frozenset[tuple[str, int]]  # (junction, link index) of those who go first
+    foes: tuple[Foe, ...] = ()  # where a light controls the link
+
+
+@dataclass(frozen=True, slots=True)
+class ObeyLight:
+    """Stop at a light unless it shows green."""
+
+    stop: float  # [m] arc at which to stop, for the front bumper; negative once passed
+    signal: Signal
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +79,7 @@ class Stop:
     braking: float  # [m/s2]
 
 
-Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | Turn | Stop
+Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | ObeyLight | Turn | Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +109,11 @@ class ActionPlan:
     def give_ways(self) -> tuple[GiveWay, ...]:
         """The lines at which this action may have to wait."""
         return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
+
+    @property
+    def obey_lights(self) -> tuple[ObeyLight, ...]:
+        """The lights that this action comes to."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, ObeyLight))
 
     @property
     def keep_clears(self) -> tuple[KeepClear, ...]:

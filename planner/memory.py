@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import msgspec
 import numpy as np
 
+from planner.cycles import Watched, watch
 from planner.forward import DT
 from planner.obstacles import Obstacle
 from planner.road import LightChange
@@ -21,6 +22,7 @@ from sim.scene import EGO, Point, Scene, VehicleState
 
 HISTORY = 10.0  # [s]
 HIDDEN = 5.0  # [s] for which a hidden vehicle is remembered
+CHANGES = 40  # of a traffic light that are remembered
 TALL = ("truck", "bus", "trailer")  # kinds that hide what is behind them
 
 
@@ -48,12 +50,14 @@ class Lost:
 
 
 class Memory:
-    """The states of all vehicles over the last HISTORY seconds."""
+    """The states of all vehicles over the last HISTORY seconds, and the changes of lights."""
 
     def __init__(self, roads: Roads) -> None:
         self._roads = roads
         self._seen: dict[int, deque[tuple[float, VehicleState]]] = {}
         self._lost: dict[int, Lost] = {}
+        self._watched: dict[str, Watched] = {}
+        self._controllers: frozenset[str] = frozenset()  # in view
 
     def observe(self, scene: Scene) -> None:
         """Take down what is seen now."""
@@ -62,6 +66,12 @@ class Memory:
         for vehicle, state in scene.vehicles.items():
             self._lost.pop(vehicle, None)
             self._note(vehicle, scene.time, state)
+        self._watch(scene)
+
+    @property
+    def watched(self) -> tuple[Watched, ...]:
+        """What is known of the traffic lights in view."""
+        return tuple(self._watched[name] for name in sorted(self._controllers))
 
     @property
     def now(self) -> dict[int, VehicleState]:
@@ -87,6 +97,17 @@ class Memory:
         seen.append((time, _rounded(state)))
         while seen[0][0] < time - HISTORY - 1e-6:
             seen.popleft()
+
+    def _watch(self, scene: Scene) -> None:
+        """Take down what traffic lights show."""
+        shown: dict[str, dict[int, str]] = {}
+        for light in scene.lights:
+            shown.setdefault(light.signal.controller, {})[light.signal.index] = light.state.value
+        for name in sorted({*shown, *self._controllers}):
+            before = self._watched.get(name)
+            now = shown.get(name, {})
+            self._watched[name] = watch(before, name, now, scene.time, CHANGES)
+        self._controllers = frozenset(shown)
 
     def _recall(self, vehicle: int, scene: Scene) -> None:
         """Go on with a vehicle that is not seen, or forget it."""

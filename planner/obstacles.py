@@ -1,15 +1,20 @@
 """Other vehicles as moving obstacles, and the stretches of a path that they occupy in time."""
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from planner.kernels.driving import Bools
+from planner.kernels.course import Bools
+from planner.kernels.driving import OPEN, SHUT
 from planner.kernels.projection import Stretches, project
 from planner.kernels.reaction import Ints, react
+from planner.manoeuvres import Foe, GiveWay
+from planner.signals import NO_LIGHTS, Lights
 from planner.trace import HoldUp
 from planner.trajectory import Array, Path
+from sim.scene import Signal
 
 #: How a vehicle is held up, by the kernel's index.
 HOW: tuple[HoldUp, ...] = ("leader", "right-of-way", "cut-in", "blocked", "cut-in")
@@ -27,10 +32,27 @@ class Obstacle:
     speed: Array  # [m/s] [T]
     links: frozenset[tuple[str, int]]  # (junction, link index) that it drives along
 
+    @property
+    def rests(self) -> bool:
+        """Whether it comes to rest in the end."""
+        return float(self.speed[-1]) == 0.0 and math.isfinite(float(self.position[-1, 0]))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motions:
+    """How one vehicle moves, which may depend on how lights go on."""
+
+    usual: Obstacle  # where they take their likeliest courses
+    other: Mapping[tuple[int, ...], Obstacle] = field(default_factory=dict)  # by courses
+
+    def under(self, courses: tuple[int, ...]) -> Obstacle:
+        """The motion where controllers take certain courses."""
+        return self.other.get(courses, self.usual)
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Traffic:
-    """The motions of several vehicles, in one table for the kernels."""
+    """The motions of several vehicles, in one table for the kernels, and what lights show them."""
 
     vehicles: tuple[int, ...]  # [M]
     states: Array  # [M, T, 4] x, y [m], heading [rad], speed [m/s]
@@ -38,9 +60,10 @@ class Traffic:
     links: tuple[frozenset[tuple[str, int]], ...]  # [M]
     noticed: Ints  # [M] steps for which the ego has been on their path, as `reacting` counts
     braking: Bools  # [M] who has braked for the ego, or for one that did
+    lights: Lights = field(default=NO_LIGHTS)
 
     @classmethod
-    def of(cls, obstacles: Sequence[Obstacle]) -> "Traffic":
+    def of(cls, obstacles: Sequence[Obstacle], lights: Lights = NO_LIGHTS) -> "Traffic":
         """The motions of obstacles; one that ends sooner than others stays as it is then."""
         total = max((len(obstacle.speed) for obstacle in obstacles), default=1)
         states = np.empty((len(obstacles), total, 4))
@@ -56,6 +79,7 @@ class Traffic:
             tuple(obstacle.links for obstacle in obstacles),
             np.zeros(len(obstacles), np.int64),
             np.zeros(len(obstacles), np.bool_),
+            lights,
         )
 
     def reacting(self, own: Array, size: tuple[float, float], first: int) -> "Traffic":
@@ -75,7 +99,8 @@ class Traffic:
 
     def since(self, step: int) -> "Traffic":
         """The same motions, with a later step as step 0."""
-        return replace(self, states=np.ascontiguousarray(self.states[:, step:]))
+        states = np.ascontiguousarray(self.states[:, step:])
+        return replace(self, states=states, lights=self.lights.since(step))
 
 
 NOBODY = Traffic.of(())
@@ -93,10 +118,19 @@ class Occupancy:
         found: Bools = 0.5 * (self.stretches.low[:, 0] + self.stretches.high[:, 0]) < centre
         return found
 
-    def firsts(self, lines: Iterable[frozenset[tuple[str, int]]]) -> Bools:
-        """Who drives along one of the links of each line [L, M]."""
-        found = [[not own.isdisjoint(line) for own in self.traffic.links] for line in lines]
-        return np.array(found, dtype=np.bool_).reshape(len(found), len(self.traffic.links))
+    def firsts(self, lines: Sequence[GiveWay]) -> Bools:
+        """Who goes first at each line [L, M, T], at each step where there are lights."""
+        links = self.traffic.links
+        found = [[not own.isdisjoint(line.yields_to) for own in links] for line in lines]
+        always = np.array(found, dtype=np.bool_).reshape(len(found), len(links), 1)
+        if not any(line.foes for line in lines):
+            return always
+        steps = self.traffic.states.shape[1]
+        changing = np.repeat(always, steps, axis=2)
+        for k, line in enumerate(lines):
+            if line.foes:
+                changing[k] = _by_light(self.traffic, line, steps)
+        return changing
 
 
 def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int) -> Occupancy:
@@ -113,3 +147,45 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
         path.points, path.arc, path.heading, traffic.states, traffic.sizes, width, first, last
     )
     return Occupancy(traffic, stretches)
+
+
+def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
+    """Who goes first at a line with a light [M, T], which may show others red.
+
+    Who is inside the junction is let out, whatever the light; of the others, those go first for
+    whom the junction's rules say so while their light lets them in, and ours does not let us first.
+    """
+    first: Bools = np.zeros((len(traffic.links), steps), np.bool_)
+    ours = line.link.control
+    yields = (
+        traffic.lights.shows(ours, steps)[:steps] >= OPEN
+        if isinstance(ours, Signal)
+        else np.ones(steps, np.bool_)
+    )
+    for m, links in enumerate(traffic.links):
+        for foe in line.foes:
+            if foe.key in links:
+                inside = _beyond(traffic.states[m], foe)
+                first[m] |= inside
+                if foe.first:
+                    first[m] |= yields & ~inside & ~_held(traffic, foe, inside, steps)
+    return first
+
+
+def _beyond(states: Array, foe: Foe) -> Bools:
+    """At which steps [T] of its motion [T, 4] who drives along a link is beyond its line."""
+    x, y, cos, sin = foe.line
+    found: Bools = (states[:, 0] - x) * cos + (states[:, 1] - y) * sin > 0.0
+    return found
+
+
+def _held(traffic: Traffic, foe: Foe, inside: Bools, steps: int) -> Bools:
+    """At which steps [T] a light holds who comes along a link; not one who passes it anyway."""
+    if foe.signal is None:
+        return np.zeros(steps, np.bool_)
+    shows = traffic.lights.shows(foe.signal, steps)[:steps]
+    entry = int(np.argmax(inside)) if np.any(inside) else steps - 1
+    if shows[entry] == SHUT and np.any(inside):
+        return np.zeros(steps, np.bool_)
+    held: Bools = shows >= SHUT
+    return held

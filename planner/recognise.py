@@ -15,10 +15,13 @@ from planner.astar import SOLUTIONS, Solution, held, ways
 from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.indication import indicated
+from planner.kernels.driving import GAP_HORIZON
 from planner.likelihood import likelihoods
-from planner.obstacles import NOBODY, Obstacle, Traffic
-from planner.rollout import Leg, Task, held_up
+from planner.obstacles import NOBODY, Motions, Obstacle, Traffic
+from planner.rollout import Leg, Task, held_by_lights, held_up
 from planner.routes import onward
+from planner.scenery import Others, Scenery
+from planner.signals import DARK, HeldByLight, Outlook
 from planner.trace import Action, EgoGoal, HeldUp, Settings
 from planner.tracks import (
     Observed,
@@ -40,8 +43,14 @@ class Trajectory:
 
     probability: float  # given the goal
     actions: tuple[Action, ...]
-    motion: Obstacle
+    motions: Motions
     held_up: tuple[HeldUp, ...] = ()  # by whom, on the way to the goal
+    held_by_lights: tuple[HeldByLight, ...] = ()
+
+    @property
+    def motion(self) -> Obstacle:
+        """The motion where lights take their likeliest courses."""
+        return self.motions.usual
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,10 +69,11 @@ class _Way:
     """One way on from now."""
 
     cost: float  # [s]
-    waiting: float  # [s] of it, for others
+    waiting: float  # [s] of it, for others and at lights
     actions: tuple[Action, ...]
-    motion: Obstacle
+    motions: Motions
     held_up: tuple[HeldUp, ...] = ()
+    held_by_lights: tuple[HeldByLight, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,17 +81,23 @@ class _Coasting:
     """How one vehicle goes on if nothing changes, as others reckon with it."""
 
     elapsed: int  # steps of its track
-    now: Obstacle  # from now on
+    now: Motions  # from now on
     past: Obstacle  # from the first sample of its track on
 
 
 def recognise(
-    roads: Roads, tracks: Sequence[Observed], settings: Settings, time: float, ego: int
+    roads: Roads,
+    tracks: Sequence[Observed],
+    settings: Settings,
+    time: float,
+    ego: int,
+    outlook: Outlook = DARK,
 ) -> dict[int, tuple[Belief, ...]]:
     """What every vehicle but the ego may be up to.
 
     Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
-    it will most likely move off, so that a queue dissolves from its head on.
+    it will most likely move off, so that a queue dissolves from its head on; and so is who will
+    be held at a light.
 
     Args:
         roads: the road network.
@@ -89,31 +105,35 @@ def recognise(
         settings: view radius [m], horizon [s], rationality [1/s].
         time: [s] now.
         ego: name of the ego.
+        outlook: the lights.
     """
     steps = round(settings.horizon / DT)
+    scenery = Scenery(roads, outlook, steps)
+    usual = scenery.lights(outlook.usual)
     coasting = {
         track.vehicle: _Coasting(
             track.elapsed,
-            coast(roads, track, steps, past=False),
-            coast(roads, track, steps, past=True),
+            scenery.coast(track),
+            coast(roads, track, steps, past=True, lights=usual),
         )
         for track in tracks
     }
+    held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
     found: dict[int, tuple[Belief, ...]] = {}
-    for observed in queued(tracks):
+    for observed in queued(tracks, held):
         if observed.vehicle != ego:
-            found[observed.vehicle] = _beliefs(roads, observed, coasting, settings, time)
-            if observed.standing:
+            found[observed.vehicle] = _beliefs(scenery, observed, coasting, settings, time)
+            if observed.standing or observed.vehicle in held:
                 mine = coasting[observed.vehicle]
                 moving_off = _likeliest(found[observed.vehicle])
                 coasting[observed.vehicle] = replace(mine, now=moving_off)
     return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle != ego}
 
 
-def _likeliest(beliefs: Sequence[Belief]) -> Obstacle:
+def _likeliest(beliefs: Sequence[Belief]) -> Motions:
     """The likeliest motion of a vehicle."""
     pairs = (
-        (belief.probability * way.probability, way.motion)
+        (belief.probability * way.probability, way.motions)
         for belief in beliefs
         for way in belief.trajectories
     )
@@ -121,27 +141,27 @@ def _likeliest(beliefs: Sequence[Belief]) -> Obstacle:
 
 
 def _beliefs(
-    roads: Roads,
+    scenery: Scenery,
     observed: Observed,
     coasting: Mapping[int, _Coasting],
     settings: Settings,
     time: float,
 ) -> tuple[Belief, ...]:
-    steps = round(settings.horizon / DT)
+    steps, roads = scenery.steps, scenery.roads
     others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(roads, -1, time)
     if not starts:
-        return _unknown(roads, observed, steps)
+        return _unknown(scenery, observed)
     goals = goals_in_view(roads, starts, settings.view_radius)
     size = (observed.length, observed.width)
     nowhere = EgoGoal("", 0.0, None)
     pace = observed.pace
     frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True, pace=pace)
-    now = Traffic.of([other.now for other in others])
+    now = Others(scenery, tuple(other.now for other in others))
     onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
     likelihood = (
-        likelihoods(frame, observed, goals, left, _before(frame, observed, others), settings)
+        likelihoods(frame, observed, goals, left, _before(scenery, observed, others), settings)
         if settings.recognition
         else [0.0 if driving is None else 1.0 for driving in left]
     )
@@ -151,7 +171,7 @@ def _beliefs(
         likelihood = [like * share for like, share in zip(likelihood, shown, strict=True)]
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
     if sum(weights) == 0.0:
-        return _unknown(roads, observed, steps)
+        return _unknown(scenery, observed)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
         Belief(goal, like, weight / sum(weights), _trajectories(onward, settings), share)
@@ -162,19 +182,19 @@ def _beliefs(
     )
 
 
-def _before(frame: Task, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
+def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
     """The others from the first sample of a track on."""
-    horizon = frame.horizon + observed.elapsed
+    horizon = scenery.steps + observed.elapsed
     return Traffic.of(
-        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others]
+        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others],
+        scenery.outlook.before(observed.elapsed, scenery.steps + GAP_HORIZON),
     )
 
 
-def _unknown(roads: Roads, observed: Observed, steps: int) -> tuple[Belief, ...]:
+def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
     """A vehicle for which no goal makes sense: it is taken to go on as it does."""
     goal = Goal("continue", PLACES["continue"], None, 1.0)
-    motion = coast(roads, observed, steps, past=False)
-    return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), motion),)),)
+    return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
 
 
 def _ways_on(
@@ -182,12 +202,12 @@ def _ways_on(
     starts: tuple[Situation, ...],
     goal: Goal,
     observed: Observed,
-    others: Traffic,
+    others: Others,
 ) -> list[_Way]:
     if goal.target is None:
-        return _stopping(frame, starts[0], observed, others)
+        return _stopping(frame, starts[0], observed, others.usual)
     task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others, SOLUTIONS)
+    solutions = ways(task, starts, others.usual, SOLUTIONS)
     if not solutions:
         return _held_up(task, starts, observed, others)
     return [
@@ -195,24 +215,44 @@ def _ways_on(
             solution.cost,
             len(solution.waits) * DT,
             solution.actions,
-            _motion(task, solution, observed, others),
+            _motions(task, starts, solution, observed, others),
             held_up(solution.legs, task.start),
+            held_by_lights(solution.legs, task.start),
         )
         for solution in solutions
     ]
 
 
 def _held_up(
-    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Traffic
+    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others
 ) -> list[_Way]:
-    """The best way to a goal that others keep it from, as far as they let it drive."""
+    """The best way to a goal that others or lights keep it from, as far as they let it drive."""
     found = []
     for free in ways(task, starts, NOBODY, 1):
-        legs = held(task, starts, free.actions, others) or free.legs
-        motion = _motion(task, Solution(free.cost, legs), observed, others)
-        kept_by = held_up(legs, task.start)
-        found.append(_Way(free.cost, 0.0, free.actions, motion, kept_by))
+        legs = held(task, starts, free.actions, others.usual) or free.legs
+        motions = _motions(task, starts, Solution(free.cost, legs), observed, others)
+        stretches, stops = held_up(legs, task.start), held_by_lights(legs, task.start)
+        found.append(_Way(free.cost, 0.0, free.actions, motions, stretches, stops))
     return found
+
+
+def _motions(
+    task: Task,
+    starts: tuple[Situation, ...],
+    solution: Solution,
+    observed: Observed,
+    others: Others,
+) -> Motions:
+    """A solution as it is driven under all courses of the lights."""
+
+    def under(courses: tuple[int, ...]) -> Obstacle:
+        traffic = others.under(courses)
+        if courses == others.scenery.outlook.usual:
+            return _motion(task, solution, observed, traffic)
+        legs = held(task, starts, solution.actions, traffic) or solution.legs
+        return _motion(task, Solution(solution.cost, legs), observed, traffic)
+
+    return others.scenery.motions(under)
 
 
 def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
@@ -254,7 +294,7 @@ def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic)
         np.concatenate((speed, np.zeros(rest))),
         links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
     )
-    return [_Way(here.speed / COMFORT, 0.0, ("stop",), motion)]
+    return [_Way(here.speed / COMFORT, 0.0, ("stop",), Motions(motion))]
 
 
 def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:
@@ -263,7 +303,7 @@ def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, 
     weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Trajectory(weight / sum(weights), way.actions, way.motion, way.held_up)
+        Trajectory(weight / sum(weights), way.actions, way.motions, way.held_up, way.held_by_lights)
         for way, weight in zip(onwards, weights, strict=True)
         if weight > 0.0
     )
@@ -274,7 +314,7 @@ def trajectories_to(
     starts: tuple[Situation, ...],
     goal: Goal,
     observed: Observed,
-    others: Traffic,
+    others: Others,
     settings: Settings,
 ) -> tuple[Trajectory, ...]:
     """The ways on to a goal, however improbable it is; none where no way leads there."""

@@ -51,6 +51,17 @@ class PriorityFact(msgspec.Struct, frozen=True):
     who: First  # depends: on where that vehicle goes, or on who comes first
 
 
+class LightAhead(msgspec.Struct, frozen=True):
+    """A traffic light in view on the ego's way."""
+
+    distance: float  # [m] from the front bumper to the junction's entry
+    controller: str
+    place: int  # in the controller's state
+    state: str  # a letter; see planner.signals
+    since: float  # [s] when it was first seen to be so
+    change_seen: bool  # whether it changed to this then, or only came into view
+
+
 class RoadFacts(msgspec.Struct, frozen=True, omit_defaults=True):
     """The road around the ego at one decision, and ahead of it."""
 
@@ -59,3 +70,4 @@ class RoadFacts(msgspec.Struct, frozen=True, omit_defaults=True):
     distance: float | None = None  # [m] along the road to the destination; None: no way there
     free_time: float | None = None  # [s] to it at the limits, and as bends allow
     priority: tuple[PriorityFact, ...] = ()  # at the junction that the ego is in or comes to next
+    lights: tuple[LightAhead, ...] = ()  # nearest first

@@ -8,16 +8,19 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from planner.actions import expand
 from planner.itinerary import Leg, is_junction, itinerary, rings_of, steps
+from planner.kernels.driving import OPEN, SHUT
 from planner.manoeuvres import ActionPlan
-from planner.road import First, PriorityFact, RoadFacts, RoadPlace
+from planner.road import First, LightAhead, PriorityFact, RoadFacts, RoadPlace
 from planner.routes import approach, rest_of
 from planner.search import Root
+from planner.signals import MEANING, UNSEEN, LightPrediction
 from planner.trace import EgoGoal, PlannedAction
 from planner.tracks import lanes_at
 from planner.trajectory import Roads
 from sim.network import Link, Location, Network
-from sim.scene import EGO, VehicleState
+from sim.scene import EGO, LightState, Signal, VehicleState
 
+PROTECTED = LightState.GREEN.value
 Places = Mapping[int, tuple[Location, ...]]  # where each may be, the likeliest first
 
 
@@ -28,6 +31,7 @@ def road_facts(
     plan: Sequence[PlannedAction],
     goal: EgoGoal,
     view: float,
+    lights: Sequence[LightPrediction] = (),
 ) -> RoadFacts:
     """Work out the facts of the road for one decision.
 
@@ -38,18 +42,39 @@ def road_facts(
         plan: what was decided.
         goal: the destination.
         view: [m] from a junction within which others count.
+        lights: in view.
     """
     here = root.here.location
     at = {v: lanes_at(roads, state.position, state.heading) for v, state in scene.items()}
     at[EGO] = (here,)
     way = itinerary(roads, here, _planned(roads, root, plan, goal, view), goal)
+    meetings = _meetings(roads.network, here, way.legs, view)
     return RoadFacts(
         places={v: place(roads.network, at[v][0]) for v in sorted(at) if at[v]},
         route=steps(roads, way.legs),
         distance=None if way.distance is None else round(way.distance, 1),
         free_time=None if way.free_time is None else round(way.free_time, 1),
-        priority=_priority(roads, at, _meetings(roads.network, here, way.legs, view), view),
+        priority=_priority(roads, at, meetings, view, lights),
+        lights=_ahead(way.legs, lights),
     )
+
+
+def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[LightAhead, ...]:
+    """The lights in view on the way, nearest first."""
+    known = {one.controller: one for one in lights}
+    found = []
+    for leg in legs:
+        control = leg.link.control
+        if isinstance(control, Signal) and control.controller in known:
+            one = known[control.controller]
+            state = one.state(control.index)
+            if state != UNSEEN:
+                since, seen = one.since(control.index)
+                place = LightAhead(
+                    round(leg.distance, 1), control.controller, control.index, state, since, seen
+                )
+                found.append(place)
+    return tuple(found)
 
 
 def _planned(
@@ -103,7 +128,11 @@ def _meetings(
 
 
 def _priority(
-    roads: Roads, at: Places, meetings: Sequence[Link], view: float
+    roads: Roads,
+    at: Places,
+    meetings: Sequence[Link],
+    view: float,
+    lights: Sequence[LightPrediction],
 ) -> tuple[PriorityFact, ...]:
     """Who goes first, for each of the others whose way may cross the ego's at a meeting."""
     found = []
@@ -113,12 +142,37 @@ def _priority(
             for mine in meetings
             for location in at[vehicle]
             for theirs in _ways(roads, location, mine, view)
-            if (first := goes_first(mine, theirs)) is not None
+            if (first := _first_now(roads, location, mine, theirs, lights)) is not None
         }
         if answers:
             who = answers.pop() if len(answers) == 1 else "depends"
             found.append(PriorityFact(vehicle, who))
     return tuple(found)
+
+
+def _first_now(
+    roads: Roads, where: Location, mine: Link, theirs: Link, lights: Sequence[LightPrediction]
+) -> First | None:
+    """Who goes first as lights show; who is held at red has no right of way now."""
+    first = goes_first(mine, theirs)
+    inside = roads.network.lanes[where.lane].internal
+    if first is None or not lights:
+        return first
+    ours, other = (_state(link, lights) for link in (mine, theirs))
+    i_stop, they_stop = (MEANING.get(x, OPEN) >= SHUT for x in (ours, other))
+    if i_stop or (they_stop and not inside):
+        return ("depends" if they_stop else "vehicle") if i_stop else "ego"
+    if ours == PROTECTED and not inside:
+        return "depends" if other == PROTECTED else "ego"
+    return "vehicle" if other == PROTECTED else first
+
+
+def _state(link: Link, lights: Sequence[LightPrediction]) -> str:
+    control = link.control
+    if not isinstance(control, Signal):
+        return UNSEEN
+    known = (one for one in lights if one.controller == control.controller)
+    return next((one.state(control.index) for one in known), UNSEEN)
 
 
 def goes_first(mine: Link, theirs: Link) -> First | None:

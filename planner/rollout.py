@@ -13,15 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.actions import ActionPlan, Situation
-from planner.forward import DT, Drive, Hindrances, Motion, drive
+from planner.forward import DT, Drive, Hindrances, Motion, Stops, drive
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
 from planner.kernels.reaction import FIRM
 from planner.obstacles import HOW, Traffic
 from planner.reward import components
+from planner.signals import HeldByLight
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
 from planner.trajectory import Array, Roads
 from sim.network import Location
+from sim.scene import Signal
 
 GRACE = 3  # steps by which two stretches of one hold-up may lie apart
 
@@ -57,6 +59,7 @@ class Leg:
     goal_time: float | None  # [s] since step 0
     collided_with: int | None
     hindrances: Hindrances
+    stops: Stops
     end: Situation
     traffic: Traffic  # the others, as they have reacted and go on
 
@@ -141,6 +144,7 @@ def _leg(
         driven.goal_time if outcome == "done" else None,
         traffic.vehicles[who] if who >= 0 else None,
         driven.hindrances.before(driven.first + count),
+        driven.stops.before(driven.first + count),
         end,
         traffic,
     )
@@ -230,4 +234,25 @@ def _stretch(run: list[_Step], start: float) -> HeldUp:
         how=how,
         speed_from=round(speeds[0], 2),
         speed_to=round(min(speeds), 2),
+    )
+
+
+def held_by_lights(legs: Sequence[Leg], start: float) -> tuple[HeldByLight, ...]:
+    """Join the steps in which lights held a rollout up into stretches, in order."""
+    runs: list[tuple[Signal, int, int]] = []
+    for leg in legs:
+        for step, which in zip(leg.stops.step.tolist(), leg.stops.which.tolist(), strict=True):
+            signal = leg.stops.signals[which]
+            if runs and runs[-1][0] == signal and step - runs[-1][2] <= GRACE:
+                runs[-1] = (signal, runs[-1][1], step)
+            else:
+                runs.append((signal, step, step))
+    return tuple(
+        HeldByLight(
+            signal.controller,
+            signal.index,
+            round(start + first * DT, 2),
+            round(start + (last + 1) * DT, 2),
+        )
+        for signal, first, last in runs
     )

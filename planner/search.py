@@ -12,11 +12,13 @@ from typing import TypeAlias
 from planner.actions import ActionPlan, Situation, expand
 from planner.comparison import Samples, draw, weighted
 from planner.forward import Motion
+from planner.kernels.driving import GAP_HORIZON
 from planner.obstacles import Traffic
 from planner.recognise import Belief
 from planner.reward import EFFORT, absent, reward, terms
-from planner.rollout import Leg, Task, held_up, summarise, take
+from planner.rollout import Leg, Task, held_by_lights, held_up, summarise, take
 from planner.routes import Refusal
+from planner.signals import DARK, HeldByLight, LightSample, Outlook
 from planner.trace import (
     ACTIONS,
     Action,
@@ -51,15 +53,26 @@ class Root:
 class Simulated:
     """One rollout."""
 
-    samples: tuple[Sample, ...]
+    drawn: Samples
     legs: tuple[Leg, ...]
     outcome: Outcome
     components: dict[Component, float | None]
     reward: float
     terms: dict[RewardTerm, float]  # [s] that the reward is made of
     held_up: tuple[HeldUp, ...]
+    held_by_lights: tuple[HeldByLight, ...]
     forced: bool = False
     weight: float | None = None  # in the comparison of the first actions
+
+    @property
+    def samples(self) -> tuple[Sample, ...]:
+        """The goals and trajectories drawn for the others."""
+        return tuple(one for one in self.drawn if isinstance(one, Sample))
+
+    @property
+    def lights(self) -> tuple[LightSample, ...]:
+        """The courses drawn for the lights."""
+        return tuple(one for one in self.drawn if isinstance(one, LightSample))
 
     @property
     def braking(self) -> tuple[int, ...]:
@@ -85,25 +98,30 @@ class Search:
     beliefs: Mapping[int, Sequence[Belief]]
     settings: Settings
     seed: str  # of all that is drawn
+    lights: Outlook = DARK
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
     compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
-    _plans: dict[tuple[tuple[Sample, ...], Node], ActionPlan | Refusal] = field(
-        default_factory=dict
-    )
-    _legs: dict[tuple[tuple[Sample, ...], Node], Leg] = field(default_factory=dict)
-    _known: dict[tuple[tuple[Sample, ...], Node], Simulated] = field(default_factory=dict)
-    _motions: dict[tuple[Sample, ...], Traffic] = field(default_factory=dict)
-    _draws: dict[int, random.Random] = field(init=False)  # by vehicle: nobody shifts another's
+    _plans: dict[tuple[Samples, Node], ActionPlan | Refusal] = field(default_factory=dict)
+    _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
+    _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
+    _motions: dict[Samples, Traffic] = field(default_factory=dict)
+    # By vehicle and controller: nobody shifts another's.
+    _draws: dict[int | str, random.Random] = field(init=False)
 
     def __post_init__(self) -> None:
-        self._draws = {v: random.Random(f"{self.seed}/{v}") for v in self.beliefs}
+        names: tuple[int | str, ...] = (
+            *self.beliefs,
+            *(one.controller for one in self.lights.known),
+        )
+        self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
 
     def run(self) -> None:
         """Draw the rollouts of the search; then compare the first actions, and force the rest."""
         for _ in range(self.settings.rollouts):
-            self._learn(self.tree, draw(self.beliefs, self._draws), (), forced=False)
+            drawn = draw(self.beliefs, self._draws, self.lights)
+            self._learn(self.tree, drawn, (), forced=False)
         self._compare()
         tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
         for action in self._first_actions():
@@ -116,7 +134,8 @@ class Search:
         """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
-            self._learn(apart, draw(self.beliefs, self._draws), actions, forced=True)
+            drawn = draw(self.beliefs, self._draws, self.lights)
+            self._learn(apart, drawn, actions, forced=True)
 
     def _compare(self) -> None:
         """Drive the best continuation of every first action through the same samples.
@@ -127,8 +146,8 @@ class Search:
         rivals = self._first_actions()
         if len(rivals) < 2:
             return
-        drawn = [rollout.samples for rollout in self.rollouts]
-        common = weighted(self.beliefs, drawn, self.settings.comparisons)
+        drawn = [rollout.drawn for rollout in self.rollouts]
+        common = weighted(self.beliefs, drawn, self.settings.comparisons, self.lights)
         for action in rivals:
             self.compared[action] = 0.0
             for samples, weight in common:
@@ -208,8 +227,9 @@ class Search:
             spent = terms(outcome, parts, self._left(legs), effort)
             gained = round(reward(spent), 3)
             stretches = held_up(legs, self.task.start)
+            stops = held_by_lights(legs, self.task.start)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
-            found = Simulated(samples, tuple(legs), outcome, shown, gained, spent, stretches)
+            found = Simulated(samples, tuple(legs), outcome, shown, gained, spent, stretches, stops)
             self._known[key] = found
         return found
 
@@ -234,7 +254,7 @@ class Search:
         return cost_left(self.task.roads, end.location, self.task.goal)
 
     def _options(
-        self, samples: tuple[Sample, ...], node: Node, legs: Sequence[Leg]
+        self, samples: Samples, node: Node, legs: Sequence[Leg]
     ) -> dict[Action, ActionPlan]:
         """What can be done at a node that was reached under these samples."""
         options = {}
@@ -246,9 +266,7 @@ class Search:
                 options[action] = plan
         return options
 
-    def _plan(
-        self, samples: tuple[Sample, ...], branch: Node, legs: Sequence[Leg]
-    ) -> ActionPlan | Refusal:
+    def _plan(self, samples: Samples, branch: Node, legs: Sequence[Leg]) -> ActionPlan | Refusal:
         key = (samples, branch) if legs else ((), branch)
         found = self._plans.get(key)
         if found is None:
@@ -265,9 +283,7 @@ class Search:
         here = legs[-1].end if legs else self.root.here
         return expand(self.task.roads, here, action, self.task.goal, self.task.view)
 
-    def _leg(
-        self, samples: tuple[Sample, ...], branch: Node, plan: ActionPlan, legs: Sequence[Leg]
-    ) -> Leg:
+    def _leg(self, samples: Samples, branch: Node, plan: ActionPlan, legs: Sequence[Leg]) -> Leg:
         """The last action of a branch, driven; the same samples give the same leg."""
         found = self._legs.get((samples, branch))
         if found is None:
@@ -285,9 +301,14 @@ class Search:
         """The others' motions as sampled."""
         found = self._motions.get(samples)
         if found is None:
-            found = self._motions[samples] = Traffic.of(
-                [self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motion for s in samples]
-            )
+            courses = tuple(s.course for s in samples if isinstance(s, LightSample))
+            motions = [
+                self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motions.under(courses)
+                for s in samples
+                if isinstance(s, Sample)
+            ]
+            lights = self.lights.lights(courses, self.task.horizon + GAP_HORIZON)
+            found = self._motions[samples] = Traffic.of(motions, lights)
         return found
 
 

@@ -17,10 +17,11 @@ from planner.forward import DT, Motion
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.obstacles import NOBODY, Obstacle, Traffic
 from planner.recognise import Belief, Trajectory, motion_along, trajectories_to
-from planner.rollout import Leg, Task, held_up, take
+from planner.rollout import Leg, Task, held_by_lights, held_up, take
 from planner.routes import Refusal
+from planner.scenery import Others, Scenery
 from planner.trace import Action, EgoGoal
-from planner.tracks import Observed, coast
+from planner.tracks import Observed
 
 STRAIGHT = ("continue", "exit-straight")  # one word to people
 
@@ -32,7 +33,7 @@ class _Prospect:
     task: Task  # without a goal
     observed: Observed
     starts: tuple[Situation, ...]  # where it may be, one for each lane that fits
-    others: Traffic  # coasting
+    others: Others  # coasting
 
 
 def suppose(
@@ -84,12 +85,10 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
     task = Task(
         frame.roads, nowhere, (one.length, one.width), moment.time, steps, view, yielding=True
     )
-    others = [
-        coast(frame.roads, other, steps, past=False)
-        for name, other in seen.items()
-        if name != vehicle
-    ]
-    return _Prospect(task, one, one.situation(frame.roads, -1, moment.time), Traffic.of(others))
+    scenery = Scenery(frame.roads, moment.outlook, steps)
+    coasting = tuple(scenery.coast(other) for name, other in seen.items() if name != vehicle)
+    starts = one.situation(frame.roads, -1, moment.time)
+    return _Prospect(task, one, starts, Others(scenery, coasting))
 
 
 def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
@@ -131,9 +130,7 @@ def _acting(
     actions: Sequence[Action],
 ) -> Belief | Refusal:
     """The belief that a vehicle does certain things, whichever goal that leads to."""
-    legs = _driven(prospect, actions, prospect.others)
-    if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
-        legs = _driven(prospect, actions, NOBODY)  # the others do not coast into it
+    legs = _driven_freely(prospect, actions, prospect.others.usual)
     if isinstance(legs, Refusal):
         return legs
     reached = _reached(prospect, goals, legs)
@@ -141,11 +138,33 @@ def _acting(
         return Refusal(f"{', '.join(actions)} does not lead to {wanted.place}")
     goal = wanted or reached[-1]
     kept = _belief_in(known, goal)
-    motion = motion_along(prospect.task, legs, prospect.observed, prospect.others)
-    if actions[-1] == "stop":
-        motion = _standing(motion, legs[-1])
-    way = Trajectory(1.0, tuple(actions), motion, held_up(legs, prospect.task.start))
+    start = prospect.task.start
+    motions = prospect.others.scenery.motions(lambda k: _moving(prospect, actions, legs, k))
+    stretches, stops = held_up(legs, start), held_by_lights(legs, start)
+    way = Trajectory(1.0, tuple(actions), motions, stretches, stops)
     return Belief(goal, 0.0 if kept is None else kept.likelihood, 1.0, (way,))
+
+
+def _moving(
+    prospect: _Prospect, actions: Sequence[Action], usual: list[Leg], courses: tuple[int, ...]
+) -> Obstacle:
+    """How a vehicle does certain things where lights take certain courses."""
+    traffic, legs = prospect.others.under(courses), usual
+    if courses != prospect.others.scenery.outlook.usual:
+        driven = _driven_freely(prospect, actions, traffic)
+        legs = usual if isinstance(driven, Refusal) else driven
+    motion = motion_along(prospect.task, legs, prospect.observed, traffic)
+    return _standing(motion, legs[-1]) if actions[-1] == "stop" else motion
+
+
+def _driven_freely(
+    prospect: _Prospect, actions: Sequence[Action], others: Traffic
+) -> list[Leg] | Refusal:
+    """The actions in turn; should others coast into the vehicle, without these."""
+    legs = _driven(prospect, actions, others)
+    if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
+        return _driven(prospect, actions, replace(NOBODY, lights=others.lights))
+    return legs
 
 
 def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> list[Leg] | Refusal:

@@ -13,6 +13,7 @@ from typing import Literal
 import msgspec
 
 from planner.road import LightChange, RoadFacts
+from planner.signals import HeldByLight, LightPrediction, LightSample, LightSupposed
 from sim.scene import Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/2"
@@ -133,6 +134,7 @@ class TrajectoryPrediction(msgspec.Struct, frozen=True, omit_defaults=True):
     path: tuple[Point, ...]  # [m] [N]
     speed: tuple[float, ...]  # [m/s] [N]
     held_up: tuple[HeldUp, ...] = ()  # by whom, the ego among them; left out where by nobody
+    held_by_lights: tuple[HeldByLight, ...] = ()  # in their likeliest courses
 
 
 class GoalPrediction(msgspec.Struct, frozen=True):
@@ -193,6 +195,8 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     terms: dict[RewardTerm, float] = {}  # [s] that are not 0; empty in traces without costs
     weight: float | None = None  # in the comparison of the first actions; left out of none
     braking: tuple[int, ...] = ()  # who brakes for the ego, or for one that does
+    lights: tuple[LightSample, ...] = ()  # how the traffic lights were drawn to go on
+    held_by_lights: tuple[HeldByLight, ...] = ()
 
 
 class NotApplicable(msgspec.Struct, frozen=True):
@@ -221,6 +225,7 @@ class WhatIf(msgspec.Struct, frozen=True):
     vehicle_actions: tuple[Action, ...] = ()  # what it does first
     rollouts: int = 40  # drawn with the ego's forced actions
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
+    lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET
 
     @property
     def gone(self) -> frozenset[int]:
@@ -253,6 +258,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     road: RoadFacts | None = None  # where everybody is on it, and what the ego comes to
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
     costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
+    lights: tuple[LightPrediction, ...] = ()  # the traffic lights in view, by controller
 
     @property
     def reckoned(self) -> Costs:
@@ -312,6 +318,10 @@ def fault_of(trace: PlanTrace) -> str | None:
     for vehicle, counts in ways.items():
         if not counts or min(counts) == 0:
             return f"vehicle {vehicle} has no goal, or one with no trajectory"
+    for light in trace.lights:
+        if light.fault is not None:
+            return light.fault
+    courses = {light.controller: len(light.courses) for light in trace.lights}
     known = () if trace.road is None else trace.road.places.keys()
     told = () if trace.road is None else {fact.vehicle for fact in trace.road.priority}
     for vehicle in {*known, *told} - trace.scene.keys():
@@ -321,4 +331,7 @@ def fault_of(trace: PlanTrace) -> str | None:
             counts = ways.get(s.vehicle, [])
             if not (0 <= s.goal < len(counts) and 0 <= s.trajectory < counts[s.goal]):
                 return f"rollout {rollout.index} samples what is not predicted"
+        for drawn in rollout.lights:
+            if not 0 <= drawn.course < courses.get(drawn.controller, 0):
+                return f"rollout {rollout.index} samples what is not predicted of a light"
     return None

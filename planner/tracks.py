@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -10,12 +10,15 @@ import numpy as np
 
 from planner.actions import ActionPlan, LaneFollow, Situation
 from planner.forward import DT, Motion, drive
-from planner.kernels.driving import FOLLOWING
+from planner.kernels.driving import FOLLOWING, OPEN
+from planner.layout import waits_along
+from planner.manoeuvres import Manoeuvre, ObeyLight
 from planner.obstacles import Obstacle, Traffic
 from planner.routes import onward
+from planner.signals import NO_LIGHTS, Lights
 from planner.trajectory import Array, Path, Roads
 from sim.network import Location
-from sim.scene import Point, VehicleState
+from sim.scene import Point, Signal, VehicleState
 
 Side: TypeAlias = Literal["left", "right"]
 
@@ -82,11 +85,11 @@ def indicating(state: VehicleState) -> frozenset[Side]:
     return frozenset(side for side in INDICATORS if side in state.signals)
 
 
-def queued(tracks: Sequence[Observed]) -> list[Observed]:
-    """Those who stand first, in a queue from its head on; then the others in their order."""
-    standing = [track for track in tracks if track.standing]
-    standing.sort(key=lambda track: sum(leads(track, other) for other in standing))
-    return standing + [track for track in tracks if not track.standing]
+def queued(tracks: Sequence[Observed], held: Collection[int] = ()) -> list[Observed]:
+    """Those who stand, or are held, first, in a queue from its head on; then the others."""
+    waiting = [track for track in tracks if track.standing or track.vehicle in held]
+    waiting.sort(key=lambda track: sum(leads(track, other) for other in waiting))
+    return waiting + [track for track in tracks if track not in waiting]
 
 
 def leads(track: Observed, other: Observed) -> bool:
@@ -126,17 +129,20 @@ def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
     return frozenset((link.junction, link.index) for link in links if link is not None)
 
 
-def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstacle:
+def coast(
+    roads: Roads, observed: Observed, steps: int, *, past: bool, lights: Lights = NO_LIGHTS
+) -> Obstacle:
     """The vehicle as an obstacle that goes on along its lane as it does now.
 
-    Where it comes to a line at which it must give way, it is taken to wait there: those who go
-    first need not reckon with it.
+    Where it comes to a line at which it must give way, or to a red light, it is taken to wait
+    there: those who go first need not reckon with it.
 
     Args:
         roads: the road network.
         observed: its track.
         steps: how many steps from now on.
         past: whether step 0 is the first sample of the track (else it is now).
+        lights: from now on.
     """
     now = observed.situation(roads, -1, 0.0)
     speed = _speeds(roads, observed, now, steps)
@@ -145,7 +151,7 @@ def coast(roads: Roads, observed: Observed, steps: int, *, past: bool) -> Obstac
         here = now[0]
         row = onward(roads, (here.location.lane,), here.location.offset + arcs[-1] + 5.0)
         path = roads.path(row, here.position, here.heading, 12.0, float(arcs[-1]) + 5.0)
-        line = _line_ahead(roads, row, here.location)
+        line = _line_ahead(roads, row, here.location, arcs, lights)
         if line >= speed[0] ** 2 / (2.0 * FOLLOWING):
             arcs, speed = np.minimum(arcs, line), np.where(arcs < line, speed, 0.0)
         position, heading = sample_path(path, arcs, observed.length)
@@ -207,7 +213,10 @@ def drive_on(
     reach = (horizon - first) * DT * 20.0 + 20.0
     row = onward(roads, (here.location.lane,), here.location.offset + reach)
     path = roads.path(row, here.position, here.heading, 12.0, reach)
-    plan = ActionPlan("continue", path, (LaneFollow(0.0, path.length),), path.length, np.inf, None)
+    ahead = waits_along(roads, path, row) if traffic.lights is not NO_LIGHTS else ()
+    waits = (m for m in ahead if isinstance(m, ObeyLight))
+    follow: tuple[Manoeuvre, ...] = (LaneFollow(0.0, path.length), *waits)
+    plan = ActionPlan("continue", path, follow, path.length, np.inf, None)
     start = Motion(0.0, here.speed, here.acceleration)
     driven = drive(plan, start, first, traffic, size, horizon, pace)
     arcs, speed = driven.motion[1:, 0], driven.motion[1:, 1]
@@ -237,14 +246,30 @@ def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps:
     return np.minimum(growing, limit)
 
 
-def _line_ahead(roads: Roads, row: Sequence[str], here: Location) -> float:
-    """Distance [m] to the first line on a row of lanes at which one must give way."""
+def _line_ahead(
+    roads: Roads, row: Sequence[str], here: Location, arcs: Array, lights: Lights
+) -> float:
+    """Distance [m] to the first line on a row of lanes at which one must wait.
+
+    Args:
+        roads: the road network.
+        row: the lanes.
+        here: on the first of them.
+        arcs: [m] to which one would come by each step.
+        lights: from now on.
+    """
     ahead = -here.offset
     for lane, after in itertools.pairwise(row):
         ahead += roads.network.lanes[lane].length
         link = roads.network.link_via(after)
-        if link is not None and link.yields_to and link.via[0] == after:
-            return max(ahead - 0.5, 0.0)
+        if link is None or link.via[0] != after:
+            continue
+        shown, line = OPEN, max(ahead - 0.5, 0.0)
+        if isinstance(link.control, Signal):
+            arrival = int(np.searchsorted(arcs, line))
+            shown = int(lights.shows(link.control, arrival + 1)[arrival])
+        if shown > OPEN or (shown == OPEN and link.yields_to):
+            return line
     return math.inf
 
 

@@ -80,6 +80,7 @@ class Roads:
         self.network = network
         self.fastest = max(lane.speed_limit for lane in network.lanes.values())  # [m/s]
         self.ends: dict[str, Any] = {}  # by lane, kept by planner.routes
+        self.foes: dict[tuple[str, int], Any] = {}  # by link, kept by planner.layout
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
         self._lines: dict[tuple[str, ...], Path] = {}

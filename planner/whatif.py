@@ -1,8 +1,9 @@
 """Planning again from a recorded decision with something changed.
 
-The ego may be told what to do first, vehicles taken away, and another supposed to have a goal,
-to do certain things or to drive faster. Everything that is needed stands in the trace, so a
-replayed ride can be asked as well as a live one. The same request gives the same trace.
+The ego may be told what to do first, vehicles taken away, another supposed to have a goal, to do
+certain things or to drive faster, and lights to show something else. Everything that is needed
+stands in the trace, so a replayed ride can be asked as well as a live one. The same request gives
+the same trace.
 
 What is inferred of those who stay is inferred from the world as it was, with everybody in it, and
 only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So
@@ -10,7 +11,7 @@ they keep the probabilities of their goals; and who drove slowly behind one that
 not held to want to drive so.
 
     WhatIfError        the question cannot be planned from this trace
-    ├── NotInView      the vehicle is not in the trace's scene
+    ├── NotInView      the vehicle, or the light, is not in the trace's scene
     └── Inapplicable   what is supposed of it cannot be
 """
 
@@ -19,6 +20,7 @@ from dataclasses import replace
 
 import msgspec
 
+from planner.cycles import supposed
 from planner.decide import (
     Frame,
     Moment,
@@ -35,12 +37,13 @@ from planner.recognise import Belief
 from planner.resume import resume
 from planner.routes import Refusal
 from planner.search import Root
+from planner.signals import LightPrediction, LightSupposed
 from planner.suppose import edge_of, suppose
 from planner.trace import PlanTrace, Settings, Track, VehiclePrediction, WhatIf
 from planner.tracks import Observed, leads
 from planner.trajectory import Roads
 from sim.network import Network
-from sim.scene import EGO, VehicleState
+from sim.scene import EGO, LightState, VehicleState
 
 __all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "decide_again", "replan"]
 
@@ -78,7 +81,7 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
     _check(trace, network, request)
     frame, moment = _restore(trace, Roads(network), request)
     beliefs = _beliefs(frame, moment, request, trace.predictions)
-    changed = bool(request.gone) or request.vehicle is not None
+    changed = bool(request.gone) or request.vehicle is not None or bool(supposed_lights(request))
     if changed:
         search = prepare(frame, moment, beliefs)
         search.run()
@@ -145,6 +148,18 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
     for vehicle in (*sorted(request.gone), request.vehicle):
         if vehicle is not None and vehicle not in trace.scene:
             raise NotInView(f"vehicle {vehicle} was not in view at {trace.sim_time} s")
+    for light in supposed_lights(request):
+        if light.state not in {state.value for state in LightState}:
+            raise WhatIfError(f"{light.state!r} is no state of a traffic light")
+        places = (known.places for known in trace.lights if known.controller == light.controller)
+        if light.place not in next(places, ()):
+            where = f"place {light.place} of the light {light.controller!r}"
+            raise NotInView(f"{where} was not in view at {trace.sim_time} s")
+
+
+def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
+    """What lights are supposed to show."""
+    return request.lights if isinstance(request.lights, tuple) else ()
 
 
 def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
@@ -171,8 +186,19 @@ def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Mo
         Root(here, rest),
         {vehicle: since for vehicle, since in trace.unseen.items() if vehicle not in gone},
         frozenset(_followers(trace, gone)),
+        _lit(roads, trace, request),
     )
     return frame, moment
+
+
+def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPrediction, ...]:
+    """How the lights may go on, with what is supposed of some."""
+    found = {known.controller: known for known in trace.lights}
+    for light in supposed_lights(request):
+        known = found[light.controller]
+        now = supposed(roads, known, light.place, light.state, trace.sim_time)
+        found[light.controller] = now
+    return tuple(found.values())
 
 
 def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[VehicleState, Track]:
@@ -210,7 +236,7 @@ def _beliefs(
 ) -> dict[int, Sequence[Belief]]:
     """What the others may be up to, with what is supposed of one of them."""
     beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
-    if request.gone or isinstance(request.faster, float):
+    if request.gone or isinstance(request.faster, float) or supposed_lights(request):
         known_goals = {known.vehicle: known for known in recorded}
         beliefs = {
             one: _as_inferred(found, known_goals[one]) if one in known_goals else found

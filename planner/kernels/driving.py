@@ -1,18 +1,12 @@
-"""Driving along a path: car-following, giving way, stopping, within limits of comfort."""
+"""Driving along a path: car-following, giving way, lights, stopping, within limits of comfort."""
 
 import math
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from planner.kernels.course import Bools, Course, Floats, Ints, Motion
 from planner.kernels.projection import Stretches
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
-Motion: TypeAlias = tuple[float, float, float]  # arc [m], speed [m/s], acceleration [m/s2]
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
@@ -34,20 +28,16 @@ READY = 4.0  # [m/s] at a waiting line, while somebody with priority stands
 JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
 FORESIGHT = 10  # steps ahead in which a vehicle that moves in is made room for
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
+BEYOND = 0.5  # [m] beyond where one stops for a light, up to which it still counts
+AT_LINE = 0.15  # [m] before a line at which one has come to a full stop, by Krauss' safe speed
+
+# What a light shows: go first; go by the rules; stop if that is comfortable; stop; stop, then go.
+FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
 
 # How a vehicle is held up, by index.
 LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 
 _jit = njit(cache=True, error_model="numpy")
-
-
-class Course(NamedTuple):
-    """What is driven along a path."""
-
-    caps: Floats  # [m/s] at every metre
-    halting: float  # [m/s2] of braking to a standstill; 0 to drive on
-    lines: Floats  # [m] [L, 2] arcs of lines to give way at, and at which the junction is left
-    rooms: Floats  # [m] [K, 2] arcs at which to keep out of a junction, and at which it is left
 
 
 @_jit
@@ -86,65 +76,95 @@ def accelerate(
     foreseen: Stretches,
     length: float,
     dt: float,
-) -> tuple[float, int, int]:
+) -> tuple[float, int, int, int]:
     """What to do in the coming step, and who is in the way.
 
     Args:
-        course: what is driven.
-        motion: of the vehicle: arc [m], speed [m/s], acceleration [m/s2].
-        step: now.
-        others: the vehicles to keep behind of.
-        ignored: [M] those that are behind, and so of no concern.
+        course, motion, length: of the vehicle; its length [m].
+        step, dt: now, and how long [s] the coming step is.
+        others, ignored: the vehicles to keep behind of; [M] those that are behind themselves.
         crossing: [C] the vehicles that may have the right of way.
-        firsts: [L, C] who goes first at which line.
+        firsts: [L, C, T] who goes first at which line and step; the last one stays.
         foreseen: motions to make room for where they lead onto the path.
-        length: [m] of the vehicle.
-        dt: [s] of the coming step.
 
     Returns:
-        Acceleration [m/s2], the index of the one in the way (-1: nobody), and how it is.
+        Acceleration [m/s2], the index of the one in the way (-1: nobody), how it is, and the
+        index of the light that holds it up, alone or a queue before it (-1: none).
     """
-    caps, halting, lines, rooms = course
+    caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
-    stops = halting > 0.0
+    stops = course.halting > 0.0
     free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
     free = min(free, _ready(arc, lines, crossing, firsts, step))
-    hardest = halting if stops else FOLLOWING
-    wanted, hardest, who = _follow(motion, step, others, ignored, length, free, hardest)
+    wanted, hardest, who = _follow(motion, step, others, ignored, length, free)
+    hardest = course.halting if stops and who < 0 else hardest
     how = LEADER if who < 0 else _manner(others, who, step)
     safe, newcomer = _make_room(motion, step, foreseen, length, wanted)
     if newcomer >= 0:
         wanted, who, how = safe, newcomer, NEWCOMER
-    safe, jam = _keep_clear(motion, step, others, ignored, rooms, length, wanted)
+    safe, jam = _keep_clear(motion, step, others, ignored, course.rooms, wanted)
     if jam >= 0:
         wanted, who, how = safe, jam, BLOCKED
+    t = min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
         if gap <= _near(speed) and arc < lines[line, 1] and safe < wanted:
             stop = lines[line, 0]
-            blocker = _blocker(caps, motion, step, stop, crossing, firsts[line], length)
+            blocker = _blocker(caps, motion, step, stop, crossing, firsts[line, :, t], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
                 if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * FIRM * gap:
                     hardest = speed * speed / (2.0 * gap)
+    light, gap = _shut(course, motion, step)
+    safe = safe_speed(gap, 0.0, COMFORT)
+    if light >= 0 and safe < wanted:
+        wanted, who = safe, -1
+        hardest = max(hardest, min(speed * speed / (2.0 * max(gap, AT_LINE)), EMERGENCY))
+    elif light >= 0 and not _queues(others, who, how, step, arc + gap):
+        light = -1
     chosen = towards(speed, acceleration, wanted, hardest, dt)
-    return (chosen, -1, LEADER) if wanted > free - HINDERED else (chosen, who, how)
+    return (chosen, -1, LEADER, -1) if wanted > free - HINDERED else (chosen, who, how, light)
+
+
+@_jit
+def _shut(course: Course, motion: Motion, step: int) -> tuple[int, float]:
+    """The next light that is to be stopped for (-1: none), and how far [m] it is.
+
+    At amber, that is where braking is as gentle as behind others, or under way; at red, wherever
+    one can.
+    """
+    arc, speed, acceleration = motion
+    found, nearest = -1, math.inf
+    for k in range(len(course.lights)):
+        gap = course.lights[k] - arc
+        shown = course.shows[k, min(step, course.shows.shape[1] - 1)]
+        if shown <= OPEN or not -BEYOND <= gap < nearest or (shown == HALT and gap <= AT_LINE):
+            continue
+        hardest = EMERGENCY
+        if shown == AMBER:
+            hardest = FIRM if acceleration < -HINDERED else FOLLOWING
+        if speed * speed <= 2.0 * hardest * (gap + BEYOND):
+            found, nearest = k, gap
+    return found, nearest
+
+
+@_jit
+def _queues(others: Stretches, who: int, how: int, step: int, stop: float) -> bool:
+    """Whether somebody in the way stands or crawls before a line [m] at which it must stop."""
+    if who < 0 or how in (RIGHT_OF_WAY, NEWCOMER):
+        return False
+    t = min(step, others.low.shape[1] - 1)
+    return bool(others.low[who, t] < stop and others.speed[who, t] < JAM)
 
 
 @_jit
 def _follow(
-    motion: Motion,
-    step: int,
-    others: Stretches,
-    ignored: Bools,
-    length: float,
-    wanted: float,
-    hardest: float,
+    motion: Motion, step: int, others: Stretches, ignored: Bools, length: float, wanted: float
 ) -> tuple[float, float, int]:
     """The wanted speed [m/s] and hardest braking [m/s2] behind others, and whom that is for."""
     arc, speed, _ = motion
-    who = -1
+    who, hardest = -1, FOLLOWING
     t = min(step, others.low.shape[1] - 1)
     for m in range(len(others.low)):
         low, high = others.low[m, t], others.high[m, t]
@@ -162,12 +182,8 @@ def _follow(
 def _make_room(
     motion: Motion, step: int, others: Stretches, length: float, wanted: float
 ) -> tuple[float, int]:
-    """The wanted speed [m/s] behind vehicles that are about to move in ahead, and for whom.
-
-    A newcomer counts as a leader from now on: where it would be had it come along the path.
-    """
-    arc, _, _ = motion
-    who, last = -1, others.low.shape[1] - 1
+    """The wanted speed [m/s] behind those about to move in, as if they had led, and for whom."""
+    arc, who, last = motion[0], -1, others.low.shape[1] - 1
     for m in range(len(others.low)):
         if not math.isnan(others.low[m, min(step, last)]):
             continue
@@ -191,13 +207,7 @@ def _near(speed: float) -> float:
 
 @_jit
 def _keep_clear(
-    motion: Motion,
-    step: int,
-    others: Stretches,
-    ignored: Bools,
-    rooms: Floats,
-    length: float,
-    wanted: float,
+    motion: Motion, step: int, others: Stretches, ignored: Bools, rooms: Floats, wanted: float
 ) -> tuple[float, int]:
     """The wanted speed [m/s] before junctions with no room beyond, and who takes the room."""
     arc, speed, _ = motion
@@ -206,7 +216,7 @@ def _keep_clear(
         gap = rooms[k, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
         if 0.0 <= gap <= _near(speed) and safe < wanted:
-            jam = _jam(others, ignored, step, rooms[k, 0], rooms[k, 1] + length)
+            jam = _jam(others, ignored, step, rooms[k, 0], rooms[k, 1])
             if jam >= 0:
                 wanted, who = safe, jam
     return wanted, who
@@ -214,13 +224,7 @@ def _keep_clear(
 
 @_jit
 def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float) -> int:
-    """Who takes the room beyond a junction, at a crawl: the nearest vehicle ahead, if it does.
-
-    Args:
-        others, ignored, step: as for `accelerate`.
-        enter: [m] arc before the junction.
-        room: [m] arc up to which a vehicle needs to drive to leave the junction free.
-    """
+    """Who takes the room from `enter` to `room` [m], at a crawl: the nearest ahead, if it does."""
     t = min(step, others.low.shape[1] - 1)
     found, nearest = -1, room + MIN_GAP
     for m in range(len(others.low)):
@@ -233,11 +237,11 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 @_jit
 def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
     """The speed [m/s] at which to come to a line while somebody with priority stands there."""
-    t = min(step, crossing.low.shape[1] - 1)
-    found = math.inf
+    slow = crossing.speed[:, min(step, crossing.low.shape[1] - 1)] < JAM
+    found, t = math.inf, min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
-        if gap > 0.0 and np.any(firsts[line] & (crossing.speed[:, t] < JAM)):
+        if gap > 0.0 and np.any(firsts[line, :, t] & slow):
             found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
     return found
 
@@ -262,7 +266,7 @@ def _blocker(
     firsts: Bools,
     length: float,
 ) -> int:
-    """Who must be waited for: going on freely would get in the way of its right to go first.
+    """Who must be waited for, which would be in the way of who drives freely and go first.
 
     Beyond the line, that is asked only as long as one can stop before getting in the way.
     """
@@ -310,34 +314,32 @@ def drive(
 
     Args:
         course, firsts, others, length: as for `accelerate`.
-        end: [m] arc at which the action is over, unless it stops.
-        goal: [m] arc of the goal, or infinite.
-        start: arc [m], speed [m/s] and acceleration [m/s2] at step `first`.
+        end, goal: [m] arcs at which the action is over, unless it stops; of the goal, or infinite.
+        start: motion at step `first`.
         first, horizon: the first and the last step.
 
     Returns:
-        Motion [S, 3] as in `start`, who held it up and how [S - 1, 2], whether it came to the
+        Motion [S, 3], who held it up, how and at which light [S - 1, 3], whether it came to the
         end, and the time [s] since step 0 at which it passed the goal, else NaN.
     """
     motion = np.empty((max(horizon - first, 0) + 1, 3))
-    hindrance = np.empty((len(motion) - 1, 2), np.int64)
+    hindrance = np.empty((len(motion) - 1, 3), np.int64)
     arc, speed, acceleration = start
-    motion[0, 0], motion[0, 1], motion[0, 2] = arc, speed, acceleration
+    motion[0] = arc, speed, acceleration
     t = min(first, others.low.shape[1] - 1)
     ignored = 0.5 * (others.low[:, t] + others.high[:, t]) < arc - 0.5 * length
-    waits = firsts & ~ignored
+    waits = firsts & ~ignored.reshape((1, -1, 1))
     standing = 0
     for step in range(first, horizon):
         k = step - first
         now = (arc, speed, acceleration)
-        acceleration, who, how = accelerate(
+        acceleration, who, how, light = accelerate(
             course, now, step, others, ignored, others, waits, others, length, STEP
         )
-        before, was = arc, speed
-        speed = max(speed + acceleration * STEP, 0.0)
-        arc += 0.5 * (was + speed) * STEP
-        motion[k + 1, 0], motion[k + 1, 1], motion[k + 1, 2] = arc, speed, acceleration
-        hindrance[k, 0], hindrance[k, 1] = who, how
+        before, speed = arc, max(speed + acceleration * STEP, 0.0)
+        arc += 0.5 * (now[1] + speed) * STEP
+        motion[k + 1] = arc, speed, acceleration
+        hindrance[k] = who, how, light
         if arc >= goal:
             share = (goal - before) / max(arc - before, 1e-9)
             time = (step + min(max(share, 0.0), 1.0)) * STEP

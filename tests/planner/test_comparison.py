@@ -11,7 +11,7 @@ import pytest
 
 from planner.comparison import draw, likeliest, weighted
 from planner.goals import Goal
-from planner.obstacles import Obstacle
+from planner.obstacles import Motions, Obstacle
 from planner.recognise import Belief, Trajectory
 from planner.trace import Sample
 
@@ -27,7 +27,9 @@ def beliefs(*goals: Sequence[float]) -> tuple[Belief, ...]:
             Goal("continue", "the road", None, 1.0),
             1.0,
             sum(ways),
-            tuple(Trajectory(p / max(sum(ways), 1e-9), ("continue",), STILL) for p in ways),
+            tuple(
+                Trajectory(p / max(sum(ways), 1e-9), ("continue",), Motions(STILL)) for p in ways
+            ),
         )
         for ways in goals
     )

@@ -1,0 +1,68 @@
+"""Which traffic lights matter to a drive, what they show, and how they may go on."""
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from planner.cycles import Watched, foresee
+from planner.kernels.driving import GAP_HORIZON, OPEN
+from planner.manoeuvres import ActionPlan
+from planner.signals import MEANING, STEP, LightPrediction, Lights
+from planner.trajectory import Roads
+from sim.scene import Scene, Signal
+
+CLOSELY = 2  # controllers on the way of which several courses are told apart
+
+
+def lookout(
+    roads: Roads, watched: Sequence[Watched], time: float, horizon: float, edges: Sequence[str]
+) -> tuple[LightPrediction, ...]:
+    """How the lights in view may go on.
+
+    Args:
+        roads: the road network.
+        watched: what was seen of each controller in view.
+        time: [s] now.
+        horizon: [s] for which that is needed.
+        edges: along which the ego drives; of those that it comes to next, several courses are
+            told apart.
+    """
+    known = {one.controller for one in watched}
+    next_ones = [name for name in dict.fromkeys(_along(roads, edges)) if name in known][:CLOSELY]
+    lasting = horizon + GAP_HORIZON * STEP
+    return tuple(
+        foresee(roads, one, time, lasting, closely=one.controller in next_ones) for one in watched
+    )
+
+
+def _along(roads: Roads, edges: Sequence[str]) -> Iterator[str]:
+    """The controllers of the junctions between edges, in order."""
+    network = roads.network
+    for edge, after in pairwise(edges):
+        for lane in network.edge_lanes(edge):
+            for link in network.links_from(lane.id):
+                if network.lanes[link.to_lane].edge == after and isinstance(link.control, Signal):
+                    yield link.control.controller
+
+
+def shown_now(scene: Scene) -> Lights:
+    """What the lights in view mean to who comes to them, as long as they stay as they are."""
+    return Lights(
+        {
+            light.signal: np.full(1, MEANING.get(light.state.value, OPEN), np.int8)
+            for light in scene.lights
+        }
+    )
+
+
+def changed(plan: ActionPlan, scene: Scene, known: Sequence[LightPrediction]) -> bool:
+    """Whether a light that a plan comes to shows something else than when it was decided on."""
+    before = {one.controller: one for one in known}
+    for ahead in plan.obey_lights:
+        light, then = scene.light(ahead.signal), before.get(ahead.signal.controller)
+        if light is None or then is None:
+            continue
+        if light.state.value != then.state(ahead.signal.index):
+            return True
+    return False

@@ -1,0 +1,180 @@
+"""Traffic lights: what they show over time, as seen, expected and supposed.
+
+A controller is what works the lights of a junction. Its states are written as one letter for
+each of its places (see `sim.scene.LightState`), UNSEEN where that is out of view.
+"""
+
+import itertools
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import msgspec
+import numpy as np
+
+from planner.kernels.course import Codes
+from planner.kernels.driving import AMBER, FIRST, HALT, OPEN, SHUT
+from sim.scene import LightState, Signal
+
+UNSEEN = "?"
+STEP = 0.2  # [s] of the common time base
+#: What a state means to who comes to the line. At all others, one that is not seen among them,
+#: the junction's rules hold.
+MEANING: dict[str, int] = {
+    LightState.GREEN.value: FIRST,
+    LightState.RED.value: SHUT,
+    LightState.RED_AMBER.value: SHUT,
+    LightState.AMBER.value: AMBER,
+    LightState.STOP_FIRST.value: HALT,
+}
+GREENS = (LightState.GREEN.value, LightState.GREEN_YIELD.value)
+
+
+class Showing(msgspec.Struct, frozen=True):
+    """What a controller shows from a moment on."""
+
+    time: float  # [s] simulation time
+    states: str  # a letter for each of the controller's `places`
+
+
+class LightCourse(msgspec.Struct, frozen=True):
+    """One way in which a controller may go on."""
+
+    probability: float
+    showings: tuple[Showing, ...]  # from now on, in order; the last one stays
+
+
+class LightPrediction(msgspec.Struct, frozen=True):
+    """What was seen of a controller, and how it may go on; probabilities sum to 1."""
+
+    controller: str
+    places: tuple[int, ...]  # those in view now or before, by index
+    seen: tuple[Showing, ...]  # every change so far, the last one being what it shows now
+    courses: tuple[LightCourse, ...]
+
+    @property
+    def now(self) -> str:
+        """What it shows, a letter for each place."""
+        return self.seen[-1].states
+
+    @property
+    def likeliest(self) -> int:
+        """The index of the likeliest course."""
+        return max(range(len(self.courses)), key=lambda k: self.courses[k].probability)
+
+    @property
+    def fault(self) -> str | None:
+        """What in it does not fit together, if anything."""
+        if not self.courses or not self.seen:
+            return f"the light {self.controller!r} has no course, or was never seen"
+        ways = (self.seen, *(course.showings for course in self.courses))
+        if not all(way and all(len(x.states) == len(self.places) for x in way) for way in ways):
+            return f"a state of the light {self.controller!r} is not a letter for each place"
+        return None
+
+    def state(self, place: int) -> str:
+        """The letter that a place shows now; UNSEEN where it is out of view."""
+        return self.now[self.places.index(place)] if place in self.places else UNSEEN
+
+    def since(self, place: int) -> tuple[float, bool]:
+        """Since when [s] a place shows what it shows, and whether it was seen to change to it."""
+        at = self.places.index(place)
+        k = len(self.seen) - 1
+        while k > 0 and self.seen[k - 1].states[at] == self.seen[-1].states[at]:
+            k -= 1
+        return self.seen[k].time, k > 0 and self.seen[k - 1].states[at] != UNSEEN
+
+
+class LightSupposed(msgspec.Struct, frozen=True):
+    """What a traffic light is supposed to show, for good."""
+
+    controller: str
+    place: int
+    state: str  # a letter, as in LightPrediction
+
+
+class LightSample(msgspec.Struct, frozen=True):
+    """The course drawn for one controller, as an index into its prediction."""
+
+    controller: str
+    course: int
+
+
+class HeldByLight(msgspec.Struct, frozen=True):
+    """A stretch of a drive in which a light held one up, at its line or in a queue before it."""
+
+    controller: str
+    place: int
+    since: float = msgspec.field(name="from")  # [s] simulation time
+    until: float = msgspec.field(name="to")  # [s]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lights:
+    """What lights show in one course of events, sampled from step 0 on."""
+
+    meaning: Mapping[Signal, Codes]  # [T] to who comes to the line; the last one stays
+
+    def shows(self, signal: Signal, steps: int) -> Codes:
+        """What a light means at each of so many steps, or more [T]."""
+        codes = self.meaning.get(signal, _DARK)
+        if len(codes) >= steps:
+            return codes
+        return np.concatenate((codes, np.full(steps - len(codes), codes[-1])))
+
+    def since(self, step: int) -> "Lights":
+        """The same, with a later step as step 0."""
+        return Lights(
+            {signal: codes[min(step, len(codes) - 1) :] for signal, codes in self.meaning.items()}
+        )
+
+
+_DARK: Codes = np.full(1, OPEN, np.int8)
+NO_LIGHTS = Lights({})
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """How all controllers in view may go on from a moment."""
+
+    time: float  # [s] of step 0
+    known: tuple[LightPrediction, ...] = ()
+
+    @cached_property
+    def joint(self) -> tuple[tuple[int, ...], ...]:
+        """All the courses that the controllers may take together."""
+        return tuple(itertools.product(*(range(len(one.courses)) for one in self.known)))
+
+    def with_usual(self, courses: Sequence[int], among: Collection[str]) -> tuple[int, ...]:
+        """Courses, where the controllers that are not among some take their likeliest."""
+        ways = zip(self.known, courses, self.usual, strict=True)
+        return tuple(k if one.controller in among else usual for one, k, usual in ways)
+
+    @cached_property
+    def usual(self) -> tuple[int, ...]:
+        """The likeliest course of every controller."""
+        return tuple(one.likeliest for one in self.known)
+
+    def lights(self, courses: Sequence[int], steps: int) -> Lights:
+        """What the lights show from now on, where controllers take certain courses."""
+        ways = zip(self.known, courses, strict=True)
+        return self._sampled([one.courses[k].showings for one, k in ways], self.time, steps)
+
+    def before(self, elapsed: int, steps: int) -> Lights:
+        """The same from `elapsed` steps ago on: what was seen, and the likeliest course."""
+        showings = [(*one.seen, *one.courses[one.likeliest].showings) for one in self.known]
+        return self._sampled(showings, self.time - elapsed * STEP, steps + elapsed)
+
+    def _sampled(self, showings: Sequence[Sequence[Showing]], start: float, steps: int) -> Lights:
+        meaning: dict[Signal, Codes] = {}
+        times = start + STEP * np.arange(steps + 1) + 1e-6
+        for one, changes in zip(self.known, showings, strict=True):
+            at = np.searchsorted([change.time for change in changes], times, side="right") - 1
+            for k, place in enumerate(one.places):
+                codes = [MEANING.get(change.states[k], OPEN) for change in changes]
+                shown = np.array(codes, np.int8)[np.maximum(at, 0)]
+                meaning[Signal(one.controller, place)] = shown
+        return Lights(meaning)
+
+
+DARK = Outlook(0.0)
