@@ -9,7 +9,16 @@ _KINDS = {
     "motorcycle": "motorcycle",
     "moped": "motorcycle",
     "bicycle": "bicycle",
+    "tram": "tram",
+    "rail": "train",
+    "rail_urban": "train",
+    "rail_electric": "train",
+    "rail_fast": "train",
+    "subway": "train",
+    "cable_car": "train",
+    "ship": "ship",
 }
+_WALKERS = {"wheelchair": "wheelchair", "scooter": "scooter"}
 _RIGHT, _LEFT, _HAZARD, _BRAKE = 0b0001, 0b0010, 0b0100, 0b1000
 
 _PALETTE = {
@@ -43,6 +52,11 @@ def colour_name(red: int, green: int, blue: int) -> str:
 def kind_of(vehicle_class: str) -> str:
     """What a vehicle of a SUMO class (vClass) is called; "car" unless it is plainly another."""
     return _KINDS.get(vehicle_class, "car")
+
+
+def walker_of(person_class: str) -> str:
+    """What a person of a SUMO class (vClass) outside of vehicles is called."""
+    return _WALKERS.get(person_class, "pedestrian")
 
 
 def lights(signals: int) -> tuple[str, ...]:

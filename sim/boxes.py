@@ -1,12 +1,29 @@
-"""Vehicles as oriented boxes: the ground truth for collisions."""
+"""Vehicles and people as oriented boxes: the ground truth for collisions."""
 
 import math
+from typing import Protocol
 
-from sim.scene import Point, VehicleState
+from sim.scene import Point
 
 
-def corners(state: VehicleState) -> tuple[Point, Point, Point, Point]:
-    """Front left, front right, rear right and rear left corner [m] of a vehicle."""
+class Box(Protocol):
+    """Whatever has a place, a heading and a size; see `VehicleState` for the fields."""
+
+    @property
+    def position(self) -> Point: ...
+
+    @property
+    def heading(self) -> float: ...
+
+    @property
+    def length(self) -> float: ...
+
+    @property
+    def width(self) -> float: ...
+
+
+def corners(state: Box) -> tuple[Point, Point, Point, Point]:
+    """Front left, front right, rear right and rear left corner [m] of a box."""
     x, y = state.position
     ahead_x, ahead_y = math.cos(state.heading), math.sin(state.heading)
     side_x, side_y = -ahead_y * state.width / 2.0, ahead_x * state.width / 2.0
@@ -19,8 +36,8 @@ def corners(state: VehicleState) -> tuple[Point, Point, Point, Point]:
     )
 
 
-def overlap(a: VehicleState, b: VehicleState) -> bool:
-    """Whether two vehicles share ground; touching is not overlapping.
+def overlap(a: Box, b: Box) -> bool:
+    """Whether two boxes share ground; touching is not overlapping.
 
     Two convex shapes are apart exactly if the normal of one of their edges separates them
     (separating axis theorem; Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996).

@@ -14,6 +14,7 @@ from sim.network import Network
 from sim.routes import Departure, Spawn
 from sim.tables import TableError
 
+MANY = 40  # names in a message
 SUMOS_OWN = "DEFAULT_"  # how the names of the types begin that SUMO brings
 
 
@@ -95,9 +96,9 @@ def one_of(names: Iterable[str]) -> str:
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """A remedy: what there is to choose from that is spelt much the same, or else all."""
+    """A remedy: what there is to choose from that is spelt much the same, or else what comes first."""
     listed = sorted(names)
-    return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed)
+    return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed[:MANY])
 
 
 def _followers(network: Network) -> dict[str, set[str]]:

@@ -1,35 +1,36 @@
-"""The command line that SUMO is started with."""
-
-from pathlib import Path
-
-from sim.scenario import Scenario
+"""The options that SUMO is started with."""
 
 LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a duration
 
+#: Whatever a configuration says.
+ALWAYS = {
+    "--route-steps": "0",  # all at once: a vehicle out of order would be left out
+    "--collision.action": "warn",
+    "--collision.check-junctions": "true",
+    "--collision.mingap-factor": "0",
+    "--time-to-teleport": "-1",
+    "--xml-validation": "never",
+    "--xml-validation.net": "never",
+    "--xml-validation.routes": "never",
+    "--no-step-log": "true",
+    "--duration-log.disable": "true",
+}
 
-def start_arguments(scenario: Scenario, routes: Path, seed: int) -> list[str]:
-    """Everything that `libsumo.start` is given.
+
+def of_ride(step: float, seed: int, *, sublane: bool) -> dict[str, str]:
+    """The options of a ride beside its files.
 
     Args:
-        scenario: what to run.
-        routes: its route file, or one made from it.
+        step: [s] of the simulation.
         seed: of SUMO's random numbers.
+        sublane: whether SUMO's sublane model moves vehicles sideways, as lane changes that
+            take their time do otherwise.
     """
-    options = {
-        "--net-file": str(scenario.network),
-        "--route-files": str(routes),
-        "--step-length": repr(scenario.step),
-        "--seed": str(seed),
-        "--lanechange.duration": repr(LANE_CHANGE),
-        "--collision.action": "warn",
-        "--collision.check-junctions": "true",
-        "--collision.mingap-factor": "0",
-        "--time-to-teleport": "-1",
-        "--xml-validation": "never",
-        "--xml-validation.net": "never",
-        "--xml-validation.routes": "never",
-        "--no-step-log": "true",
-        "--no-warnings": "true",
-        "--duration-log.disable": "true",
-    }
-    return ["sumo", *(part for option in options.items() for part in option)]
+    lanes = {} if sublane else {"--lanechange.duration": repr(LANE_CHANGE)}
+    own = {"--step-length": repr(step), "--seed": str(seed), "--random": "false"}
+    return {**own, **lanes, **ALWAYS, "--no-warnings": "true"}
+
+
+def listed(options: dict[str, str]) -> list[str]:
+    """Options as arguments of a command line."""
+    return [part for option in options.items() for part in option]

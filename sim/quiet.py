@@ -31,3 +31,10 @@ def first_error(file: Path) -> str | None:
         if line.startswith("Error: "):
             return line.removeprefix("Error: ").strip()
     return None
+
+
+def warnings_in(file: Path) -> list[str]:
+    """The warnings in a file of messages, without repetition."""
+    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    told = (x.removeprefix("Warning: ").strip() for x in lines if x.startswith("Warning: "))
+    return list(dict.fromkeys(told))

@@ -1,8 +1,8 @@
-"""Scenario folders: ours and a user's alike, read and checked.
+"""Scenarios: folders, ours and a user's alike, and SUMO configurations, read and checked.
 
 Errors:
     ScenarioError
-    ├── ScenarioNotFound    no scenario has this name, and no folder is there
+    ├── ScenarioNotFound    no scenario has this name, and no folder or configuration is there
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
         └── NeedsMaps       its network is OpenDRIVE, and netconvert is not installed
 """
@@ -13,13 +13,14 @@ from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 
-from sim import routes
+from sim import configuration, routes
 from sim.checks import check_routes, check_starts, edges_of, near, one_of
+from sim.goal import Goal, check_goal, check_place
 from sim.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.netfile import NetworkError, read_network
-from sim.network import Network
 from sim.opendrive import conversion_warnings
-from sim.routes import Departure, RoutesError, Spawn
+from sim.routes import RoutesError, Spawn
+from sim.source import FROM_ROUTES, Added, Departing, FromConfiguration, Rider, Source, told
 from sim.tables import Table, TableError, read_toml
 
 CONFIG = "scenario.toml"
@@ -28,6 +29,8 @@ VIEW_RADIUS = 100.0  # [m]
 
 _KEYS = ("name", "description", "network", "routes", "ego", "step", "duration")
 _OPTIONAL = ("view_radius", "seed", "goal", "spawn", "priority")
+_CONFIGURED = ("name", "description", "configuration", "ego")
+_CHANGES = ("step", "duration", "view_radius", "seed", "goal")
 
 
 class ScenarioError(Exception):
@@ -41,7 +44,7 @@ class ScenarioNotFound(ScenarioError):
         known = ", ".join(available()) or "none"
         super().__init__(
             f"there is no scenario {asked!r}; those that exist: {known};"
-            f" or give the path of a folder that holds a {CONFIG}"
+            f" or give the path of a folder that holds a {CONFIG}, or of a .sumocfg"
         )
 
 
@@ -57,24 +60,16 @@ class NeedsMaps(ScenarioInvalid):
 
 
 @dataclass(frozen=True, slots=True)
-class Goal:
-    """Where the ego wants to go."""
-
-    edge: str
-    position: float  # [m] along the edge
-    lane: int | None  # None: any lane counts
-
-
-@dataclass(frozen=True, slots=True)
 class Scenario:
     """A world to drive in, checked: its files exist and agree with one another."""
 
     name: str
     description: str
     folder: Path
+    place: str  # what loads it again
     network: Path  # SUMO net; converted where the folder holds OpenDRIVE
-    routes: Path
-    ego: str  # id in the route file
+    routes: Path  # who drives: a route file, or a SUMO configuration
+    ego: str  # its id there
     step: float  # [s]
     duration: float  # [s]
     view_radius: float  # [m]
@@ -82,7 +77,8 @@ class Scenario:
     goal: Goal
     spawn: Spawn | None
     priority: Mapping[str, int]  # by edge
-    warnings: tuple[str, ...] = ()  # what looks wrong in it, in sentences
+    source: Source = FROM_ROUTES
+    warnings: tuple[str, ...] = ()  # what looks wrong in it or is not modelled, in sentences
 
 
 def available() -> tuple[str, ...]:
@@ -107,16 +103,22 @@ def descriptions() -> dict[str, str]:
 
 
 def load(name_or_path: str | Path) -> Scenario:
-    """Read and check a scenario by its name or its folder.
+    """Read and check a scenario by its name, its folder, or a SUMO configuration.
+
+    Args:
+        name_or_path: for a configuration as `sim.configuration` says.
 
     Raises:
-        ScenarioNotFound: neither a name that exists nor a folder with a scenario.toml.
-        ScenarioInvalid: the folder is wrong.
+        ScenarioNotFound: neither a name that exists, nor a folder with a scenario.toml, nor a
+            configuration.
+        ScenarioInvalid: the folder or the configuration is wrong.
         NeedsMaps: its network is OpenDRIVE, and netconvert is not installed.
+        SimulationError: SUMO, which reads configurations, is not installed or runs already.
     """
-    folder = _folder(name_or_path)
     try:
-        return _read(folder)
+        if name_or_path not in available() and configuration.is_place(str(name_or_path)):
+            return _configured(str(name_or_path))
+        return _read(_folder(name_or_path))
     except TableError as error:
         missing = isinstance(error.__cause__, NetconvertMissing)
         raise (NeedsMaps if missing else ScenarioInvalid)(str(error)) from error
@@ -124,6 +126,8 @@ def load(name_or_path: str | Path) -> Scenario:
 
 def _read(folder: Path) -> Scenario:
     top = read_toml(folder / CONFIG)
+    if "configuration" in top.values:
+        return _configured_folder(folder, top)
     top.only((*_KEYS, *_OPTIONAL))
     priority = top.table("priority")
     priorities = {edge: priority.integer(edge) for edge in priority.values}
@@ -131,18 +135,88 @@ def _read(folder: Path) -> Scenario:
         name=top.text("name"),
         description=top.text("description"),
         folder=folder,
+        place=str(folder),
         network=_network_file(top, folder, priorities),
         routes=top.path("routes", folder),
         ego=top.text("ego"),
-        step=top.number("step", least=0.001, most=1.0),
+        step=_step(top),
         duration=top.number("duration", least=0.001),
-        view_radius=top.number("view_radius", default=VIEW_RADIUS, least=20.0),
+        view_radius=_radius(top),
         seed=top.integer("seed", default=0, most=2**31 - 1),
         goal=_goal(top.table("goal", required=True)),
         spawn=_spawn(top.table("spawn")) if "spawn" in top.values else None,
         priority=priorities,
     )
     return replace(scenario, warnings=_check(scenario, top))
+
+
+def _configured(place: str) -> Scenario:
+    """The scenario in a SUMO configuration."""
+    file, wishes = configuration.split_place(place)
+    rider = configuration.rider_of(file, wishes)
+    found = configuration.inspect(file, rider)
+    return Scenario(
+        name=file.name.partition(".")[0],
+        description=f"{told(rider)} in {file.name}",
+        folder=file.parent,
+        place=configuration.place_of(file, rider),
+        network=found.network,
+        routes=file,
+        ego=found.ego,
+        step=found.step,
+        duration=found.duration,
+        view_radius=VIEW_RADIUS,
+        seed=found.seed,
+        goal=Goal(found.goal, found.goal_position, None),
+        spawn=None,
+        priority={},
+        source=FromConfiguration(rider, found.sublane),
+        warnings=found.warnings,
+    )
+
+
+def _configured_folder(folder: Path, top: Table) -> Scenario:
+    """A scenario whose folder names a SUMO configuration, and may change what it says."""
+    top.only((*_CONFIGURED, *_CHANGES))
+    file = top.path("configuration", folder).resolve()
+    found = _configured(configuration.place_of(file, _rider(top)))
+    return replace(
+        found,
+        name=top.text("name"),
+        description=top.text("description"),
+        folder=folder,
+        place=str(folder),
+        step=_step(top, found.step),
+        duration=top.number("duration", default=found.duration, least=0.001),
+        view_radius=_radius(top),
+        seed=top.integer("seed", default=found.seed, most=2**31 - 1),
+        goal=_goal_there(top, found),
+    )
+
+
+def _rider(top: Table) -> Rider:
+    if not isinstance(top.values.get("ego"), dict):
+        return Departing(top.text("ego"))
+    table = top.table("ego")
+    table.only(("from", "to", "begin"))
+    begin = table.number("begin") if "begin" in table.values else None
+    return Added(table.text("from"), table.text("to"), begin)
+
+
+def _goal_there(top: Table, found: Scenario) -> Goal:
+    if "goal" not in top.values:
+        return found.goal
+    goal = _goal(top.table("goal"))
+    check_place(goal, top, read_network(found.network))
+    return goal
+
+
+def _step(top: Table, default: float | None = None) -> float:
+    return top.number("step", default=default, least=0.001, most=1.0)
+
+
+def _radius(top: Table) -> float:
+    return top.number("view_radius", default=VIEW_RADIUS, least=20.0)
 
 
 def _folder(name_or_path: str | Path) -> Path:
@@ -201,7 +275,6 @@ def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
         departures = routes.departures(root)
     except RoutesError as error:
         raise TableError(scenario.routes, None, str(error), "mend the route file") from error
-    edges = edges_of(network)
     check_routes(scenario.routes, root, network)
     ids = [departure.id for departure in departures]
     if scenario.ego not in ids:
@@ -209,40 +282,8 @@ def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
         raise top.wrong("ego", problem, one_of(ids))
     check_starts(scenario.routes, departures, network, scenario.ego, scenario.spawn)
     ego = next(x for x in departures if x.id == scenario.ego)
-    start = ego.edges[0]
-    _check_goal(scenario.goal, top, network, edges, ego)
+    check_goal(scenario.goal, top, network, ego)
     source = scenario.folder / top.text("network")
     if source.suffix != OPENDRIVE:
         return ()
-    return conversion_warnings(ET.parse(source).getroot(), network, start, scenario.priority)
-
-
-def _check_goal(goal: Goal, top: Table, network: Network, edges: set[str], ego: Departure) -> None:
-    start = ego.edges[0]
-    if goal.edge not in edges:
-        raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
-    if goal.edge != start and start not in network.distance_to(goal.edge):
-        problem = f"{goal.edge!r} cannot be reached from {start!r}, where the ego starts"
-        raise top.wrong("goal.edge", problem, one_of(_reachable(network, edges, start)))
-    behind = goal.edge == start and ego.position is not None and ego.position > goal.position
-    if behind and not _leads_back(network, start):
-        problem = f"{goal.position:g} m lies behind the ego, which starts at {ego.position:g} m"
-        raise top.wrong("goal.position", problem, "set it ahead of the start, or another edge")
-    lanes = network.edge_lanes(goal.edge)
-    numbers = [str(lane.index) for lane in lanes]
-    if goal.lane is not None and str(goal.lane) not in numbers:
-        raise top.wrong("goal.lane", f"{goal.edge!r} has no lane {goal.lane}", one_of(numbers))
-    length = min(lane.length for lane in lanes)
-    if goal.position > length:
-        problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"
-        raise top.wrong("goal.position", problem, f"it must be at most {length:g}")
-
-
-def _leads_back(network: Network, edge: str) -> bool:
-    """Whether one can come to an edge again after leaving it."""
-    links = [link for lane in network.edge_lanes(edge) for link in network.links_from(lane.id)]
-    return any(network.lanes[x.to_lane].edge in network.distance_to(edge) for x in links)
-
-
-def _reachable(network: Network, edges: set[str], start: str) -> list[str]:
-    return [edge for edge in sorted(edges) if start in network.distance_to(edge)]
+    return conversion_warnings(ET.parse(source).getroot(), network, ego.edges[0], scenario.priority)

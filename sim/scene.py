@@ -4,7 +4,7 @@ SI units; angles in radians anticlockwise from east; simulation time in seconds.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 Point = tuple[float, float]  # [m] (x east, y north)
@@ -22,9 +22,21 @@ class VehicleState:
     acceleration: float  # [m/s2] along heading
     length: float  # [m] from front to rear bumper
     width: float  # [m]
-    kind: str = "car"  # what it looks like: car, truck, bus, motorcycle, bicycle
+    kind: str = "car"  # what it looks like: car, truck, bus, motorcycle, bicycle, tram
     colour: str | None = None  # in words, None where it cannot be told
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
+
+
+@dataclass(frozen=True, slots=True)
+class PersonState:
+    """One person outside of vehicles at one instant, in the map frame."""
+
+    position: Point  # [m] foremost point
+    heading: float  # [rad] anticlockwise from east, in (-pi, pi]
+    speed: float  # [m/s] along heading, never negative
+    length: float  # [m] from front to back
+    width: float  # [m]
+    kind: str = "pedestrian"  # what it looks like: pedestrian, wheelchair, scooter
 
 
 class LightState(Enum):
@@ -62,12 +74,13 @@ class Light:
 class Scene:
     """Everything in view at one instant, the ego among it.
 
-    Keys are the vehicles' names (0 is the ego), in increasing order.
+    Keys are names (0 is the ego), in increasing order; no vehicle and person share one.
     """
 
     time: float  # [s] simulation time
     vehicles: Mapping[int, VehicleState]
     lights: tuple[Light, ...] = ()  # in view, by controller and index
+    people: Mapping[int, PersonState] = field(default_factory=dict)  # outside of vehicles
 
     @property
     def ego(self) -> VehicleState:

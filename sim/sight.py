@@ -1,33 +1,42 @@
-"""What the ego can see: tall vehicles hide what is wholly behind them."""
+"""What the ego can see: tall vehicles and buildings hide what is wholly behind them."""
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Generic, TypeAlias, TypeVar
 
-from sim.boxes import corners
-from sim.scene import Point, VehicleState
+from sim.boxes import Box, corners
+from sim.buildings import NO_WALLS, Walls
+from sim.scene import PersonState, Point, VehicleState
 
 TALL = 2.0  # [m] least height of a vehicle that hides others: the ego sees over cars
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
-    """A vehicle with its height."""
+State = TypeVar("State", VehicleState, PersonState)
+Anybody: TypeAlias = "Body[VehicleState] | Body[PersonState]"
 
-    state: VehicleState
+
+@dataclass(frozen=True, slots=True)
+class Body(Generic[State]):
+    """A vehicle or person with its height."""
+
+    state: State
     height: float  # [m]
 
 
-def hidden(ego: VehicleState, target: Body, others: Iterable[Body]) -> bool:
-    """Whether a vehicle cannot be seen from the middle of the ego's roof.
+def hidden(
+    ego: VehicleState, target: Anybody, others: Iterable[Anybody], buildings: Walls = NO_WALLS
+) -> bool:
+    """Whether a vehicle or person cannot be seen from the middle of the ego's roof.
 
-    It cannot where its middle and its four corners are all behind tall vehicles, none of which
-    is lower than itself.
+    It cannot where its middle and its four corners are all behind buildings, or behind tall
+    vehicles of which none is lower than itself.
 
     Args:
         ego: whose view it is.
-        target: the vehicle to be seen.
+        target: who is to be seen.
         others: those that may stand between; the target may be among them.
+        buildings: that may stand between.
     """
     walls = [
         body.state
@@ -35,11 +44,14 @@ def hidden(ego: VehicleState, target: Body, others: Iterable[Body]) -> bool:
         if body.height >= max(TALL, target.height) and body.state is not target.state
     ]
     eye = _middle(ego)
-    return all(_blocked(eye, point, walls) for point in _outline(target.state))
+    return all(
+        _blocked(eye, point, walls) or buildings.between(eye, point)
+        for point in _outline(target.state)
+    )
 
 
-def crosses(a: Point, b: Point, box: VehicleState) -> bool:
-    """Whether the straight line from a to b passes through a vehicle; touching is not passing.
+def crosses(a: Point, b: Point, box: Box) -> bool:
+    """Whether the straight line from a to b passes through a box; touching is not passing.
 
     The line is clipped by the two pairs of parallel sides (Liang and Barsky, 1984).
     """
@@ -60,15 +72,15 @@ def crosses(a: Point, b: Point, box: VehicleState) -> bool:
     return leaves - enters > 1e-9
 
 
-def _blocked(eye: Point, point: Point, walls: Sequence[VehicleState]) -> bool:
+def _blocked(eye: Point, point: Point, walls: Sequence[Box]) -> bool:
     return any(crosses(eye, point, wall) for wall in walls)
 
 
-def _outline(state: VehicleState) -> tuple[Point, ...]:
+def _outline(state: Box) -> tuple[Point, ...]:
     return (_middle(state), *corners(state))
 
 
-def _middle(state: VehicleState) -> Point:
+def _middle(state: Box) -> Point:
     x, y = state.position
     back = state.length / 2.0
     return x - back * math.cos(state.heading), y - back * math.sin(state.heading)

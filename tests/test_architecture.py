@@ -32,7 +32,7 @@ PURE = (
 APART = {"xavi_dialogue.nlu": "xavi_dialogue.nlg", "xavi_dialogue.nlg": "xavi_dialogue.nlu"}
 GATES = {  # each outside world enters through one file
     "cryptography": "xavi_dialogue/transports/certificates.py",
-    "libsumo": "sim/sumo.py",
+    "libsumo": "sim/engine.py",
     "sumolib": "sim/netreader.py",
     "mcap": "xavi_dialogue/transports/mcap_file.py",
     "playwright": "xavi_dialogue/app/bench/browser.py",
@@ -160,7 +160,7 @@ def _word(node: ast.AST) -> str:
 
 
 def test_a_scene_shows_only_what_can_be_seen() -> None:
-    assert {field.name for field in fields(Scene)} == {"time", "vehicles", "lights"}
+    assert {field.name for field in fields(Scene)} == {"time", "vehicles", "lights", "people"}
     assert {field.name for field in fields(VehicleState)} == {
         *("position", "heading", "speed", "acceleration", "length", "width"),
         *("kind", "colour", "signals"),

@@ -124,7 +124,7 @@ def test_the_scene_shows_what_sumo_shows(cross: Path, network: Network) -> None:
         assert scene.lights == ()  # 130 m to go
         while scene.ego.position[0] < network.lanes["left0A0_0"].centreline[-1][0] - 30.0:
             scene = world.step(None)
-            letters = world._sumo.trafficlight.getRedYellowGreenState("A0")
+            letters = world._api.trafficlight.getRedYellowGreenState("A0")
             seen = {x.signal.index: x.state.value for x in scene.lights}
             assert all(letters[index] == state for index, state in seen.items())
         assert len(seen) == 12
@@ -141,7 +141,7 @@ def test_a_light_that_is_switched_off_shows_it(tmp_path: Path) -> None:
     with Simulation(load(signalled(tmp_path)), 0) as world:
         while not world.scene().lights:
             world.step(None)
-        world._sumo.trafficlight.setProgram("A0", "off")
+        world._api.trafficlight.setProgram("A0", "off")
         scene = world.step(None)
     assert {x.state for x in scene.lights} <= {LightState.FLASHING, LightState.OFF}
     assert all(x.change_seen for x in scene.lights)

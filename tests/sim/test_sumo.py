@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from sim import sumo
+from sim import engine
 from sim.netfile import read_network
 from sim.scenario import Scenario, load
 from sim.scene import EGO, Command, Scene, VehicleState
@@ -168,7 +168,8 @@ def test_a_scene_tells_what_can_be_seen_and_no_intent() -> None:
         *("position", "heading", "speed", "acceleration"),
         *("length", "width", "kind", "colour", "signals"),
     }
-    assert {field.name for field in dataclasses.fields(Scene)} == {"time", "vehicles"}
+    seen = {"time", "vehicles", "lights", "people"}
+    assert {field.name for field in dataclasses.fields(Scene)} == seen
 
 
 def test_lights_are_seen() -> None:
@@ -272,4 +273,4 @@ def test_what_sumo_lacks_is_named(
     monkeypatch.setattr(importlib, "import_module", refuse)
     with pytest.raises(SumoMissing, match=words):
         Simulation(S1, 0)
-    assert not sumo._running
+    assert not engine._running

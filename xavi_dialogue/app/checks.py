@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 import msgspec
 from platformdirs import user_cache_path, user_config_path, user_data_path, user_state_path
 
-from sim import netconvert, sumo
+from sim import engine, netconvert
 from xavi_dialogue.app import kernels
 from xavi_dialogue.transports.bus import DEFAULT_ENDPOINT
 from xavi_dialogue.transports.database import StoreError
@@ -103,8 +103,8 @@ def _numbers(version: str) -> tuple[int, ...]:
 def simulation(_: Patient) -> Finding:
     """SUMO, as a library."""
     try:
-        return Finding("sumo", "ok", sumo.version())
-    except sumo.SumoMissing as error:
+        return Finding("sumo", "ok", engine.version())
+    except engine.SumoMissing as error:
         found, _cut, advice = str(error).partition("; run: ")
         return Finding("sumo", "fault", found, f"run: {advice}")
 

@@ -1,0 +1,93 @@
+"""Buildings that hide what is behind them: outlines on the ground, higher than all on the road."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sim.scene import Point, VehicleState
+
+KIND = "building"  # how the types of their polygons begin, in SUMO's imports of OpenStreetMap
+OPEN = ("building.roof", "building.carport", "building.bridge")  # one drives and sees below them
+Rows = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Walls:
+    """The walls around the ego."""
+
+    starts: Rows  # [m] [N, 2]
+    ends: Rows  # [m] [N, 2]
+
+    def between(self, a: Point, b: Point) -> bool:
+        """Whether the straight line from a to b passes through a wall.
+
+        Two segments cross where the ends of each lie on both sides of the other (de Berg et al.,
+        "Computational Geometry", 2008, section 2.1); touching is not crossing.
+        """
+        if not len(self.starts):
+            return False
+        ax, ay = a
+        way = np.array([b[0] - ax, b[1] - ay])
+        one = _side(way, self.starts - (ax, ay))
+        other = _side(way, self.ends - (ax, ay))
+        walls = self.ends - self.starts
+        before = _side(walls, np.array(a) - self.starts)
+        after = _side(walls, np.array(b) - self.starts)
+        return bool(np.any((one * other < 0.0) & (before * after < 0.0)))
+
+
+NO_WALLS = Walls(np.empty((0, 2)), np.empty((0, 2)))
+
+
+class Buildings:
+    """The buildings of a world."""
+
+    def __init__(self, polygons: Iterable[tuple[str, tuple[Point, ...]]]) -> None:
+        """Keep those that hide something.
+
+        Args:
+            polygons: the type and outline [m] of each.
+        """
+        starts: list[Point] = []
+        ends: list[Point] = []
+        owners: list[int] = []
+        for number, (kind, outline) in enumerate(polygons):
+            if kind.startswith(KIND) and not kind.startswith(OPEN) and len(outline) > 2:
+                starts += outline
+                ends += (*outline[1:], outline[0])
+                owners += [number] * len(outline)
+        self._starts = np.array(starts).reshape(-1, 2)
+        self._ends = np.array(ends).reshape(-1, 2)
+        self._owners = np.array(owners, dtype=np.int64)
+
+    def around(self, ego: VehicleState, radius: float) -> Walls:
+        """The walls of which a part may be within a radius [m] of the ego.
+
+        A building that the ego is in hides nothing: the road leads through it.
+        """
+        if not len(self._starts):
+            return NO_WALLS
+        low = np.minimum(self._starts, self._ends) - radius
+        high = np.maximum(self._starts, self._ends) + radius
+        near = np.all((low <= ego.position) & (high >= ego.position), axis=1)
+        near &= ~np.isin(self._owners, self._around(ego.position))
+        return Walls(self._starts[near], self._ends[near])
+
+    def _around(self, point: Point) -> NDArray[np.int64]:
+        """The buildings that a point is in: a ray crosses an odd number of their walls."""
+        x, y = point
+        (ax, ay), (bx, by) = self._starts.T, self._ends.T
+        level = (ay > y) != (by > y)
+        ahead = np.zeros(len(ax), dtype=bool)
+        ahead[level] = (bx - ax)[level] * ((y - ay) / (by - ay + ~level))[level] + ax[level] > x
+        crossed = np.bincount(self._owners[ahead])
+        found: NDArray[np.int64] = np.flatnonzero(crossed % 2)
+        return found
+
+
+def _side(way: Rows, points: Rows) -> Rows:
+    """On which side of a way points lie: positive on its left (cross product)."""
+    side: Rows = way[..., 0] * points[..., 1] - way[..., 1] * points[..., 0]
+    return side

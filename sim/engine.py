@@ -1,0 +1,153 @@
+"""libsumo behind one door: the only module that imports it.
+
+SimulationError
+├── SumoMissing          libsumo, or a system library that it needs, is not installed
+├── SimulationRunning    a second simulation in one process
+├── SumoFailed           SUMO refused what it was given
+└── EgoGone              the ego is not on the road
+"""
+
+import importlib
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self, TypeVar
+
+from sim.quiet import errors_to, first_error
+
+SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
+UPWARDS = "../" * 64  # from any folder to the root
+
+_running = False  # libsumo is one per process: a second start would silently replace the first
+
+Value = TypeVar("Value")
+
+
+class SimulationError(Exception):
+    """The simulation cannot start or go on."""
+
+
+class SumoMissing(SimulationError):
+    """libsumo, or a system library that it needs, is not installed."""
+
+
+class SimulationRunning(SimulationError):
+    """A second simulation in one process."""
+
+    def __init__(self) -> None:
+        super().__init__("a simulation runs in this process already; close it or use another one")
+
+
+class SumoFailed(SimulationError):
+    """SUMO refused what it was given."""
+
+
+class EgoGone(SimulationError):
+    """The ego is not on the road."""
+
+
+class Engine:
+    """SUMO in this process; close it, or use it in a `with` statement."""
+
+    def __init__(self) -> None:
+        """Load libsumo, and keep others from starting it.
+
+        Raises:
+            SumoMissing: libsumo or a system library is not installed.
+            SimulationRunning: this process has a simulation already.
+        """
+        global _running
+        if _running:
+            raise SimulationRunning
+        self.api = _libsumo()
+        self._scratch = tempfile.TemporaryDirectory(prefix="xavi-")
+        self.scratch = Path(self._scratch.name)  # gone when it is closed
+        self.log = self.scratch / "errors.txt"  # of what SUMO writes while it reads its input
+        self.log.touch()
+        self.now = 0.0  # [s] as errors tell it
+        _running = self._open = True
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the simulation; closing twice does nothing."""
+        global _running
+        if self._open:
+            _running = self._open = False
+            self._scratch.cleanup()
+            self.api.close()
+
+    def start(self, arguments: Sequence[str], file: Path) -> None:
+        """Start SUMO; what it would write to files goes to the scratch folder.
+
+        Args:
+            arguments: of its command line, without its name.
+            file: what errors call the input.
+
+        Raises:
+            SumoFailed: SUMO does not accept them.
+        """
+        # SUMO puts the prefix before the last part of a path, in the folder of that file.
+        apart = ("--output-prefix", f"{UPWARDS}{self.scratch.resolve()}/".replace("//", "/"))
+        self.guarded(file, lambda: self.call(self.api.start, ["sumo", *arguments, *apart]))
+
+    def guarded(self, file: Path, act: Callable[[], Value]) -> Value:
+        """Do what makes SUMO read its input; its errors name the vehicle and the attribute.
+
+        Raises:
+            SumoFailed: SUMO does not accept the input.
+        """
+        try:
+            with errors_to(self.log):
+                return act()
+        except SumoFailed as error:
+            # SUMO writes more than it raises.
+            reason = first_error(self.log) or str(error)
+            raise SumoFailed(f"{file}: SUMO refuses it: {reason}") from error
+
+    def call(self, function: Callable[..., Value], *arguments: Any) -> Value:
+        """Call libsumo; its errors become ours.
+
+        Raises:
+            SumoFailed: SUMO cannot do it.
+        """
+        try:
+            return function(*arguments)
+        except (self.api.TraCIException, self.api.FatalTraCIError, RuntimeError) as error:
+            reason = str(error) or type(error).__name__
+            raise SumoFailed(f"SUMO at {self.now:g} s: {reason}") from error
+
+
+def version() -> str:
+    """Which SUMO there is.
+
+    Raises:
+        SumoMissing: none, or a system library is not installed.
+    """
+    return str(_libsumo().getVersion()[1])
+
+
+def _libsumo() -> Any:
+    """The libsumo module, untyped by its makers.
+
+    Raises:
+        SumoMissing: it, or a system library that it needs, is not installed.
+    """
+    try:
+        return importlib.import_module("libsumo")
+    except ModuleNotFoundError as error:
+        raise SumoMissing("libsumo is not installed; run: pip install libsumo") from error
+    except ImportError as error:
+        raise SumoMissing(
+            f"SUMO lacks a system library ({error}); run: apt-get install -y {SYSTEM_LIBRARIES}"
+        ) from error
