@@ -96,7 +96,7 @@ def one_of(names: Iterable[str]) -> str:
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """A remedy: what there is to choose from that is spelt much the same, or else what comes first."""
+    """A remedy: what there is to choose from that is spelt alike, or else what comes first."""
     listed = sorted(names)
     return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed[:MANY])
 

@@ -83,6 +83,27 @@ def place_of(file: Path, rider: Rider) -> str:
     return f"{file}?{urlencode(wishes)}"
 
 
+def with_wishes(place: str, wishes: dict[str, str]) -> str:
+    """A place with more wishes, which count in the stead of those it has."""
+    file, _, query = place.partition("?")
+    return f"{file}?{urlencode({**dict(parse_qsl(query)), **wishes})}"
+
+
+def with_rider(place: str) -> str:
+    """A place with the first car that departs as the ego, unless it says who that is.
+
+    Raises:
+        TableError: SUMO refuses the configuration, or no car departs.
+    """
+    file, wishes = split_place(place)
+    if wishes:
+        return place
+    departing = _who_departs(file)
+    if not departing:
+        raise TableError(file, None, "no car departs", "give --ego-from EDGE and --ego-to EDGE")
+    return place_of(file, Departing(departing[0]))
+
+
 def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     """Who is to be the ego.
 

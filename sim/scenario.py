@@ -8,7 +8,8 @@ Errors:
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
@@ -115,10 +116,28 @@ def load(name_or_path: str | Path) -> Scenario:
         NeedsMaps: its network is OpenDRIVE, and netconvert is not installed.
         SimulationError: SUMO, which reads configurations, is not installed or runs already.
     """
-    try:
+    with _invalid():
         if name_or_path not in available() and configuration.is_place(str(name_or_path)):
             return _configured(str(name_or_path))
         return _read(_folder(name_or_path))
+
+
+def with_rider(place: str) -> str:
+    """The place of a configuration with the first car that departs as the ego, if it has none.
+
+    Raises:
+        ScenarioInvalid: the configuration is wrong, or no car departs.
+        SimulationError: SUMO is not installed or runs already.
+    """
+    with _invalid():
+        return configuration.with_rider(place)
+
+
+@contextmanager
+def _invalid() -> Iterator[None]:
+    """What is wrong with a file as an error of the scenario."""
+    try:
+        yield
     except TableError as error:
         missing = isinstance(error.__cause__, NetconvertMissing)
         raise (NeedsMaps if missing else ScenarioInvalid)(str(error)) from error

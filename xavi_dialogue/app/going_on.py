@@ -80,10 +80,10 @@ def fresh(now: datetime, salt: str) -> Going:
 
 
 def place_of(scenario: Scenario) -> str | None:
-    """By what a scenario is loaded another time: its name if it is ours, else its folder."""
+    """By what a scenario is loaded another time: its name if it is ours, else its place."""
     ours = Path(str(files("sim"))) / "scenarios" / scenario.name
     if ours.resolve() == scenario.folder.resolve():
         return scenario.name
-    place = str(scenario.folder.resolve())
+    place = scenario.place
     # The name of a folder may be bytes that are no text, which cannot be told to others.
     return place if place.encode(errors="replace").decode() == place else None

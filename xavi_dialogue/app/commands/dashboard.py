@@ -13,7 +13,11 @@ from xavi_dialogue.app.commands.riding import AnyScenario, alone, passenger_of
 from xavi_dialogue.app.commands.sessions import keeping_in
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
+    Begin,
     Connect,
+    EgoFrom,
+    EgoId,
+    EgoTo,
     KeepDays,
     Seed,
     SessionName,
@@ -22,6 +26,7 @@ from xavi_dialogue.app.commands.shell import (
     StoreFile,
     Vehicle,
     ZenohFile,
+    place,
 )
 
 if TYPE_CHECKING:
@@ -81,6 +86,10 @@ def _dashboard(shell: Shell) -> Callable[..., None]:
         opens: Opens = True,
         store: StoreFile = None,
         keep_days: KeepDays = KEEP_DAYS,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
     ) -> None:
         """Show a car, its decisions and the conversation in a web page.
 
@@ -93,18 +102,19 @@ def _dashboard(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.transports.web.listen import Listen
 
         with shell.errors():
-            place = Listen.read(listen, token=token, names=tuple(host_name or ()))
+            scenario = place(scenario, ego, ego_from, ego_to, begin)
+            where = Listen.read(listen, token=token, names=tuple(host_name or ()))
             going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or going.session, share=False)
             if connect is not None or zenoh is not None:
                 alone(scenario=scenario, seed=seed, speed=speed, replay=replay)
                 link = Link.to_hub(connect, zenoh)
                 check(link, "show a car")
-                task = Task(place, vehicle, passenger, link, opens=opens)
+                task = Task(where, vehicle, passenger, link, opens=opens)
             else:
                 own = _own(shell, scenario, seed, replay, passenger, keeping_in(store, keep_days))
                 pace = 1.0 if speed is None else speed
-                task = Task(place, "car", passenger, own, speed=pace, opens=opens)
+                task = Task(where, "car", passenger, own, speed=pace, opens=opens)
             run(task, shell.note)
 
     return dashboard
@@ -130,7 +140,7 @@ def _own(
         at = going.moment(loaded, chosen)
         if going.before is not None:
             shell.note(going.note(at, keeping))
-        return Ride(str(loaded.folder), loaded.name, chosen, passenger, keeping, at)
+        return Ride(loaded.place, loaded.name, chosen, passenger, keeping, at)
     if scenario is not None or seed is not None:
         raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
     next(read(replay), None)  # raises at once where it is no recording

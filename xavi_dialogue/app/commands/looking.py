@@ -8,7 +8,12 @@ import typer
 
 from xavi_dialogue.app.commands.shell import (
     AsJson,
+    Begin,
+    EgoFrom,
+    EgoId,
+    EgoTo,
     Shell,
+    place,
     to_json,
 )
 from xavi_dialogue.app.exit_status import ExitStatus
@@ -18,6 +23,12 @@ def add(app: typer.Typer, shell: Shell) -> None:
     """Add the commands."""
     app.command("parse")(_parse(shell))
     app.command("scenarios")(_scenarios(shell))
+    folders = typer.Typer(
+        help="Write scenario folders.", no_args_is_help=True, rich_markup_mode=None
+    )
+    folders.callback()(_nothing)
+    folders.command("new")(_scenario_new(shell))
+    app.add_typer(folders, name="scenario")
     app.command("transcripts")(_transcripts(shell))
     traces = typer.Typer(
         help="Look into recorded decisions.", no_args_is_help=True, rich_markup_mode=None
@@ -69,6 +80,34 @@ def _scenarios(shell: Shell) -> Callable[..., None]:
                 shell.write(f"{name:12} {text}")
 
     return scenarios
+
+
+def _nothing() -> None:
+    """Write scenario folders."""
+
+
+def _scenario_new(shell: Shell) -> Callable[..., None]:
+    def new(
+        configuration: Annotated[Path, typer.Argument(metavar="FILE.sumocfg")],
+        folder: Annotated[Path, typer.Argument(metavar="FOLDER")],
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
+    ) -> None:
+        """Write a scenario folder about a SUMO configuration.
+
+        Unless it is named, the ego is the first car that departs.
+        """
+        from sim.scenario import with_rider
+        from xavi_dialogue.app.new_scenario import write
+
+        with shell.errors():
+            asked = place(str(configuration), ego, ego_from, ego_to, begin)
+            loaded = shell.load(with_rider(asked or str(configuration)))
+            shell.write(str(write(loaded, folder)))
+
+    return new
 
 
 def _transcripts(shell: Shell) -> Callable[..., None]:

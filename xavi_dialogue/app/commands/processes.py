@@ -11,8 +11,12 @@ from xavi_dialogue.app.commands.sessions import keeping_in
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
     AsJson,
+    Begin,
     Connect,
     Control,
+    EgoFrom,
+    EgoId,
+    EgoTo,
     KeepDays,
     OwnVehicle,
     ScenarioName,
@@ -21,6 +25,7 @@ from xavi_dialogue.app.commands.shell import (
     SpeedFactor,
     StoreFile,
     ZenohFile,
+    place,
     to_json,
 )
 
@@ -55,6 +60,10 @@ def _drive(shell: Shell) -> Callable[..., None]:
         ] = 8,
         as_json: AsJson = False,
         control: Control = False,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
     ) -> None:
         """Drive a scenario; with --connect or --zenoh, reported on the bus."""
         from xavi_dialogue.app.company import Staff
@@ -65,7 +74,8 @@ def _drive(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.transports.link import Link
 
         with shell.errors():
-            loaded = shell.load(scenario, told=control)
+            asked = place(scenario, ego, ego_from, ego_to, begin) or scenario
+            loaded = shell.load(asked, told=control)
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
             staff, signals = Staff(workers, waiting), Signals()
             name = vehicle or DEFAULT_VEHICLE

@@ -14,7 +14,11 @@ from xavi_dialogue.app.commands.sessions import keeping_in, typed_file
 from xavi_dialogue.app.commands.shell import (
     KEEP_DAYS,
     AsJson,
+    Begin,
     Connect,
+    EgoFrom,
+    EgoId,
+    EgoTo,
     KeepDays,
     Seed,
     SessionName,
@@ -23,6 +27,7 @@ from xavi_dialogue.app.commands.shell import (
     StoreFile,
     Vehicle,
     ZenohFile,
+    place,
 )
 
 if TYPE_CHECKING:
@@ -34,7 +39,8 @@ if TYPE_CHECKING:
 DEFAULT_SCENARIO = "s1"
 
 AnyScenario = Annotated[
-    str | None, typer.Option("--scenario", help="A name, or a folder. Default: s1.")
+    str | None,
+    typer.Option("--scenario", help="A name, a folder, or a .sumocfg. Default: s1."),
 ]
 Share = Annotated[
     bool, typer.Option("--share", help="Let others on the bus read what is asked and answered.")
@@ -67,9 +73,14 @@ def _chat(shell: Shell) -> Callable[..., None]:
         ] = False,
         store: StoreFile = None,
         keep_days: KeepDays = KEEP_DAYS,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
     ) -> None:
         """Ride and talk; with --connect or --zenoh, in a car that is under way."""
         with shell.errors():
+            scenario = place(scenario, ego, ego_from, ego_to, begin)
             keeping = keeping_in(store, keep_days)
             there = there_of(connect, zenoh, vehicle)
             if there is None:
@@ -120,7 +131,7 @@ def _drive(
     if session is None or keeping is None or going.before is not None:
         shell.note(going.note(at, keeping))
     passenger = passenger_of(going.session, share, kept=keeping is not None)
-    ride = Ride(str(loaded.folder), loaded.name, seed, passenger, keeping, at)
+    ride = Ride(loaded.place, loaded.name, seed, passenger, keeping, at)
     if tape is not None:
         ride = replace(ride, record=tape.path, overwrite=tape.overwrite)
     if _terminal(as_json):
@@ -168,6 +179,10 @@ def _ask(shell: Shell) -> Callable[..., None]:
         vehicle: Vehicle = "car",
         session: SessionName = None,
         share: Share = False,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
     ) -> None:
         """Drive up to a moment, answer one question, and exit; or ask a car that is under way."""
         from xavi_dialogue.app.exit_status import status_of
@@ -176,14 +191,15 @@ def _ask(shell: Shell) -> Callable[..., None]:
         def driven() -> "Reply":
             from xavi_dialogue.app.ask import ask_once
 
-            loaded = shell.load(scenario or DEFAULT_SCENARIO)
+            asked = place(scenario, ego, ego_from, ego_to, begin)
+            loaded = shell.load(asked or DEFAULT_SCENARIO)
             return ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
 
         def under_way(there: "There") -> "Reply":
             from xavi_dialogue.app import going_on
             from xavi_dialogue.app.remote import ask_there
 
-            alone(scenario=scenario, seed=seed)
+            alone(scenario=place(scenario, ego, ego_from, ego_to, begin), seed=seed)
             fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or fresh.session, share)
             return ask_there(there, passenger, text, at, style)

@@ -35,6 +35,27 @@ class Shell:
         return scenario
 
 
+def place(
+    scenario: str | None,
+    ego: str | None,
+    origin: str | None,
+    destination: str | None,
+    begin: float | None,
+) -> str | None:
+    """The scenario as one text, which says who the ego is, too."""
+    asked = {"ego": ego, "from": origin, "to": destination, "begin": begin}
+    wishes = {key: str(value) for key, value in asked.items() if value is not None}
+    if not wishes:
+        return scenario
+    from sim.configuration import is_place, with_wishes
+
+    if scenario is None or not is_place(scenario):
+        raise typer.BadParameter(
+            "--ego, --ego-from, --ego-to and --begin go with --scenario FILE.sumocfg"
+        )
+    return with_wishes(scenario, wishes)
+
+
 def to_json(value: object) -> str:
     """The value as one line of JSON."""
     import msgspec
@@ -51,7 +72,22 @@ def _name(value: Any) -> Any:
     return value
 
 
-ScenarioName = Annotated[str, typer.Option("--scenario", help="A name, or a folder.")]
+ScenarioName = Annotated[
+    str, typer.Option("--scenario", help="A name, a folder, or a SUMO configuration (.sumocfg).")
+]
+EgoId = Annotated[
+    str | None, typer.Option("--ego", metavar="ID", help="Of a .sumocfg: the vehicle to be.")
+]
+EgoFrom = Annotated[
+    str | None, typer.Option("--ego-from", metavar="EDGE", help="Of a .sumocfg: where to start.")
+]
+EgoTo = Annotated[
+    str | None, typer.Option("--ego-to", metavar="EDGE", help="With --ego-from: where to go.")
+]
+Begin = Annotated[
+    float | None,
+    typer.Option(min=0.0, metavar="SECONDS", help="With --ego-from: when to start."),
+]
 Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
