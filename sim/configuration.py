@@ -25,6 +25,7 @@ ENDINGS = (".sumocfg", ".sumocfg.xml", ".sumo.cfg")
 STEP = 0.1  # [s] the longest in which the car is driven
 SHOWN = 3  # warnings of SUMO
 CAR = "passenger"
+YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] of the last edge, where the goal lies
 KEYS = ("ego", "from", "to", "begin")
 UNFORESEEN = {"tram": "trams", "train": "trains", "ship": "ships"}  # by kind of vehicle
@@ -184,7 +185,7 @@ class _Inspection:
 
     def result(self) -> Inspected:
         """Run up to the ego's departure, and look."""
-        if self._option("mesosim") == "true":
+        if self._option("mesosim").lower() in YES:
             problem = "its vehicles have no places in SUMO's mesoscopic model"
             raise TableError(self.file, "mesosim", problem, "remove the option")
         path = Path(self._option("net-file"))

@@ -4,12 +4,14 @@ from collections.abc import Iterable
 
 from sim.scene import EGO
 
+LONGEST = 4  # digits of an id that is a name
+
 
 class VehicleNames:
     """Gives every vehicle a number and keeps it.
 
-    The ego is 0; another id that is a positive integer stands; the rest get the lowest free
-    number as they come into view.
+    The ego is 0; another id that is a positive integer of at most four digits stands; the rest
+    get the lowest free number as they come into view.
     """
 
     def __init__(self, ego: str, known: Iterable[str]) -> None:
@@ -28,10 +30,14 @@ class VehicleNames:
     def of(self, vehicle: str) -> int:
         """The name of a vehicle, given now if it has none."""
         if vehicle not in self._names:
-            name = int(vehicle) if _is_name(vehicle) else self._lowest_free()
+            name = int(vehicle) if self._stands(vehicle) else self._lowest_free()
             self._names[vehicle] = name
             self._taken.add(name)
         return self._names[vehicle]
+
+    def _stands(self, vehicle: str) -> bool:
+        """Whether an id is its own name: nobody got that number before it was known."""
+        return _is_name(vehicle) and (vehicle in self._order or int(vehicle) not in self._taken)
 
     def in_order(self, vehicles: Iterable[str]) -> list[str]:
         """Vehicles in the order in which they are to be named."""
@@ -46,4 +52,6 @@ class VehicleNames:
 
 
 def _is_name(vehicle: str) -> bool:
-    return vehicle.isascii() and vehicle.isdigit() and vehicle[0] != "0"
+    """Whether an id is short enough to be said."""
+    plain = vehicle.isascii() and vehicle.isdigit() and vehicle[0] != "0"
+    return plain and len(vehicle) <= LONGEST

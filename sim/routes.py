@@ -1,26 +1,20 @@
-"""Route files: which vehicles there are, and where they start.
+"""Route files, also gzipped: which vehicles there are, and where they start.
 
 The one error is RoutesError.
 """
 
-import random
+import gzip
 import xml.etree.ElementTree as ET
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
 VEHICLES = ("vehicle", "trip")
+GZIP = b"\x1f\x8b"  # how a gzipped file begins (RFC 1952)
 
 
 class RoutesError(Exception):
     """A route file is not XML, or a vehicle in it lacks what its start needs."""
-
-
-@dataclass(frozen=True, slots=True)
-class Spawn:
-    """How starts vary with the seed, for vehicles that depart at 0 s."""
-
-    longitudinal: float  # [m] length of the interval, centred on departPos
-    speed: tuple[float, float]  # [m/s] least and greatest
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +42,10 @@ def parse(path: Path) -> ET.Element:
         RoutesError: it cannot be read, or is not an XML file of routes.
     """
     try:
-        root = ET.parse(path).getroot()
+        data = path.read_bytes()
+        root = ET.fromstring(gzip.decompress(data) if data.startswith(GZIP) else data)
+    except (EOFError, gzip.BadGzipFile, zlib.error) as error:
+        raise RoutesError(f"a damaged gzip file: {error}") from error
     except OSError as error:
         raise RoutesError(f"cannot be read: {error.strerror}") from error
     except ET.ParseError as error:
@@ -66,7 +63,7 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
     """
     routes = {route.get("id"): route for route in root.iter("route") if route.get("id")}
     found = []
-    for element in _vehicles(root):
+    for element in vehicles(root):
         name = element.get("id")
         if not name:
             raise RoutesError(f"a <{element.tag}> has no id")
@@ -79,9 +76,9 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
         found.append(
             Departure(
                 id=name,
-                depart=_number(element.get("depart")),
+                depart=seconds(element.get("depart")),
                 edges=edges,
-                position=_number(element.get("departPos")),
+                position=number(element.get("departPos")),
                 coloured=bool(element.get("color")),
                 kind=element.get("type"),
                 trip=route is None,
@@ -113,33 +110,30 @@ def mentioned_edges(root: ET.Element) -> dict[str, str]:
     return found
 
 
-def with_spawn(root: ET.Element, spawn: Spawn, seed: int) -> bytes:
-    """A route file in which the starts at 0 s vary: the same seed gives the same file.
-
-    Place and speed are drawn uniformly, vehicle by vehicle in file order. SUMO's insertion
-    checks are off for these vehicles, since they would delay or slow a start.
-
-    Raises:
-        RoutesError: a vehicle that departs at 0 s has no departPos as a number.
-    """
-    copy = ET.fromstring(ET.tostring(root))
-    draw = random.Random(seed)
-    for element in _vehicles(copy):
-        if not _at_start(element):
-            continue
-        base = _number(element.get("departPos"))
-        if base is None:
-            raise RoutesError(f"vehicle {element.get('id')!r} has no departPos in metres")
-        half = spawn.longitudinal / 2.0
-        element.set("departPos", repr(base + draw.uniform(-half, half)))
-        element.set("departSpeed", repr(draw.uniform(*spawn.speed)))
-        element.set("insertionChecks", "none")
-    varied: bytes = ET.tostring(copy, encoding="utf-8", xml_declaration=True)
-    return varied
-
-
-def _vehicles(root: ET.Element) -> list[ET.Element]:
+def vehicles(root: ET.Element) -> list[ET.Element]:
+    """The elements of the vehicles and trips, in file order."""
     return [element for element in root if element.tag in VEHICLES]
+
+
+def number(text: str | None) -> float | None:
+    """The number that an attribute holds; None where it is absent or a word."""
+    try:
+        return None if text is None else float(text)
+    except ValueError:
+        return None
+
+
+def seconds(text: str | None) -> float | None:
+    """The time [s] that an attribute holds, also written as hours:minutes:seconds."""
+    parts = [number(part) for part in (text or "").split(":")]
+    if len(parts) not in (1, 3, 4):
+        return None
+    total = 0.0
+    for part, unit in zip(reversed(parts), (1.0, 60.0, 3600.0, 86400.0), strict=False):
+        if part is None:
+            return None
+        total += part * unit
+    return total
 
 
 def _edges(element: ET.Element) -> tuple[str, ...]:
@@ -147,14 +141,3 @@ def _edges(element: ET.Element) -> tuple[str, ...]:
         return tuple(element.get("edges", "").split())
     ends = (element.get("from", ""), *element.get("via", "").split(), element.get("to", ""))
     return tuple(edge for edge in ends if edge)
-
-
-def _at_start(element: ET.Element) -> bool:
-    return _number(element.get("depart")) == 0.0
-
-
-def _number(text: str | None) -> float | None:
-    try:
-        return None if text is None else float(text)
-    except ValueError:
-        return None

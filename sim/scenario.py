@@ -20,8 +20,9 @@ from sim.goal import Goal, check_goal, check_place
 from sim.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.opendrive import conversion_warnings
-from sim.routes import RoutesError, Spawn
+from sim.routes import RoutesError
 from sim.source import FROM_ROUTES, Added, Departing, FromConfiguration, Rider, Source, told
+from sim.spawning import Spawn
 from sim.tables import Table, TableError, read_toml
 
 CONFIG = "scenario.toml"
@@ -294,12 +295,13 @@ def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
         departures = routes.departures(root)
     except RoutesError as error:
         raise TableError(scenario.routes, None, str(error), "mend the route file") from error
-    check_routes(scenario.routes, root, network)
+    check_routes(scenario.routes, root, network, scenario.ego)
     ids = [departure.id for departure in departures]
     if scenario.ego not in ids:
         problem = f"{scenario.routes.name} has no vehicle {scenario.ego!r}"
         raise top.wrong("ego", problem, one_of(ids))
-    check_starts(scenario.routes, departures, network, scenario.ego, scenario.spawn)
+    spawn = scenario.spawn is not None
+    check_starts(scenario.routes, departures, network, scenario.ego, spawn)
     ego = next(x for x in departures if x.id == scenario.ego)
     check_goal(scenario.goal, top, network, ego)
     source = scenario.folder / top.text("network")

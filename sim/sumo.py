@@ -17,10 +17,12 @@ from sim.departing import depart, step
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
 from sim.looking import Eyes, Painted, View
 from sim.names import VehicleNames
+from sim.netfile import read_network
 from sim.options import listed, of_ride
 from sim.scenario import Scenario
 from sim.scene import Command, Scene, VehicleState
 from sim.source import FromConfiguration, FromRoutes
+from sim.spawning import with_spawn
 
 __all__ = [
     "EgoGone",
@@ -171,7 +173,8 @@ class Simulation:
             return self._scenario.routes
         root = routes.parse(self._scenario.routes)
         path = self._engine.scratch / "spawned.rou.xml"
-        path.write_bytes(routes.with_spawn(root, self._scenario.spawn, seed))
+        network = read_network(self._scenario.network)
+        path.write_bytes(with_spawn(root, self._scenario.spawn, seed, network))
         return path
 
     def _look(self, driven: VehicleState | None) -> View:

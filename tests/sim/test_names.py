@@ -16,6 +16,16 @@ def test_others_get_the_lowest_number_that_nobody_has() -> None:
     assert [names.of(x) for x in ("bus", "0", "007", "2")] == [1, 3, 4, 2]
 
 
+def test_long_numbers_are_no_names() -> None:
+    names = VehicleNames("ego", ["ego", "1695568168247882", "12345", "1234"])
+    assert [names.of(x) for x in ("1695568168247882", "12345", "1234")] == [1, 2, 1234]
+
+
+def test_an_id_whose_number_was_given_away_gets_another() -> None:
+    names = VehicleNames("ego", [])
+    assert [names.of(x) for x in ("flow.0", "1", "2", "flow.1")] == [1, 2, 3, 4]
+
+
 def test_a_name_is_kept() -> None:
     names = VehicleNames("ego", ["ego", "a", "b"])
     assert (names.of("b"), names.of("a"), names.of("b")) == (1, 2, 1)

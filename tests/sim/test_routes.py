@@ -1,22 +1,19 @@
-"""Starts that vary with the seed."""
+"""Route files: who departs, when and where."""
 
+import gzip
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import pytest
 
 from sim.routes import (
     RoutesError,
-    Spawn,
     coloured_types,
     departures,
     mentioned_edges,
     parse,
-    with_spawn,
+    seconds,
 )
-from sim.scenario import load
-
-SPAWN = Spawn(10.0, (5.0, 10.0))
-ROOT = parse(load("s1").routes)
 
 MIXED = ET.fromstring("""<routes>
   <vType id="cab" color="yellow"/>
@@ -25,49 +22,6 @@ MIXED = ET.fromstring("""<routes>
   <trip id="t" from="a" via="b c" to="d" depart="4" color="red" type="cab"/>
   <flow id="f" from="e" to="a" period="5"/>
 </routes>""")
-
-
-def starts(seed: int) -> dict[str, tuple[float, float]]:
-    """Place [m] and speed [m/s] by vehicle."""
-    root = ET.fromstring(with_spawn(ROOT, SPAWN, seed))
-    return {
-        vehicle.get("id", ""): (
-            float(vehicle.get("departPos", "")),
-            float(vehicle.get("departSpeed", "")),
-        )
-        for vehicle in root.iter("vehicle")
-    }
-
-
-def test_starts_stay_in_their_ranges_and_fill_them() -> None:
-    base = {vehicle.id: vehicle.position for vehicle in departures(ROOT)}
-    drawn = [starts(seed) for seed in range(200)]
-    for vehicle, place in base.items():
-        assert place is not None
-        shifts = [draw[vehicle][0] - place for draw in drawn]
-        speeds = [draw[vehicle][1] for draw in drawn]
-        assert -5.0 <= min(shifts) < -4.5
-        assert 4.5 < max(shifts) <= 5.0
-        assert 5.0 <= min(speeds) < 5.25
-        assert 9.75 < max(speeds) <= 10.0
-
-
-def test_a_seed_gives_one_file_and_vehicles_differ() -> None:
-    assert with_spawn(ROOT, SPAWN, 3) == with_spawn(ROOT, SPAWN, 3)
-    assert with_spawn(ROOT, SPAWN, 3) != with_spawn(ROOT, SPAWN, 4)
-    assert len({speed for _, speed in starts(3).values()}) == 3
-
-
-def test_drawing_leaves_the_routes_as_they_were() -> None:
-    before = ET.tostring(ROOT)
-    with_spawn(ROOT, SPAWN, 1)
-    assert ET.tostring(ROOT) == before
-
-
-def test_later_departures_do_not_vary() -> None:
-    root = ET.fromstring(with_spawn(MIXED, SPAWN, 1))
-    assert root.find("trip").attrib == MIXED.find("trip").attrib  # type: ignore[union-attr]
-    assert root.find("vehicle").get("insertionChecks") == "none"  # type: ignore[union-attr]
 
 
 def test_departures_of_vehicles_and_trips() -> None:
@@ -83,7 +37,23 @@ def test_edges_and_who_names_them_first() -> None:
     assert mentioned_edges(MIXED) == {"a": "r", "b": "r", "c": "t", "d": "t", "e": "f"}
 
 
-def test_a_start_that_is_no_number_cannot_vary() -> None:
-    root = ET.fromstring('<routes><vehicle id="v" depart="0" departPos="base"/></routes>')
-    with pytest.raises(RoutesError, match="'v' has no departPos"):
-        with_spawn(root, SPAWN, 1)
+@pytest.mark.parametrize(
+    ("text", "time"),
+    [("4", 4.0), ("0:00:00", 0.0), ("15:01:02", 54062.0), ("1:00:00:00", 86400.0)],
+)
+def test_times_may_be_written_as_clocks_do(text: str, time: float) -> None:
+    assert seconds(text) == time
+
+
+@pytest.mark.parametrize("text", [None, "", "triggered", "1:2", "a:0:0"])
+def test_what_is_no_time(text: str | None) -> None:
+    assert seconds(text) is None
+
+
+def test_a_gzipped_route_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.rou.xml.gz"
+    path.write_bytes(gzip.compress(ET.tostring(MIXED)))
+    assert departures(parse(path)) == departures(MIXED)
+    path.write_bytes(path.read_bytes()[:30])
+    with pytest.raises(RoutesError, match="damaged gzip"):
+        parse(path)

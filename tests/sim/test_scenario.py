@@ -8,7 +8,6 @@ import pytest
 
 from sim import netconvert
 from sim.netfile import read_network
-from sim.routes import Spawn
 from sim.scenario import (
     Goal,
     NeedsMaps,
@@ -18,6 +17,7 @@ from sim.scenario import (
     descriptions,
     load,
 )
+from sim.spawning import Spawn
 from tests.sim.folders import copy_of, edit
 
 
@@ -124,9 +124,8 @@ def test_a_broken_key(tmp_path: Path, old: str, new: str, problem: str, remedy: 
 
 ROUTES = [
     ("main_in exit_s", "main_in exit_x", "route of '1': there is no edge 'exit_x'", "choose one"),
-    ('departPos="82"', 'departPos="2"', "vehicle '1': departPos leaves no room", "5 to 185.5"),
-    ('departPos="82"', 'departPos="base"', "vehicle '1': departPos leaves no room", "number"),
-    ('departPos="82"', 'departPos="189"', "vehicle '1': departPos leaves no room", "185.5"),
+    ('departPos="82"', 'departPos="base"', "vehicle '1': departPos is no number", "0 to 190.5"),
+    ('departPos="82"', 'departPos="191"', "vehicle '1': departPos 191 is beyond", "190.5"),
     ('id="ego" type="car" depart="0"', 'id="ego" depart="3"', "the ego departs late", 'depart="0"'),
     ('<route edges="main_in exit_s"/>', "", "vehicle '1': it has no route", "give it <route"),
     (
@@ -136,7 +135,6 @@ ROUTES = [
         "car, pat",
     ),
     ("main_in exit_s", "main_in back_out", "route of '1': no way leads", "one of exit_n, exit_s"),
-    ('id="1" type="turning" depart="0"', 'id="1" depart="3"', "'2': it departs at 0 s", "in order"),
     ('vehicle id="1"', "vehicle", "a <vehicle> has no id", "mend the route file"),
     ("</routes>", "", "not an XML file", "mend the route file"),
 ]

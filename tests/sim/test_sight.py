@@ -2,16 +2,19 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.boxes import corners
+from sim.buildings import Buildings, Walls
 from sim.scenario import Scenario, load
-from sim.scene import EGO, Command, VehicleState
+from sim.scene import EGO, Command, PersonState, VehicleState
 from sim.sight import Body, crosses, hidden
 from sim.sumo import Simulation
+from tests.sim.crossroads import ROUTES, signalled
 
 
 def vehicle(x: float, y: float, length: float = 4.8, width: float = 1.8) -> VehicleState:
@@ -129,3 +132,73 @@ def test_cars_alone_hide_nobody(name: str) -> None:
     with Simulation(replace(scenario, view_radius=500.0), 0) as world:
         scenes = [world.step(None) for _ in range(60)]
     assert all(set(scene.vehicles) == {EGO, 1, 2} for scene in scenes)
+
+
+HOUSE = ("building.yes", ((10.0, 5.0), (30.0, 5.0), (30.0, 25.0), (10.0, 25.0)))
+
+
+def walls(*polygons: tuple[str, tuple[tuple[float, float], ...]]) -> Walls:
+    return Buildings(polygons).around(EGO_CAR, 100.0)
+
+
+def test_a_building_hides_what_is_behind_it() -> None:
+    behind = Body(vehicle(60.0, 42.0), 4.0)  # even a lorry
+    beside = Body(vehicle(60.0, 0.0), 1.5)
+    assert hidden(EGO_CAR, behind, [], walls(HOUSE))
+    assert not hidden(EGO_CAR, behind, [])
+    assert not hidden(EGO_CAR, beside, [], walls(HOUSE))
+
+
+def test_a_person_behind_a_corner_is_hidden_until_seen() -> None:
+    def walker(y: float) -> Body[PersonState]:
+        return Body(PersonState((40.0, y), 0.0, 1.4, 0.2, 0.5), 1.7)
+
+    assert hidden(EGO_CAR, walker(15.0), [], walls(HOUSE))
+    assert not hidden(EGO_CAR, walker(5.0), [], walls(HOUSE))
+
+
+@pytest.mark.parametrize("kind", ["landuse.grass", "building.roof", "", "water"])
+def test_what_is_no_building_hides_nothing(kind: str) -> None:
+    assert not hidden(EGO_CAR, Body(vehicle(60.0, 42.0), 1.5), [], walls((kind, HOUSE[1])))
+
+
+def test_a_building_that_the_road_leads_through_hides_nothing() -> None:
+    around = ("building", ((-20.0, -20.0), (50.0, -20.0), (50.0, 20.0), (-20.0, 20.0)))
+    assert not hidden(EGO_CAR, Body(vehicle(80.0, 0.0), 1.5), [], walls(around))
+    assert hidden(EGO_CAR, Body(vehicle(60.0, 42.0), 1.5), [], walls(around, HOUSE))
+
+
+def test_walls_far_away_are_left_out() -> None:
+    assert len(Buildings([HOUSE]).around(vehicle(500.0, 0.0), 100.0).starts) == 0
+    assert len(Buildings([HOUSE]).around(EGO_CAR, 100.0).starts) == 4
+    assert not Buildings([]).around(EGO_CAR, 100.0).between((0.0, 0.0), (9.0, 9.0))
+
+
+@given(
+    a=st.tuples(st.floats(-50.0, 5.0), st.floats(-50.0, 50.0)),
+    b=st.tuples(st.floats(35.0, 50.0), st.floats(-50.0, 50.0)),
+)
+def test_a_line_crosses_a_house_where_it_crosses_its_box(
+    a: tuple[float, float], b: tuple[float, float]
+) -> None:
+    box = VehicleState((30.0, 15.0), 0.0, 0.0, 0.0, 20.0, 20.0)
+    assert walls(HOUSE).between(a, b) == crosses(a, b, box)
+
+
+@pytest.mark.slow
+def test_people_are_in_the_scene_and_houses_hide_them(tmp_path: Path) -> None:
+    walks = '<walk edges="top0A0 A0bottom0"/></person>'
+    routes = ROUTES.replace("</routes>", f'<person id="ego" depart="0">{walks}</routes>')
+    guessed = ("--sidewalks.guess", "--crossings.guess")
+    scenario = load(signalled(tmp_path, routes, *guessed))
+    with Simulation(scenario, 0) as world:
+        assert world.scene().people == {}
+        while not world.scene().people:
+            scene = world.step(None)
+    assert set(scene.people) == {1}
+    assert set(scene.vehicles) == {EGO}  # a person may have the id of a vehicle
+    person = scene.people[1]
+    assert (person.kind, person.speed > 0.5) == ("pedestrian", True)
+    assert (person.length, person.width) == (pytest.approx(0.215), pytest.approx(0.478))
+    assert abs(person.heading + math.pi / 2.0) < 0.2  # to the south
+    assert math.dist(person.position, scene.ego.position) <= scenario.view_radius
