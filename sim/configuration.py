@@ -120,9 +120,9 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     if names:
         given = " and ".join(sorted(names))
         raise TableError(file, None, f"{given} alone say not who the ego is", how)
-    known = ", ".join(_who_departs(file)) or "no car"
-    problem = "it does not say who the ego is"
-    raise TableError(file, None, problem, f"{how}; those that depart: {known}")
+    known = ", ".join(_who_departs(file))
+    first = f"the first cars that depart: {known}" if known else "no car departs by itself"
+    raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")
 
 
 def _begin(file: Path, text: str | None) -> float | None:

@@ -54,12 +54,13 @@ class Eyes:
         """
         self._call, self._api = engine.call, engine.api
         self._ego, self._radius, self._names, self._painted = ego, radius, names, painted
+        self._driving: set[str] = set(self._call(self._api.vehicle.getIDList))
         state = self._api.trafficlight.getRedYellowGreenState
         self._signals = Signals(self._stop_lines(), lambda x: self._call(state, x))
         self._buildings = Buildings(self._polygons())
 
     def look(self, time: float, commanded: VehicleState | None) -> View:
-        """What there is now.
+        """What there is now; every step needs a look, which tells who came and went.
 
         Args:
             time: [s] of the scene.
@@ -71,7 +72,7 @@ class Eyes:
             SumoFailed: SUMO cannot tell.
         """
         api = self._api.vehicle
-        ids: tuple[str, ...] = self._call(api.getIDList)
+        ids = self._on_the_road()
         if self._ego not in ids:
             raise EgoGone(
                 f"the ego {self._ego!r} is not on the road at {time:g} s:"
@@ -97,6 +98,14 @@ class Eyes:
         lights = self._signals.look(time, ego, self._radius)
         scene = Scene(time, _sorted(vehicles), lights, _sorted(on_foot))
         return View(scene, {x: body.state for x, body in everybody.items()})
+
+    def _on_the_road(self) -> set[str]:
+        """The ids of the vehicles that have departed and not arrived."""
+        # SUMO's own list takes the longer the more vehicles are still to depart.
+        news = self._api.simulation
+        self._driving.update(self._call(news.getDepartedIDList))
+        self._driving.difference_update(self._call(news.getArrivedIDList))
+        return self._driving
 
     def _reaches(self, api: Any, name: str, ego: VehicleState) -> bool:
         position: Point = self._call(api.getPosition, name)

@@ -13,6 +13,7 @@ ALWAYS = {
     "--xml-validation.net": "never",
     "--xml-validation.routes": "never",
     "--no-step-log": "true",
+    "--verbose": "false",
     "--duration-log.disable": "true",
 }
 
