@@ -37,7 +37,7 @@ def draw(
         goal = _drawn(rng, [belief.probability for belief in known])
         ways = [way.probability for way in known[goal].trajectories]
         found.append(Sample(vehicle, goal, _drawn(rng, ways)))
-    for one in lights.known:
+    for one in lights.varying:
         shares = [course.probability for course in one.courses]
         found.append(LightSample(one.controller, _drawn(draws[one.controller], shares)))
     return tuple(found)
@@ -89,7 +89,7 @@ def likeliest(
     Best-first over ranks: a vehicle's next choice is considered once all before it are.
     """
     choices: list[_Choices] = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
-    choices += [_courses(one) for one in lights.known]
+    choices += [_courses(one) for one in lights.varying]
     ranks = (0,) * len(choices)
     waiting = [(-math.prod(own[0][1] for own in choices), ranks, 0)]
     while waiting:

@@ -72,7 +72,11 @@ def foresee(
             ways = [(AGAIN, again), *(((1.0 - AGAIN) * p / total, way) for p, way in ends)]
         elif again is not None:
             ways = [(1.0, again)]
-    courses = tuple(LightCourse(round(share, 6), way) for share, way in ways)
+    shares: dict[tuple[Showing, ...], float] = {}
+    for share, way in ways:
+        within = tuple(showing for showing in way if showing.time < time + horizon)
+        shares[within] = shares.get(within, 0.0) + share
+    courses = tuple(LightCourse(round(share, 6), way) for way, share in shares.items())
     return LightPrediction(watched.controller, watched.places, watched.seen, courses)
 
 

@@ -104,6 +104,7 @@ class Search:
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
     compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
     _plans: dict[tuple[Samples, Node], ActionPlan | Refusal] = field(default_factory=dict)
+    _expanded: dict[tuple[Situation, Action], ActionPlan | Refusal] = field(default_factory=dict)
     _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
     _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
     _motions: dict[Samples, Traffic] = field(default_factory=dict)
@@ -113,7 +114,7 @@ class Search:
     def __post_init__(self) -> None:
         names: tuple[int | str, ...] = (
             *self.beliefs,
-            *(one.controller for one in self.lights.known),
+            *(one.controller for one in self.lights.varying),
         )
         self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
 
@@ -281,7 +282,11 @@ class Search:
         if branch[-2:] == ("stop", "stop"):
             return Refusal("it is standing already")
         here = legs[-1].end if legs else self.root.here
-        return expand(self.task.roads, here, action, self.task.goal, self.task.view)
+        found = self._expanded.get((here, action))
+        if found is None:
+            found = expand(self.task.roads, here, action, self.task.goal, self.task.view)
+            self._expanded[here, action] = found
+        return found
 
     def _leg(self, samples: Samples, branch: Node, plan: ActionPlan, legs: Sequence[Leg]) -> Leg:
         """The last action of a branch, driven; the same samples give the same leg."""
@@ -301,7 +306,7 @@ class Search:
         """The others' motions as sampled."""
         found = self._motions.get(samples)
         if found is None:
-            courses = tuple(s.course for s in samples if isinstance(s, LightSample))
+            courses = self.lights.courses(s for s in samples if isinstance(s, LightSample))
             motions = [
                 self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motions.under(courses)
                 for s in samples

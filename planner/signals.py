@@ -5,7 +5,7 @@ each of its places (see `sim.scene.LightState`), UNSEEN where that is out of vie
 """
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -139,6 +139,16 @@ class Outlook:
 
     time: float  # [s] of step 0
     known: tuple[LightPrediction, ...] = ()
+
+    @cached_property
+    def varying(self) -> tuple[LightPrediction, ...]:
+        """The controllers that may go on in several ways."""
+        return tuple(one for one in self.known if len(one.courses) > 1)
+
+    def courses(self, drawn: Iterable[LightSample]) -> tuple[int, ...]:
+        """The course of every controller; of those that were not drawn, the only one."""
+        found = {sample.controller: sample.course for sample in drawn}
+        return tuple(found.get(one.controller, 0) for one in self.known)
 
     @cached_property
     def joint(self) -> tuple[tuple[int, ...], ...]:

@@ -28,8 +28,10 @@ READY = 4.0  # [m/s] at a waiting line, while somebody with priority stands
 JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
 FORESIGHT = 10  # steps ahead in which a vehicle that moves in is made room for
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
+LEAST = 0.2  # [m] gap reckoned with at least
 BEYOND = 0.5  # [m] beyond where one stops for a light, up to which it still counts
-AT_LINE = 0.15  # [m] before a line at which one has come to a full stop, by Krauss' safe speed
+AT_LINE = 1.0  # [m] before a line within which a full stop counts
+STANDING = 0.1  # [m/s] below which one stands
 
 # What a light shows: go first; go by the rules; stop if that is comfortable; stop; stop, then go.
 FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
@@ -119,8 +121,9 @@ def accelerate(
     light, gap = _shut(course, motion, step)
     safe = safe_speed(gap, 0.0, COMFORT)
     if light >= 0 and safe < wanted:
-        wanted, who = safe, -1
-        hardest = max(hardest, min(speed * speed / (2.0 * max(gap, AT_LINE)), EMERGENCY))
+        needed = min(speed * speed / (2.0 * max(gap, LEAST)), EMERGENCY)
+        wanted, who = min(safe, max(speed - needed * RELAXATION, 0.0)), -1
+        hardest = max(hardest, needed)
     elif light >= 0 and not _queues(others, who, how, step, arc + gap):
         light = -1
     chosen = towards(speed, acceleration, wanted, hardest, dt)
@@ -129,22 +132,17 @@ def accelerate(
 
 @_jit
 def _shut(course: Course, motion: Motion, step: int) -> tuple[int, float]:
-    """The next light that is to be stopped for (-1: none), and how far [m] it is.
-
-    At amber, that is where braking is as gentle as behind others, or under way; at red, wherever
-    one can.
-    """
+    """The next light at which one can stop (at amber, gently; -1: none), and how far [m] it is."""
     arc, speed, acceleration = motion
     found, nearest = -1, math.inf
     for k in range(len(course.lights)):
         gap = course.lights[k] - arc
         shown = course.shows[k, min(step, course.shows.shape[1] - 1)]
-        if shown <= OPEN or not -BEYOND <= gap < nearest or (shown == HALT and gap <= AT_LINE):
+        halted = shown == HALT and gap <= AT_LINE and (speed < STANDING or acceleration > 0.0)
+        if shown <= OPEN or halted or not -BEYOND <= gap < nearest:
             continue
-        hardest = EMERGENCY
-        if shown == AMBER:
-            hardest = FIRM if acceleration < -HINDERED else FOLLOWING
-        if speed * speed <= 2.0 * hardest * (gap + BEYOND):
+        gently = FIRM if acceleration < -HINDERED else FOLLOWING
+        if speed * speed <= 2.0 * (gently if shown == AMBER else EMERGENCY) * (gap + BEYOND):
             found, nearest = k, gap
     return found, nearest
 
@@ -344,7 +342,7 @@ def drive(
             share = (goal - before) / max(arc - before, 1e-9)
             time = (step + min(max(share, 0.0), 1.0)) * STEP
             return motion[: k + 2], hindrance[: k + 1], True, time
-        standing = standing + 1 if speed < 0.1 else 0
+        standing = standing + 1 if speed < STANDING else 0
         if (standing * STEP >= STANDING_TIME) if course.halting > 0.0 else (arc >= end):
             return motion[: k + 2], hindrance[: k + 1], True, math.nan
     return motion, hindrance, False, math.nan
