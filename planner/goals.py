@@ -73,6 +73,8 @@ def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:
         return [_exit(roads, inside, direction_of(roads, inside))]
     ahead = approach(roads, here, view)
     last = network.lanes[ahead.lanes[-1]]
+    if all(network.lanes[lane].internal for lane in ahead.lanes):
+        return []  # on a way through a junction that no link for cars leads along
     lanes = () if last.internal else network.edge_lanes(last.edge)
     leads = [lead for lane in lanes for lead in lane_end(roads, lane.id).leads]
     if ahead.distance > view or not leads:

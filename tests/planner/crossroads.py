@@ -98,7 +98,7 @@ def crossroads() -> Roads:
                     _foes(k, turn),
                     False,
                     Signal(CONTROLLER, place(arm, turn)),
-                )  # fmt: skip
+                )
             )
     return Roads(Network(lanes, tuple(links), "crossroads"))
 

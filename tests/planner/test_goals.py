@@ -88,3 +88,14 @@ def test_a_road_that_branches_off_a_motorway_is_an_exit(number: int) -> None:
         "ramp": ("continue", "the exit on the right"),
         "road_on": ("continue", "the road straight on"),
     }
+
+
+def test_a_way_through_a_junction_that_is_not_for_cars_leads_nowhere() -> None:
+    """An internal lane of no link: the link that it belonged to is not for cars."""
+    roads = drawn([lane(":J_0_0", [(0.0, 0.0), (20.0, 0.0)], inside=True)])
+    assert seen_anywhere(roads, ":J_0_0") == ["stop"]
+
+
+def seen_anywhere(roads: Roads, name: str) -> list[Action]:
+    """The kinds of the goals in view."""
+    return [goal.kind for goal in goals_in_view(roads, (on_lane(roads, name, 5.0),), VIEW)]
