@@ -12,6 +12,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from sim import scenario
+from tests.sim.test_configuration import configured
 from xavi_dialogue.__main__ import _note, app
 from xavi_dialogue.app import ask, chat, drive
 from xavi_dialogue.app.bench import drive as bench_drive
@@ -267,3 +268,34 @@ def test_notes_at_a_terminal_break_at_spaces_alone(monkeypatch: pytest.MonkeyPat
         lines = terminal.getvalue().splitlines()
         assert max(map(len, lines)) <= int(width)
         assert [word for line in lines for word in line.split()] == ["xavi:", *note.split()]
+
+
+def test_wishes_for_the_ego_need_a_configuration() -> None:
+    for options in (("--ego", "x"), ("--scenario", "s1", "--ego-from", "a", "--ego-to", "b")):
+        done = xavi("ask", "Why?", *options)
+        assert done.exit_code == 2
+        assert "go with --scenario FILE.sumocfg" in done.stderr
+
+
+def test_a_configuration_without_an_ego_lists_who_departs(tmp_path: Path) -> None:
+    file = configured(tmp_path)
+    done = xavi("drive", "--scenario", str(file))
+    assert done.exit_code == 2
+    assert "the first cars that depart: other" in done.stderr
+
+
+def test_a_folder_is_written_about_a_configuration(tmp_path: Path) -> None:
+    file, folder = configured(tmp_path), tmp_path / "mine"
+    done = xavi("scenario", "new", str(file), str(folder), "--ego", "late")
+    assert done.exit_code == 0
+    assert done.stdout.strip() == str(folder / "scenario.toml")
+    assert 'ego = "late"' in (folder / "scenario.toml").read_text()
+    assert xavi("scenario", "new", str(file), str(folder), "--ego", "late").exit_code == 2
+
+
+def test_a_car_drives_in_a_configuration(tmp_path: Path) -> None:
+    ego = ("--ego-from", "top0A0", "--ego-to", "A0left0", "--begin", "60")
+    done = xavi("drive", "--scenario", str(configured(tmp_path)), *ego, "--duration", "2", "--json")
+    assert done.exit_code == 0
+    summary = json.loads(done.stdout)
+    assert (summary["scenario"], summary["ended"], summary["decisions"]) == ("cross", "duration", 2)
