@@ -346,7 +346,7 @@ from pathlib import Path
 from xavi_dialogue.app import player, recorder, worker
 from xavi_dialogue.app.commands import recording
 player.load(Path(sys.argv[1]), None, print)
-print(sorted(name for name in sys.modules if name.startswith(("libsumo", "sumolib", "traci"))))
+print(sorted(name for name in sys.modules if name.startswith(("libsumo", "traci"))))
 """
 
 

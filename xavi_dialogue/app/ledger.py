@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Generic, TypeAlias, TypeVar
 
-from sim.scene import Scene
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.dialogue.events import (
     EventRecorded,
@@ -141,7 +140,7 @@ class Ledger:
         # Who joins late is sent no more than what is kept for that.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
-        seen = SceneSeen(Scene(report.sim_time, report.vehicles))
+        seen = SceneSeen(report.scene())
         return [*self._gaps(), *traces, *events, seen, *self._end()]
 
     def complete(self, at: float) -> bool:

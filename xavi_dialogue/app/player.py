@@ -20,7 +20,6 @@ import msgspec
 
 from planner.events import Event
 from sim.netfile import NetworkError, read_network
-from sim.scene import Scene
 from xavi_dialogue.app import control
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.car import COUNTERS, SHOWN_EVERY, Pace, serve
@@ -179,7 +178,7 @@ class Player:
             first=self._first,
         )
         self.alive.count("decisions")
-        self.record(Moment(Scene(scene.sim_time, scene.vehicles), scene.plan, trace))
+        self.record(Moment(scene.scene(), scene.plan, trace))
         self._trace.put(pack(report))
         self.traces += 1
 

@@ -120,6 +120,8 @@ class Reporter:
             sim_time=clock(moment),
             wall_time=time.time(),
             vehicles=dict(moment.scene.vehicles),
+            lights=moment.scene.lights,
+            people=dict(moment.scene.people),
             state=state,
             speed_factor=speed_factor,
             plan=moment.plan,

@@ -15,7 +15,7 @@ import msgspec
 
 from planner.events import Event
 from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
-from sim.scene import EGO, VehicleState
+from sim.scene import EGO, Light, PersonState, Scene, VehicleState
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.nlg.context import Style
@@ -83,6 +83,8 @@ class SceneReport(Report, frozen=True, kw_only=True):
 
     schema: Literal["xavi.scene/1"] = "xavi.scene/1"
     vehicles: dict[Whole, VehicleState]
+    lights: tuple[Light, ...] = ()
+    people: dict[Whole, PersonState] = {}
     state: CarState
     speed_factor: float  # simulated seconds per second; 0: as fast as possible
     plan: tuple[Action, ...]
@@ -91,6 +93,10 @@ class SceneReport(Report, frozen=True, kw_only=True):
     orders: Count = 0  # lines on its standard input that the car has obeyed
     scenario: Folder | None = None  # name or folder, and seed: how to drive the ride again
     seed: Whole | None = None
+
+    def scene(self) -> Scene:
+        """What it shows."""
+        return Scene(self.sim_time, self.vehicles, self.lights, self.people)
 
 
 class TraceReport(Report, frozen=True, kw_only=True):
