@@ -45,6 +45,17 @@ def depart(engine: Engine, file: Path, rider: Rider) -> str:
             return _add(engine, file, rider)
 
 
+def forget_stops(engine: Engine, name: str) -> None:
+    """Take a vehicle's stops away: SUMO would hold the ego there whatever it is told.
+
+    Raises:
+        SumoFailed: SUMO cannot do it.
+    """
+    api = engine.api.vehicle
+    while engine.call(api.getStops, name):
+        engine.call(api.replaceStop, name, 0, "")
+
+
 def first_departures(engine: Engine) -> list[str]:
     """The ids of the cars that depart first; the simulation runs on up to then."""
     found: list[str] = []

@@ -141,9 +141,9 @@ def _link(connection: Any, inside: dict[str, str], indices: dict[Any, int]) -> L
 
 
 def _control(connection: Any) -> Control:
-    """The place of a connection in a traffic light, if it has one."""
-    controller = connection.getTLSID()
-    return Signal(controller, connection.getTLLinkIndex()) if controller else UNSIGNALLED
+    """The place of a connection in a traffic light, if it has one; rails at a crossing have none."""
+    controller, index = connection.getTLSID(), connection.getTLLinkIndex()
+    return Signal(controller, index) if controller and index >= 0 else UNSIGNALLED
 
 
 def _internal(connection: Any) -> bool:

@@ -5,7 +5,7 @@ shown can be told from how the junction is worked, and from who goes.
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from sim.scene import Light, LightState, Point, Signal, VehicleState
 
@@ -34,6 +34,7 @@ class Signals:
         self._lines: dict[str, dict[int, tuple[Point, ...]]] = {}
         for signal, points in stop_lines.items():
             self._lines.setdefault(signal.controller, {})[signal.index] = points
+        self._around = {name: _circle(lines.values()) for name, lines in self._lines.items()}
         self._seen: dict[Signal, Light] = {}
 
     def look(self, time: float, ego: VehicleState, radius: float) -> tuple[Light, ...]:
@@ -53,6 +54,9 @@ class Signals:
 
     def _lights(self, time: float, ego: VehicleState, radius: float) -> Iterator[Light]:
         for controller, lines in self._lines.items():
+            middle, reach = self._around[controller]
+            if math.dist(middle, ego.position) > radius + reach:
+                continue
             near = [index for index, points in lines.items() if _in_view(points, ego, radius)]
             letters = self._state(controller) if near else ""
             for index in near:
@@ -64,6 +68,14 @@ class Signals:
         if before is not None and before.state is state:
             return before
         return Light(signal, state, time, change_seen=before is not None)
+
+
+def _circle(lines: Iterable[tuple[Point, ...]]) -> tuple[Point, float]:
+    """A circle around all stop lines of a controller: its middle and radius [m]."""
+    points = [point for line in lines for point in line]
+    xs, ys = zip(*points, strict=True)
+    middle = ((min(xs) + max(xs)) / 2.0, (min(ys) + max(ys)) / 2.0)
+    return middle, max(math.dist(middle, point) for point in points)
 
 
 def _named(letter: str) -> LightState:

@@ -13,7 +13,7 @@ from typing import Self
 
 from sim import appearance, routes
 from sim.boxes import overlap
-from sim.departing import depart, step
+from sim.departing import depart, forget_stops, step
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
 from sim.looking import Eyes, Painted, View
 from sim.names import VehicleNames
@@ -165,6 +165,7 @@ class Simulation:
                 options["--configuration-file"] = str(scenario.routes)
                 self._engine.start(listed(options), scenario.routes)
                 self._ego = depart(self._engine, scenario.routes, rider)
+                forget_stops(self._engine, self._ego)
                 return VehicleNames(self._ego, ()), Painted()
 
     def _routes(self, seed: int) -> Path:

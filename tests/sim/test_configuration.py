@@ -189,7 +189,10 @@ def test_what_is_not_modelled_is_named(tmp_path: Path) -> None:
     tram = '<vType id="line" vClass="tram"/><vType id="cab"'
     (tmp_path / "types.add.xml").write_text(ADDITIONAL.replace('<vType id="cab"', tram))
     (tmp_path / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode()))
-    told = load(f"{file}?ego=late").warnings
+    scenario = load(f"{file}?ego=late")
+    told = scenario.warnings
+    with Simulation(scenario, 0) as world:
+        assert world._engine.api.vehicle.getStops("late") == ()
     for words in (
         "steps of 1 s are shortened to 0.1 s",
         "stops of 'late' are not made",

@@ -105,6 +105,20 @@ def test_the_network_knows_what_controls_a_link(network: Network) -> None:
     assert network.signalled(Signal("A0", 99)) == ()
 
 
+def test_a_controller_far_away_is_not_asked() -> None:
+    asked = []
+    lines = {
+        A: ((50.0, 0.0),),
+        Signal("far", 0): ((500.0, 0.0),),
+        Signal("far", 1): ((540.0, 0.0),),
+    }
+    signals = Signals(lines, lambda controller: asked.append(controller) or "GG")
+    assert [light.signal for light in signals.look(0.0, EAST, 100.0)] == [A]
+    near = VehicleState((440.0, 0.0), 0.0, 10.0, 0.0, 4.8, 1.8)
+    assert [x.signal.index for x in signals.look(1.0, near, 100.0)] == [0, 1]
+    assert asked == ["t", "far"]
+
+
 def test_links_without_a_light_are_unsignalled() -> None:
     links = read_network(load("town").network).links
     assert {way.control for way in links} == {UNSIGNALLED}
