@@ -141,7 +141,7 @@ def _link(connection: Any, inside: dict[str, str], indices: dict[Any, int]) -> L
 
 
 def _control(connection: Any) -> Control:
-    """The place of a connection in a traffic light, if it has one; rails at a crossing have none."""
+    """The place of a connection in a traffic light, if any; rails at a crossing have none."""
     controller, index = connection.getTLSID(), connection.getTLLinkIndex()
     return Signal(controller, index) if controller and index >= 0 else UNSIGNALLED
 
