@@ -12,8 +12,6 @@ from planner.signals import MEANING, STEP, LightPrediction, Lights
 from planner.trajectory import Roads
 from sim.scene import Scene, Signal
 
-CLOSELY = 2  # controllers on the way of which several courses are told apart
-
 
 def lookout(
     roads: Roads, watched: Sequence[Watched], time: float, horizon: float, edges: Sequence[str]
@@ -25,14 +23,14 @@ def lookout(
         watched: what was seen of each controller in view.
         time: [s] now.
         horizon: [s] for which that is needed.
-        edges: along which the ego drives; of those that it comes to next, several courses are
-            told apart.
+        edges: along which the ego drives; of the controller that it comes to next, several
+            courses are told apart.
     """
     known = {one.controller for one in watched}
-    next_ones = [name for name in dict.fromkeys(_along(roads, edges)) if name in known][:CLOSELY]
+    coming = next((name for name in _along(roads, edges) if name in known), None)
     lasting = horizon + GAP_HORIZON * STEP
     return tuple(
-        foresee(roads, one, time, lasting, closely=one.controller in next_ones) for one in watched
+        foresee(roads, one, time, lasting, closely=one.controller == coming) for one in watched
     )
 
 
