@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.boxes import Box, corners
 from sim.scene import Point, VehicleState
 
 KIND = "building"  # how the types of their polygons begin, in SUMO's imports of OpenStreetMap
@@ -36,6 +37,28 @@ class Walls:
         before = _side(walls, np.array(a) - self.starts)
         after = _side(walls, np.array(b) - self.starts)
         return bool(np.any((one * other < 0.0) & (before * after < 0.0)))
+
+    def hide(self, eye: Point, points: Rows) -> NDArray[np.bool_]:
+        """Which of many points [m] [M, 2] are behind a wall, as `between` says."""
+        if not len(self.starts) or not len(points):
+            return np.zeros(len(points), dtype=bool)
+        starts, ends, ways = self.starts - eye, self.ends - eye, points - eye
+        walls = ends - starts
+        one, other = ways @ _turned(starts).T, ways @ _turned(ends).T  # [M, N]: sides of the way
+        before = _side(walls, -starts)  # [N] on which side of the wall the eye is
+        after = before - ways @ _turned(walls).T  # [M, N] on which side of it the point is
+        crossed: NDArray[np.bool_] = (one * other < 0.0) & (before * after < 0.0)
+        hidden: NDArray[np.bool_] = np.logical_or.reduce(crossed, axis=1)
+        return hidden
+
+    def beside(self, boxes: Iterable[Box]) -> "Walls":
+        """These walls, and the sides of boxes."""
+        starts, ends = [self.starts], [self.ends]
+        for box in boxes:
+            around = np.array(corners(box))
+            starts.append(around)
+            ends.append(np.roll(around, -1, axis=0))
+        return Walls(np.concatenate(starts), np.concatenate(ends))
 
 
 NO_WALLS = Walls(np.empty((0, 2)), np.empty((0, 2)))
@@ -85,6 +108,11 @@ class Buildings:
         crossed = np.bincount(self._owners[ahead])
         found: NDArray[np.int64] = np.flatnonzero(crossed % 2)
         return found
+
+
+def _turned(ways: Rows) -> Rows:
+    """Ways turned so that the scalar product with another is the cross product with it."""
+    return np.stack([ways[:, 1], -ways[:, 0]], axis=1)
 
 
 def _side(way: Rows, points: Rows) -> Rows:

@@ -6,12 +6,14 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 from sim import appearance
+from sim.blind import Blind
 from sim.buildings import Buildings
 from sim.engine import EgoGone, Engine
 from sim.lines import angle_between
 from sim.names import VehicleNames
+from sim.network import Network
 from sim.scene import PersonState, Point, Scene, Signal, VehicleState
-from sim.sight import Anybody, Body, hidden
+from sim.sight import TALL, Anybody, Body, eye_of, hidden
 from sim.signals import Signals
 
 State = TypeVar("State")
@@ -38,9 +40,15 @@ class Eyes:
     """Looks at a running simulation for its ego, step by step."""
 
     def __init__(
-        self, engine: Engine, ego: str, radius: float, names: VehicleNames, painted: Painted
+        self,
+        engine: Engine,
+        ego: str,
+        radius: float,
+        names: VehicleNames,
+        painted: Painted,
+        network: Network,
     ) -> None:
-        """Get to know what does not change: stop lines and buildings.
+        """Get to know what does not change: stop lines, buildings and lanes.
 
         Args:
             engine: of a simulation that has started.
@@ -48,6 +56,7 @@ class Eyes:
             radius: [m] how far the ego sees.
             names: given to whoever comes into view.
             painted: whose colours are stated, beside those that differ from SUMO's own.
+            network: the roads.
 
         Raises:
             SumoFailed: SUMO cannot tell.
@@ -58,6 +67,7 @@ class Eyes:
         state = self._api.trafficlight.getRedYellowGreenState
         self._signals = Signals(self._stop_lines(), lambda x: self._call(state, x))
         self._buildings = Buildings(self._polygons())
+        self._blind = Blind(network)
 
     def look(self, time: float, commanded: VehicleState | None) -> View:
         """What there is now; every step needs a look, which tells who came and went.
@@ -96,7 +106,9 @@ class Eyes:
         vehicles[named[self._ego]] = ego
         on_foot = {named[x]: people[x].state for x in people if x in named}
         lights = self._signals.look(time, ego, self._radius)
-        scene = Scene(time, _sorted(vehicles), lights, _sorted(on_foot))
+        walls = walls.beside(body.state for body in near.values() if body.height >= TALL)
+        unseen = self._blind.stretches(eye_of(ego), self._radius, walls)
+        scene = Scene(time, _sorted(vehicles), lights, _sorted(on_foot), unseen)
         return View(scene, {x: body.state for x, body in everybody.items()})
 
     def _on_the_road(self) -> set[str]:

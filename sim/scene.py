@@ -71,6 +71,15 @@ class Light:
 
 
 @dataclass(frozen=True, slots=True)
+class Unseen:
+    """A stretch of a lane within reach of the eye that something tall stands before."""
+
+    lane: str
+    begin: float  # [m] along its centreline
+    end: float  # [m]
+
+
+@dataclass(frozen=True, slots=True)
 class Scene:
     """Everything in view at one instant, the ego among it.
 
@@ -81,6 +90,7 @@ class Scene:
     vehicles: Mapping[int, VehicleState]
     lights: tuple[Light, ...] = ()  # in view, by controller and index
     people: Mapping[int, PersonState] = field(default_factory=dict)  # outside of vehicles
+    unseen: tuple[Unseen, ...] = ()  # by lane, in the order of the network
 
     @property
     def ego(self) -> VehicleState:

@@ -43,7 +43,7 @@ def hidden(
         for body in others
         if body.height >= max(TALL, target.height) and body.state is not target.state
     ]
-    eye = _middle(ego)
+    eye = eye_of(ego)
     return all(
         _blocked(eye, point, walls) or buildings.between(eye, point)
         for point in _outline(target.state)
@@ -70,6 +70,11 @@ def crosses(a: Point, b: Point, box: Box) -> bool:
         near, far = sorted(((low - start) / step, (high - start) / step))
         enters, leaves = max(enters, near), min(leaves, far)
     return leaves - enters > 1e-9
+
+
+def eye_of(ego: VehicleState) -> Point:
+    """From where [m] the ego looks around: the middle of its roof."""
+    return _middle(ego)
 
 
 def _blocked(eye: Point, point: Point, walls: Sequence[Box]) -> bool:

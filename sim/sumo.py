@@ -67,7 +67,8 @@ class Simulation:
         try:
             names, painted = self._start(seed)
             self._names = names
-            self._eyes = Eyes(self._engine, self._ego, scenario.view_radius, names, painted)
+            roads, radius = read_network(scenario.network), scenario.view_radius
+            self._eyes = Eyes(self._engine, self._ego, radius, names, painted, roads)
             self._view = self._look(None)
         except BaseException:
             self.close()

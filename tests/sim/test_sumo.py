@@ -168,7 +168,7 @@ def test_a_scene_tells_what_can_be_seen_and_no_intent() -> None:
         *("position", "heading", "speed", "acceleration"),
         *("length", "width", "kind", "colour", "signals"),
     }
-    seen = {"time", "vehicles", "lights", "people"}
+    seen = {"time", "vehicles", "lights", "people", "unseen"}
     assert {field.name for field in dataclasses.fields(Scene)} == seen
 
 
