@@ -15,6 +15,7 @@ from sim.scene import Point, Signal
 CAR = "passenger"
 EQUAL = "right_before_left"
 RAIL = "rail_crossing"
+SHORTEST = 0.01  # [m] of a way through a junction; where it is shorter, the lanes touch
 CROSSING, WALKING_AREA = "crossing", "walkingarea"
 
 _DIRECTIONS: dict[str, Direction] = {
@@ -35,7 +36,7 @@ def graph_of(read: Read) -> Network:
     Raises:
         Broken: a lane has no shape, or a junction does not know a lane that leads to it.
     """
-    every = {lane.id: lane for lane in _lanes(read)}
+    every = {lane.id: lane for lane in _lanes(read) if not lane.internal or lane.length >= SHORTEST}
     indices = _link_indices(read)
     cars, others = _links(read, every, indices)
     served = set(chain.from_iterable(link.via for link in cars))
@@ -114,6 +115,7 @@ def _links(
         if _internal(connection) or _on_foot(connection):
             continue
         link = _link(connection, inside, indices)
+        link = replace(link, via=tuple(lane for lane in link.via if lane in lanes))
         used = [lanes[x] for x in (link.from_lane, *link.via, link.to_lane) if x in lanes]
         for_cars = connection.allows(CAR) and all(map(_open, used))
         (cars if for_cars else others).append(link)

@@ -2,6 +2,7 @@
 
 import gzip
 import hashlib
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -190,6 +191,20 @@ def test_a_link_that_only_bicycles_may_use_is_none_for_cars(tmp_path: Path) -> N
     assert [(way.from_lane, way.to_lane) for way in network.other_links] == [("a_0", "b_0")]
 
 
+def test_a_way_without_length_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "a.net.xml"
+    dot = (
+        '<edge id=":J_0" function="internal">'
+        '<lane id=":J_0_0" index="0" speed="10" length="0.1" shape="10,0 10,0"/></edge><junction'
+    )
+    way = '<connection from=":J_0" to="b" fromLane="0" toLane="0" dir="s" state="M"/></net>'
+    text = NET.replace("<junction", dot, 1).replace('dir="s"', 'via=":J_0_0" dir="s"')
+    path.write_text(text.replace("</net>", way))
+    network = read_network(path)
+    assert list(network.lanes) == ["a_0", "b_0"]
+    assert [way.via for way in network.links] == [()]
+
+
 def test_limits_are_those_of_the_class_of_vehicle(tmp_path: Path) -> None:
     path = tmp_path / "a.net.xml"
     path.write_text(NET)
@@ -318,3 +333,26 @@ def test_crossings_lie_across_their_roads(street: Network) -> None:
     assert south.line[0][1] == south.line[-1][1]  # from west to east
     assert south.width == 4.0
     assert street.junction_others("nowhere") == {}
+
+
+def test_the_crossings_of_a_way_are_known(street: Network) -> None:
+    turn = link(street, "left0A0_2", "A0bottom0_2")
+    assert {x.id for x in street.crossings_on(turn)} == {":A0_c2_0", ":A0_c3_0"}
+    assert street.crossings_on(replace(turn, other_foes=())) == ()
+
+
+@pytest.mark.parametrize(
+    ("place", "crossing"),
+    [
+        ((100.0, 91.0), ":A0_c2_0"),
+        ((100.0, 93.5), ":A0_c2_0"),  # two metres from its middle, and the margin
+        ((100.0, 94.0), None),
+        ((92.3, 89.5), ":A0_c2_0"),  # at its western end, before the other begins
+        ((100.0, 100.0), None),
+    ],
+)
+def test_who_is_on_a_crossing(
+    street: Network, place: tuple[float, float], crossing: str | None
+) -> None:
+    found = street.crossing_at(place)
+    assert (found and found.id) == crossing

@@ -35,6 +35,7 @@ def test_the_graph_holds_together(file: Path) -> None:
         assert lane.stated_length > 0.0
         assert ("passenger" in lane.permits) or lane.id in network.other_lanes
     for lane in network.lanes.values():
+        assert lane.length > 0.0
         assert "passenger" in lane.permits
         assert not lane.internal or network.link_via(lane.id) is not None
     for way in network.links:
