@@ -119,7 +119,7 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     how = "give --ego ID, or --ego-from EDGE and --ego-to EDGE with or without --begin SECONDS"
     if names:
         given = " and ".join(sorted(names))
-        raise TableError(file, None, f"{given} alone say not who the ego is", how)
+        raise TableError(file, None, f"{given} without more leaves open who the ego is", how)
     known = ", ".join(_who_departs(file))
     first = f"the first cars that depart: {known}" if known else "no car departs by itself"
     raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")

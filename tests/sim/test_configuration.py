@@ -135,7 +135,7 @@ BROKEN = [
     ("", ["does not say who the ego is", "--ego ID", "such as", "other"]),
     ("?ego=nobody", ["no vehicle 'nobody' departs before 150 s", "such as", "late"]),
     ("?ego=cycle", ["'cycle' is of class 'bicycle'", "--ego-from"]),
-    ("?from=top0A0", ["from alone say not who", "--ego-to EDGE"]),
+    ("?from=top0A0", ["from without more leaves open who the ego is", "--ego-to EDGE"]),
     ("?from=top0A0&to=A0nowhere", ["there is no edge 'A0nowhere' for cars", "A0top0"]),
     ("?from=A0left0&to=A0right0", ["no way for cars leads from 'A0left0' to 'A0right0'"]),
     ("?from=top0A0&to=A0left0&begin=soon", ["begin: 'soon' is no number"]),
