@@ -10,13 +10,9 @@ _KINDS = {
     "moped": "motorcycle",
     "bicycle": "bicycle",
     "tram": "tram",
-    "rail": "train",
-    "rail_urban": "train",
-    "rail_electric": "train",
-    "rail_fast": "train",
-    "subway": "train",
-    "cable_car": "train",
-    "ship": "ship",
+    "rail_urban": "tram",
+    **dict.fromkeys(("rail", "rail_electric", "rail_fast", "subway", "cable_car"), "vehicle"),
+    "ship": "vehicle",
 }
 _WALKERS = {"wheelchair": "wheelchair", "scooter": "scooter"}
 _RIGHT, _LEFT, _HAZARD, _BRAKE = 0b0001, 0b0010, 0b0100, 0b1000
@@ -50,7 +46,10 @@ def colour_name(red: int, green: int, blue: int) -> str:
 
 
 def kind_of(vehicle_class: str) -> str:
-    """What a vehicle of a SUMO class (vClass) is called; "car" unless it is plainly another."""
+    """What a vehicle of a SUMO class (vClass) is called: "car" unless it is plainly another.
+
+    Trains and ships are a "vehicle".
+    """
     return _KINDS.get(vehicle_class, "car")
 
 

@@ -28,7 +28,7 @@ CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] of the last edge, where the goal lies
 KEYS = ("ego", "from", "to", "begin")
-UNFORESEEN = {"tram": "trams", "train": "trains", "ship": "ships"}  # by kind of vehicle
+UNFORESEEN = {"tram": "trams", "rail_urban": "trams", "rail": "trains", "ship": "ships"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -262,9 +262,8 @@ class _Inspection:
             yield f"its steps of {step:g} s are shortened to {STEP:g} s"
         if self.engine.call(self.engine.api.vehicle.getStops, ego):
             yield f"the stops of {ego!r} are not made: the car drives to the end of its route"
-        kinds = map(appearance.kind_of, self._classes())
-        for kind in sorted(UNFORESEEN.keys() & set(kinds)):
-            yield f"{UNFORESEEN[kind]} are seen, and where they go is not foreseen"
+        for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):
+            yield f"{what} are seen, and where they go is not foreseen"
         if network.crossings or self.engine.call(self.engine.api.person.getIDCount):
             yield "people on foot are seen, and where they go is not foreseen"
         limits, closed = self._changed(network)

@@ -53,8 +53,11 @@ def test_colours(rgb: tuple[int, int, int], word: str) -> None:
 
 
 def test_kinds() -> None:
-    kinds = [kind_of(x) for x in ("passenger", "taxi", "trailer", "coach", "moped", "bicycle")]
-    assert kinds == ["car", "car", "truck", "bus", "motorcycle", "bicycle"]
+    kinds = [
+        kind_of(x) for x in ("passenger", "taxi", "trailer", "coach", "moped", "bicycle", "tram")
+    ]
+    assert kinds == ["car", "car", "truck", "bus", "motorcycle", "bicycle", "tram"]
+    assert {kind_of(x) for x in ("rail", "ship")} == {"vehicle"}
 
 
 @pytest.mark.parametrize(
