@@ -25,6 +25,7 @@ from planner.trajectory import Array, Roads
 from sim.network import Location
 from sim.scene import Signal
 
+STILL = 0.1  # [m/s] below which one stands
 GRACE = 3  # steps by which two stretches of one hold-up may lie apart
 
 
@@ -178,8 +179,19 @@ def summarise(task: Task, legs: Sequence[Leg]) -> dict[Component, float]:
         legs[-1].end.time - task.start if passed is None else passed,
         np.concatenate([leg.speed for leg in legs]),
         np.concatenate([leg.acceleration for leg in legs]),
-        np.concatenate([leg.curvature for leg in legs]),
+        np.concatenate([_driven_curvature(leg) for leg in legs]),
     )
+
+
+def _driven_curvature(leg: Leg) -> Array:
+    """The curvature [1/m] [N] of a leg; 0 while it stands at a light: waiting is no turning."""
+    waits = leg.stops.step - leg.first
+    waits = waits[leg.speed[waits] < STILL]
+    if len(waits) == 0:
+        return leg.curvature
+    curvature = leg.curvature.copy()
+    curvature[waits] = 0.0
+    return curvature
 
 
 def held_up(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:

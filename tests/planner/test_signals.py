@@ -22,8 +22,9 @@ from planner.kernels.driving import (
 )
 from planner.layout import BEFORE_LINE
 from planner.obstacles import Obstacle, Traffic
+from planner.rollout import Task, summarise, take
 from planner.signals import Lights, Outlook, Showing
-from planner.trace import Action
+from planner.trace import Action, EgoGoal
 from sim.network import Direction
 from sim.scene import Signal
 from tests.planner.crossroads import (
@@ -320,3 +321,16 @@ def test_every_letter_has_its_meaning() -> None:
     assert {x for x, code in codes.items() if code == AMBER} == {"y"}
     assert {x for x, code in codes.items() if code == HALT} == {"s"}
     assert {x for x, code in codes.items() if code <= OPEN} == set("gGoO?")
+
+
+def test_waiting_at_a_light_is_no_turning() -> None:
+    """A turn costs as much comfort after a long red as after a short one."""
+    task = Task(crossroads(), EgoGoal("east_out", 20.0, None), SIZE, 0.0, HORIZON, 100.0)
+    turned = []
+    for green in (8.0, 22.0):
+        lights = shown([(0.0, EAST_WEST), (green, NORTH_SOUTH)])
+        here = plan(before(20.0, 6.0), "exit-right")
+        leg = take(task, here, Motion(0.0, 6.0, 0.0), 0, Traffic.of((), lights))
+        parts = summarise(task, (leg,))
+        turned.append(parts["curvature"] * len(leg.speed))
+    assert turned[1] == pytest.approx(turned[0], rel=0.05)
