@@ -1,5 +1,6 @@
 """Control: how to brake or speed up in the coming step, among what is seen and foreseen."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -141,14 +142,36 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle
 
 
 def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
-    """Whether a vehicle that may go first lets the ego, which is past its line, go on.
+    """Whether a vehicle that may go first lets the ego go on.
 
-    Else the two would wait for one another forever.
+    Else the two would wait for one another forever: one that stands while the ego is past its
+    line; or that has stood as long as the ego has at its line, with no light that held them.
     """
     if not _crossing(driving):
-        return False
+        arc = driving.motion.arc
+        at_line = any(-SPARE < line.stop - arc < SPARE for line in driving.plan.give_ways)
+        if not at_line or not _lingers(around) or _just_green(driving, around):
+            return False
+    return _stands(around, vehicle)
+
+
+def _stands(around: Around, vehicle: int) -> bool:
+    """Whether a vehicle has stood for a while."""
     speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
     return len(speeds) == PATIENCE and max(speeds) < STANDING
+
+
+def _lingers(around: Around) -> bool:
+    """Whether the ego has hardly moved for as long; setting off counts as that at first."""
+    places = around.memory.track(EGO, around.scene.time).position[-PATIENCE:]
+    return len(places) == PATIENCE and math.dist(places[0], places[-1]) < SPARE
+
+
+def _just_green(driving: Driving, around: Around) -> bool:
+    """Whether a light that the ego stands at shows what it shows for a short while only."""
+    found = (around.scene.light(ahead.signal) for ahead in driving.plan.obey_lights)
+    since = around.scene.time - PATIENCE * DT
+    return any(light is not None and light.since > since for light in found)
 
 
 def _crossing(driving: Driving) -> list[GiveWay]:

@@ -342,3 +342,10 @@ def test_only_what_was_just_decided_can_be_replaced_and_only_by_what_applies() -
     driver.step(scene, STEP)
     with pytest.raises(DriverError, match="change-right does not apply"):
         driver.carry_out("change-right", scene, STEP)
+
+
+@pytest.mark.parametrize("away", [3.0, 8.0])
+def test_who_goes_first_and_stands_for_good_is_not_waited_for_forever(away: float) -> None:
+    """After you, then me: a car with priority that waits at the junction lets the ego go."""
+    done = ride("s2", {1: along("s2", "west_in_0", away, 0.0)}, lasting=45.0)
+    assert done.finished
