@@ -112,8 +112,7 @@ def accelerate(
         gap = lines[line, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
         if gap <= _near(speed) and arc < lines[line, 1] and safe < wanted:
-            stop = lines[line, 0]
-            blocker = _blocker(caps, motion, step, stop, crossing, firsts[line, :, t], length)
+            blocker = _blocker(caps, motion, step, arc + gap, crossing, firsts[line, :, t], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
                 if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * FIRM * gap:
