@@ -23,6 +23,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
 SAFER = 0.01  # probability of a collision by which something is safer
+ALIKE = 0.1  # difference of probabilities up to which two outcomes are told as one
 ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
 
 
@@ -37,6 +38,8 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         "cause": None if context.detail == "less" else cause,
         "trouble": _troubles(contrast),
     }
+    both = _both_late(contrast) if slots["kind"] == "late" and not slots["way"] else None
+    slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
     risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
@@ -57,6 +60,15 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
     return Plan(core, (), more, (), about_cause(answer))
+
+
+def _both_late(contrast: Contrast) -> Chance | None:
+    """How sure it is that neither plan gets there in time, where that is likely of both."""
+    foil, fact = contrast.outcome, contrast.fact_outcome
+    if foil is None or fact is None or not foil.name == fact.name == "termination":
+        return None
+    least, most = sorted((foil.probability, fact.probability))
+    return Chance(least) if most - least <= ALIKE else None
 
 
 def _troubles(contrast: Contrast) -> bool:
