@@ -199,13 +199,13 @@ def _right_of_way(of: Measured, asked: Asked) -> Answer:
 
 def _origin(of: Measured, asked: Asked) -> Answer:
     """Tell where somebody came from: as the record has it, else where it was first seen."""
-    at = instant(asked, of.time, of.tense)
-    if number(of.thing) is None:
+    at, vehicle = instant(asked, of.time, of.tense), number(of.thing)
+    if vehicle is None:
         return locate(asked, of.thing, asked.world.begin)
     known = asked.world.measure("origin", of.thing, at)
     if known.gap is None:
         return Measures((known,))
-    first = first_look(asked, number(of.thing) or 0, asked.world.begin)
+    first = first_look(asked, vehicle, asked.world.begin)
     return Located(of.thing, () if first is None else (first,), gap=known.gap)
 
 

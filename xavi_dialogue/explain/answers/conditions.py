@@ -21,7 +21,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.beliefs import how_sure
 from xavi_dialogue.explain.answers.closeness import How, closeness
 from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.duties import blamed
@@ -67,10 +66,7 @@ def condition(of: Is, asked: Asked) -> Finding:
     Raises:
         Unanswered: it is of what is unknown, or of an event that did not happen.
     """
-    found = STATES.get(of.state)
-    if found is None:
-        return unknown("not-recorded")
-    return found(of, asked)
+    return STATES[of.state](of, asked)
 
 
 def handed(question: Question, asked: Asked) -> Answer | None:
@@ -108,9 +104,10 @@ def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None:
         taken_place(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
-    if of.event is None and about.instant and is_past(asked, of.time, of.tense):
+    told = of.event is not None or (about.said and about.end < asked.now - RECENT)
+    if not told and about.instant and is_past(asked, of.time, of.tense):
         about = Window(max(begin, asked.now - RECENT), asked.now)
-    elif of.event is None and about.instant and asked.past is None:
+    elif not told and about.instant and asked.past is None:
         about = Window(begin, asked.now)
     found = comfort_of(asked, about)
     return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
@@ -239,14 +236,12 @@ def _close(of: Is, asked: Asked) -> Finding:
 
 def _sure(of: Is, asked: Asked) -> Finding:
     about = None if of.event is None else Happens(of.event)
-    question = HowSure(about, of.time)
-    return Finding(None, answer=handed(question, asked) or how_sure(question, asked))
+    return Finding(None, answer=handed(HowSure(about, of.time), asked))
 
 
 def _at_fault(of: Is, asked: Asked) -> Finding:
     about = None if of.event is None else Happens(of.event)
-    question = Fault(about, of.thing)
-    return Finding(None, answer=handed(question, asked) or blamed(question, asked))
+    return Finding(None, answer=blamed(Fault(about, of.thing), asked))
 
 
 def _first(of: Is, asked: Asked) -> Finding:

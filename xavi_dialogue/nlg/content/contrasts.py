@@ -105,8 +105,7 @@ def consequence_slots(
         "waypoint": contrast.waypoint,
         "way": contrast.way,
         "ride": main.component if main is not None and kind == "ride" else None,
-        "risk_too": (counts or _adds_risk(contrast))
-        and kind not in ("risk", "collision", "alone"),
+        "risk_too": (counts or _adds_risk(contrast)) and kind not in ("risk", "collision", "alone"),
         "risk": Chance(risk) if counts or risk >= RISK else None,
         "tiny": risk < terms.TINY,
         "later": later,
