@@ -22,7 +22,7 @@ from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, same
 from xavi_dialogue.explain.causes.involved import contrastive_causes, holding_up
 from xavi_dialogue.explain.causes.necessity import Proven, proven
-from xavi_dialogue.explain.causes.ranges import likely
+from xavi_dialogue.explain.causes.ranges import likely, table
 from xavi_dialogue.explain.causes.routes import route_after, shared
 from xavi_dialogue.explain.causes.terms import RISK, differences, told
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, thin
@@ -233,7 +233,9 @@ def outcome(intervention: Intervention) -> OutcomeEstimate:
     name = intervention.likeliest
     struck = intervention.collisions() if name == "collision" else {}
     vehicle = max(struck, key=lambda v: struck[v], default=None)
-    return OutcomeEstimate(name, min(intervention.outcomes[name], 1.0), vehicle)
+    chance = min(intervention.outcomes[name], 1.0)
+    error = 0.0 if name == "dead" else table().model_error  # where roads lead is no guess
+    return OutcomeEstimate(name, chance, vehicle, error)
 
 
 def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:

@@ -81,7 +81,7 @@ def consequence_slots(
         that: the foil was named, and is "that".
     """
     outcome = contrast.outcome
-    chance = 1.0 if outcome is None else outcome.probability
+    chance = 1.0 if outcome is None else outcome.calibrated
     struck = outcome.collided_with if outcome is not None else None
     struck = struck if struck is not None else contrast.collided_with
     time, main = time_effect(contrast), main_effect(contrast)

@@ -67,7 +67,7 @@ def _both_late(contrast: Contrast) -> Chance | None:
     foil, fact = contrast.outcome, contrast.fact_outcome
     if foil is None or fact is None or not foil.name == fact.name == "termination":
         return None
-    least, most = sorted((foil.probability, fact.probability))
+    least, most = sorted((foil.calibrated, fact.calibrated))
     return Chance(least) if most - least <= ALIKE else None
 
 
