@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.chosen import chosen
 from tests.explain.answers.stated import (
@@ -47,6 +48,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.explain.answers.attributes import SPECIAL
+from xavi_dialogue.explain.causes.ranges import table
 
 ONE, TWO = Vehicle(1), Vehicle(2)
 LOOKS = {1: look(1), 2: look(2)}
@@ -85,15 +87,18 @@ def test_values_are_those_of_the_decision() -> None:
     def options(t: float) -> Any:
         return (OptionValue("continue", True, "done", 1.0, t, None, -t),)
 
+    def trusted(t: float) -> Any:
+        return tuple(replace(o, model_error=table().model_error) for o in options(t))
+
     traces = [decision(3.0), decision(15.0)]
     for attribute in ("value", "cost"):
         found = told(Measured(attribute), traces=traces, options=options)
         assert isinstance(found, Options)
-        assert (found.decided, found.options) == (15.0, options(20.0))
+        assert (found.decided, found.options) == (15.0, trusted(20.0))
         assert found.evidence.method == "tree"
         assert found.evidence.traces == (traces[1].trace_id,)
         found = told(Measured(attribute, time=At(4.0)), traces=traces, options=options)
-        assert (found.decided, found.options) == (3.0, options(4.0))
+        assert (found.decided, found.options) == (3.0, trusted(4.0))
         lacking = NotRecorded("not-recorded", about=attribute, since=20.0)
         assert told(Measured(attribute), traces=traces) == lacking
         assert told(Measured(attribute), options=options) == lacking

@@ -101,8 +101,6 @@ def test_the_safety_of_an_event_is_of_its_stretch_and_of_whom_it_concerns() -> N
     assert held("safe", of=past, values=NEAR, episodes=told).answer.vehicle == 2
     past["event"] = Event("turn")
     assert isinstance(held("safe", of=past, values=NEAR, episodes=told), DidNotHappen)
-    to_come = {"tense": "future", "event": Event("turn", tense="future")}
-    assert held("safe", of=to_come, values=NEAR, episodes=told).answer.past is False
 
 
 def test_room_in_a_lane_is_who_is_in_it() -> None:
@@ -277,3 +275,39 @@ def test_what_reasons_do_not_answer_is_not_handed_on() -> None:
     asked = scene(traces=[decision(20.0)])
     assert conditions.handed(Fault(), asked) is None
     assert isinstance(conditions.handed(Listing("options"), asked), Options)
+
+
+@pytest.fixture
+def tried(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """What is handed on to be tried as another action of ours, and as which question."""
+    given: list[Any] = []
+
+    def answer(event: Any, scene: Any, form: Any) -> Any:
+        given.append((event.action, form))
+        return Measures(())
+
+    monkeypatch.setattr(conditions, "of_us", answer)
+    return given
+
+
+@pytest.mark.parametrize(("state", "form"), [("safe", "safe"), ("dangerous", "crash")])
+@pytest.mark.parametrize("action", ["change-left", "exit-right", "stop", "overtake"])
+def test_whether_something_else_is_safe_is_asked_of_what_would_come_of_it(
+    state: Any, form: str, action: Any, tried: list[Any]
+) -> None:
+    held(state, of={"event": Event(action, US, tense="present", time=Now())})
+    held(state, of={"tense": "future", "event": Event(action, US, tense="future")})
+    assert tried == [(action, form)] * 2
+
+
+def test_whether_what_we_or_others_do_is_safe_is_asked_of_distances(tried: list[Any]) -> None:
+    def told(of: Any, **facts: Any) -> bool:
+        return isinstance(held("safe", of=of, **facts).answer, Closeness)
+
+    doing = did("change-left", 8.0, None)
+    event = Event("change-left", US, tense="present", time=Now())
+    assert told({"event": event}, episodes=(doing,))
+    other = Event("change-left", ONE, tense="present", time=Now())
+    assert told({"event": other})
+    assert told({"event": Event("follow", US, tense="present")})
+    assert tried == []

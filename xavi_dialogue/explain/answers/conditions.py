@@ -8,6 +8,7 @@ from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
 from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
@@ -25,6 +26,7 @@ from xavi_dialogue.explain.answers.closeness import How, closeness
 from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.foreseen import macros
 from xavi_dialogue.explain.answers.limits import fast, within_limit
 from xavi_dialogue.explain.answers.mistakes import broken_down, wrong
@@ -37,6 +39,7 @@ from xavi_dialogue.explain.answers.naming import (
     number,
 )
 from xavi_dialogue.explain.answers.occasions import occasion, taken_place
+from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.places import to_go
 from xavi_dialogue.explain.answers.priority import (
     lawful,
@@ -47,6 +50,7 @@ from xavi_dialogue.explain.answers.priority import (
 from xavi_dialogue.explain.answers.room import free
 from xavi_dialogue.explain.answers.sight import busy, minded
 from xavi_dialogue.explain.answers.stages import actor, late, over, still, stuck
+from xavi_dialogue.explain.causes.actions import names_of
 
 NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
 NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
@@ -91,11 +95,21 @@ def _safe(of: Is, asked: Asked) -> Finding:
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
         taken_place(asked, of.event)
+    elif of.event is not None and _is_option(of.event, asked):
+        form: Asking = "safe" if of.state == "safe" else "crash"
+        return Finding(None, answer=of_us(of.event, asked, form))
     other = number(of.thing)
     if other is None and of.event is not None:
         other = number(of.event.actor) or number(of.event.object)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
+
+
+def _is_option(event: Event, asked: Asked) -> bool:
+    """Whether we could do something now that we are not doing."""
+    if not is_us(event.actor) or not set(names_of(event)) & MANOEUVRES:
+        return False
+    return occasion(asked, event) is None
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from xavi_dialogue.domain.answers import Contrast, SupposedOfUs
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import (
     LIKELY,
@@ -22,6 +23,8 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
+OF_RISKS = frozenset[Asking](("crash", "safe", "safer"))  # questions that are of risks themselves
+TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
 SAFER = 0.01  # probability of a collision by which something is safer
 ALIKE = 0.1  # difference of probabilities up to which two outcomes are told as one
 ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
@@ -42,7 +45,8 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
-    risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
+    whole = not told_risk or contrast.fact_collision >= RISK  # of both sides
+    risk = risks(contrast, context, past=past, unsaid=told_risk) if whole or answer.done else None
     more = further(contrast, context, past=past)
     if answer.ahead is not None and answer.ahead.vehicle is not None and not answer.done:
         who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
@@ -54,8 +58,12 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         core = (just, *(m for m in (risk,) if m is not None), *rest)
         return Plan(core, (), more, (), about_cause(answer))
     if answer.form != "what-if" and kind_of(contrast) != "alone":
-        told = Message("IF_ASKED", {**slots, **_asked(answer, slots)})
-        return Plan((told,), (), more, (), about_cause(answer))
+        asked = _asked(answer, slots)
+        told = Message("IF_ASKED", {**slots, **asked})
+        if answer.form in TIMED and not (answer.form == "could" and asked["riskier"]) and told_risk:
+            risk = risks(contrast, context, past=past, unsaid=slots["kind"] != "collision")
+        beside = () if risk is None or answer.form in OF_RISKS else (risk,)
+        return Plan((told, *beside), (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
@@ -101,6 +109,7 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
     later = tuple(a for a in contrast.continued if a in CHANGES)[:1]
     return {
         "form": answer.form,
+        "judged": contrast.verdict,
         "verdict": "yes" if risk >= LIKELY else "maybe" if risk >= RISK else "no",
         "good": not worse and slots["kind"] not in ("collision", "dead", "late"),
         "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,
