@@ -98,7 +98,7 @@ def test_the_safer_one_has_the_lower_risk(risk: float, better: str) -> None:
 
 
 def test_one_option_alone_is_supposed_or_held_against_what_was_decided() -> None:
-    for by, form in (("time", "quicker"), ("speed", "quicker"), ("best", "quicker"),
+    for by, form in (("time", "quicker"), ("speed", "quicker"), ("best", "better"),
                      ("safety", "safer")):  # fmt: skip
         found = held(by, End(time=12.0), CHANGE)
         assert isinstance(found, SupposedOfUs)

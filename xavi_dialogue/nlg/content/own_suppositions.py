@@ -45,8 +45,7 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
-    whole = not told_risk or contrast.fact_collision >= RISK  # of both sides
-    risk = risks(contrast, context, past=past, unsaid=told_risk) if whole or answer.done else None
+    risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
     more = further(contrast, context, past=past)
     if answer.ahead is not None and answer.ahead.vehicle is not None and not answer.done:
         who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
@@ -60,8 +59,10 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     if answer.form != "what-if" and kind_of(contrast) != "alone":
         asked = _asked(answer, slots)
         told = Message("IF_ASKED", {**slots, **asked})
-        if answer.form in TIMED and not (answer.form == "could" and asked["riskier"]) and told_risk:
-            risk = risks(contrast, context, past=past, unsaid=slots["kind"] != "collision")
+        named = slots["kind"] == "collision" or (answer.form == "could" and asked["riskier"])
+        untold = answer.form in TIMED and not named  # times alone are told
+        if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
+            risk = risks(contrast, context, past=past, unsaid=True)
         beside = () if risk is None or answer.form in OF_RISKS else (risk,)
         return Plan((told, *beside), (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
