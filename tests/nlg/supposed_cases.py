@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
     Unslowed,
 )
-from xavi_dialogue.domain.evidence import Effect
+from xavi_dialogue.domain.evidence import Effect, OutcomeEstimate
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.reasons import MotionCause
 from xavi_dialogue.domain.terms import Event, Vehicle
@@ -32,6 +32,14 @@ GAIN = replace(
     effects=(Effect("time", "s", -3.0, -4.0, -2.0, 20, 8),),
 )
 SAME = replace(LATER, effects=(), verdict="close", told=())
+TINY_RISK = replace(
+    GAIN,
+    verdict="better",
+    terms=(Share("collision", 4.0, 0.004, 0.0), Share("time", -3.0)),
+    told=(Share("collision", 4.0, 0.004, 0.0), Share("time", -3.0)),
+    causes=(),
+)
+BOTH_LATE = ends("termination", 0.97, fact_outcome=OutcomeEstimate("termination", 0.93), causes=())
 SAFER = replace(LATER, fact_collision=0.05)
 RISKIER = replace(LATER, collision=0.05, collided_with=2)
 
@@ -58,6 +66,10 @@ CASES: tuple[Answer, ...] = (
     Reaction(2, "joins", STOPS, NOW, 13.9, 26.3, 8.0),
     Reaction(2, "joins", STOPS, 10.0, 13.9, 26.3, 8.0, past=True),
     Reaction(None, "anybody", None, NOW, 13.9, 26.3),
+    SupposedOfUs(BOTH_LATE),
+    SupposedOfUs(BOTH_LATE, past=False),
+    SupposedOfUs(TINY_RISK),
+    SupposedOfUs(TINY_RISK, past=False),
     SupposedOfUs(LATER, form="could"),
     SupposedOfUs(GAIN, form="could"),
     SupposedOfUs(RISKIER, form="could"),
@@ -69,6 +81,15 @@ CASES: tuple[Answer, ...] = (
     SupposedOfUs(SAME, form="crash"),
     SupposedOfUs(RISKIER, form="crash"),
     SupposedOfUs(replace(RISKY, collision=0.9), form="crash"),
+    SupposedOfUs(LATER, form="better"),
+    SupposedOfUs(GAIN, form="better"),
+    SupposedOfUs(SAME, form="better"),
+    SupposedOfUs(RISKIER, form="better"),
+    SupposedOfUs(ends("collision", 0.8, 2, fact_collision=0.3), form="better"),
+    SupposedOfUs(LATER, form="safe", past=False),
+    SupposedOfUs(RISKIER, form="safe", past=False),
+    SupposedOfUs(replace(RISKY, collision=0.9), form="safe", past=False),
+    SupposedOfUs(RISKIER, form="quicker"),
     SupposedOfUs(LATER, form="quicker"),
     SupposedOfUs(GAIN, form="quicker"),
     SupposedOfUs(ends("collision", 0.8, 2), form="quicker"),

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from tests.nlg.causal_cases import CHANGED, ends
@@ -35,6 +36,19 @@ def test_what_came_of_every_sample_is_said_to_be_almost_certain(name, detail, pa
     why = ChoiceReason("why", CHANGED, ends(name, 1.0, struck))
     for answer in (why, SupposedOfUs(ends(name, 1.0, struck), past=past)):
         assert "almost certainly" in say(answer, context).text
+
+
+@pytest.mark.parametrize("name", ["collision", "termination"])
+def test_what_came_of_every_sample_is_as_likely_as_the_model_is_right(name):
+    """Of an error of 0.2 each outcome has a quarter: 0.8 + 0.05 is "very likely"."""
+    ending = ends(name, 1.0, 2 if name == "collision" else None)
+    ending = msgspec.structs.replace(
+        ending, outcome=msgspec.structs.replace(ending.outcome, model_error=0.2)
+    )
+    for answer in (ChoiceReason("why", CHANGED, ending), SupposedOfUs(ending)):
+        assert "very likely" in say(answer, CONTEXT).text
+    option = OptionValue("continue", False, name, 1.0, None, None, -5.0, model_error=0.4)
+    assert "probably" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
 
 
 @pytest.mark.parametrize("name", ["collision", "termination"])

@@ -86,3 +86,10 @@ def test_who_cut_in_and_then_brakes_by_more_than_two_metres_a_second_leads(
 def test_nobody_in_the_way_is_no_stretch() -> None:
     assert joined(Hindered()) == ()
     assert joined() == ()
+
+
+def test_times_and_speeds_are_recorded_to_the_hundredth() -> None:
+    leg = cast("Leg", Hindered((5, 1, LEADER, 9.128), (6, 1, LEADER, 8.254)))
+    (found,) = held_up([leg], 100.047)
+    assert (found.since, found.until) == (101.05, 101.45)
+    assert (found.speed_from, found.speed_to) == (9.13, 8.25)

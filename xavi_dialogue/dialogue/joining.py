@@ -82,7 +82,7 @@ def _short(
     found: list[tuple[str, ...]] = []
     for row, one in zip(rows, utterances, strict=True):
         length = len(row) if one.choices else min(len(row), 1 + spare)
-        spare -= max(length - 1, 0)
+        spare = max(spare - max(length - 1, 0), 0)
         found.append(row[:length])
     return found
 

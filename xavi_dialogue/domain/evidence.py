@@ -2,8 +2,8 @@
 
 from typing import Literal, TypeAlias
 
+from planner.trace import OUTCOMES, Component, HoldUp, Outcome
 from planner.trace import Action as MacroAction
-from planner.trace import Component, HoldUp, Outcome
 from xavi_dialogue.domain.base import Value
 
 
@@ -16,12 +16,27 @@ class Evidence(Value, frozen=True):
     traces: tuple[str, ...] = ()  # trace ids
 
 
+def calibrated(probability: float, model_error: float) -> float:
+    """Return how probable an outcome is, of its probability among rollouts.
+
+    Rollouts do not know the error of their own model. With the probability `model_error` they
+    tell nothing, and each outcome is as likely (label smoothing, Szegedy et al. 2016).
+    """
+    return (1.0 - model_error) * probability + model_error / len(OUTCOMES)
+
+
 class OutcomeEstimate(Value, frozen=True):
     """The likeliest outcome of a plan."""
 
     name: Outcome
-    probability: float
+    probability: float  # among the rollouts
     collided_with: int | None = None
+    model_error: float = 0.0  # probability that the rollouts tell nothing of the outcome
+
+    @property
+    def calibrated(self) -> float:
+        """How probable it is, where each outcome is as likely if the rollouts tell nothing."""
+        return calibrated(self.probability, self.model_error)
 
 
 class Effect(Value, frozen=True):

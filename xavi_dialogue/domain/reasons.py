@@ -105,7 +105,9 @@ class GoReason(Value, frozen=True):
 
 #: What is asked of a supposition about us: what would come of it, whether we would collide, whether
 #: we could do it, when we would be there.
-Asking: TypeAlias = Literal["what-if", "crash", "could", "arrival", "quicker", "safer"]
+Asking: TypeAlias = Literal[
+    "what-if", "crash", "could", "arrival", "quicker", "better", "safe", "safer"
+]
 
 
 class Unslowed(Value, frozen=True):

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from dataclasses import replace as dataclass_replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from msgspec.structs import replace
 from planner.events import Event
 from planner.road import LightChange, RoadFacts
 from planner.trace import PlanTrace, Track
-from sim.scene import VehicleState
+from sim.scene import Scene, VehicleState
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
@@ -152,3 +153,18 @@ def recorded(name: str, now: float | None = None) -> Ride:
     end = last if found.ended is None else found.ended
     time = end if now is None else now
     return Ride(Record(time, tuple(found.traces), tuple(found.events), now is None))
+
+
+def kept(ride: Ride, times: Callable[[float], bool]) -> Ride:
+    """The same ride with only the decisions of some times [s]."""
+    traces = tuple(t for t in ride.record.traces if times(t.sim_time))
+    return Ride(dataclass_replace(ride.record, traces=traces))
+
+
+def glimpsed(
+    ride: Ride, time: float, seen: Mapping[int, VehicleState], now: float | None = None
+) -> Ride:
+    """The same ride with what was seen after its last decision; it is `time` [s] then."""
+    scene = Scene(time, dict(seen))
+    record = dataclass_replace(ride.record, scene=scene, now=time if now is None else now)
+    return Ride(record)

@@ -12,7 +12,6 @@ from xavi_dialogue.domain.facts import Gap
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Lane, Vehicle
 from xavi_dialogue.domain.terms import Event as Doing
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
-from xavi_dialogue.explain.facts.attributes import ATTRIBUTES, same
 from xavi_dialogue.explain.facts.world import World, world_of
 
 TWO = {0: Actor(straight(0.0, 0.0, 12.0)), 1: Actor(straight(40.0, 3.5, 9.0), colour="red")}
@@ -32,11 +31,10 @@ def roads(time: float) -> RoadFacts:
     return RoadFacts(places, steps, left, left / 12.0, (PriorityFact(1, "vehicle"),))
 
 
-def test_every_attribute_is_defined_and_has_a_value_or_a_reason() -> None:
-    assert set(ATTRIBUTES) == set(get_args(Attribute))
+def test_every_attribute_has_a_value_or_a_reason() -> None:
     for ride in (made(TWO, 5.0), made(TWO, 5.0, roads=roads), recorded("s3-0", 12.0)):
         world = World(ride)
-        for attribute in ATTRIBUTES:
+        for attribute in get_args(Attribute):
             for thing in (Ego(), Vehicle(1)):
                 found = world.measure(attribute, thing, world.now)
                 told = (found.value, found.word, found.gap)
@@ -145,12 +143,6 @@ def test_beliefs_and_options_add_up() -> None:
     assert [o.chosen for o in options].count(True) == 1
     assert options[0].chosen
     assert world.options(-1.0) == ()
-
-
-def test_same_is_what_people_take_for_the_same() -> None:
-    assert same("speed", 13.7, 13.9)
-    assert not same("speed", 12.0, 13.9)
-    assert same("distance", 4.2, 4.9)
 
 
 def test_one_question_has_one_world() -> None:

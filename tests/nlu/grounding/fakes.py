@@ -111,6 +111,9 @@ class FakeWorld:
                  or e.place.form == event.object.form)
         )  # fmt: skip
 
+    def decided(self, number: int) -> float | None:
+        return None
+
     def road(self, t: float) -> RoadFacts | None:
         return self.facts
 

@@ -146,10 +146,18 @@ def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
     )
 
 
-def calibration(cases: Sequence[Case], bins: int = 5) -> tuple[Bin, ...]:
-    """How often outcomes happened that were given about the same probability."""
+def calibration(
+    cases: Sequence[Case], told: Callable[[float], float] = float, bins: int = 5
+) -> tuple[Bin, ...]:
+    """How often outcomes happened that were given about the same probability.
+
+    Args:
+        cases: foils and what came of them.
+        told: the probability that is told, of that among the rollouts.
+        bins: how many, as wide.
+    """
     pairs = [
-        (case.foreseen.outcomes.get(outcome, 0.0), float(case.happened.outcome == outcome))
+        (told(case.foreseen.outcomes.get(outcome, 0.0)), float(case.happened.outcome == outcome))
         for case in cases
         if case.foreseen.declined is None
         for outcome in OUTCOMES
@@ -173,7 +181,11 @@ def same_sign(case: Case) -> bool:
     return (_foreseen_time(case) > 0.0) == (_later(case) > 0.0)
 
 
-def tables(rows: Sequence[Agreement], outcomes: Sequence[OutcomeRow], bins: Sequence[Bin]) -> str:
+def tables(
+    rows: Sequence[Agreement],
+    outcomes: Sequence[OutcomeRow],
+    bins: Mapping[str, Sequence[Bin]],
+) -> str:
     """The numbers for people."""
     names = [name for name in Agreement.__struct_fields__ if name != "scenario"]
     first = [["", *(row.scenario for row in rows)]]
@@ -182,9 +194,12 @@ def tables(rows: Sequence[Agreement], outcomes: Sequence[OutcomeRow], bins: Sequ
     second += [
         [o.outcome, str(o.foreseen), str(o.happened), str(o.both), _cell(o.said)] for o in outcomes
     ]
-    third = [["probability", "n", "said", "happened"]]
+    third = [["probability", "", "n", "said", "happened"]]
     third += [
-        [f"{b.low:.1f} to {b.high:.1f}", str(b.n), _cell(b.said), _cell(b.happened)] for b in bins
+        [name, f"{b.low:.1f} to {b.high:.1f}", str(b.n), _cell(b.said), _cell(b.happened)]
+        for name, group in bins.items()
+        for b in group
+        if b.n
     ]
     return "\n\n".join(in_columns(table) for table in (first, second, third))
 

@@ -8,6 +8,7 @@ a rollout did not react to the ego, and what the foil's name alone lets one expe
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import msgspec
 
@@ -36,6 +37,7 @@ from xavi_dialogue.app.bench.ranging import (
 )
 from xavi_dialogue.app.bench.rivals import by_name
 from xavi_dialogue.app.bench.runs import in_processes
+from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.explain.causes.ranges import Ranges, table
 
 KINDS = ("stop", "exit", "manoeuvre")  # of foils
@@ -58,7 +60,7 @@ class FidelityReport(msgspec.Struct, frozen=True):
     coverage: tuple[Coverage, ...]
     extension: tuple[Extension, ...]
     outcomes: tuple[OutcomeRow, ...]
-    calibration: tuple[Bin, ...]
+    calibration: dict[str, tuple[Bin, ...]]  # of chances among rollouts, and as told
     wrong: tuple[Wrong, ...]
     failed: tuple[str, ...]
     left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
@@ -170,7 +172,10 @@ def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
         coverage=tuple(coverage(name, own, ranges) for name, own in every.items()),
         extension=tuple(extension(name, own) for name, own in every.items()),
         outcomes=by_outcome(cases),
-        calibration=calibration(cases),
+        calibration={
+            "rollouts": calibration(cases),
+            "told": calibration(cases, partial(calibrated, model_error=ranges.model_error)),
+        },
         wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
         failed=_failed(found),
     )

@@ -7,23 +7,19 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import (
     Answer,
     Beliefs,
-    Evidence,
     Happenings,
     Helpful,
     Identified,
-    NotRecorded,
-    Options,
     Verdict,
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
-from xavi_dialogue.domain.meaning import Listing, Summarise, Why
+from xavi_dialogue.domain.meaning import Listing, Summarise
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
     Is,
     Junction,
-    That,
     Thing,
     Unsaid,
     Vehicle,
@@ -31,10 +27,9 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.beliefs import history_of
 from xavi_dialogue.explain.answers.comfort import stretch
-from xavi_dialogue.explain.answers.conditions import handed
 from xavi_dialogue.explain.answers.decisions import decided_at
 from xavi_dialogue.explain.answers.delays import for_whom
 from xavi_dialogue.explain.answers.findings import known as valued
@@ -72,7 +67,7 @@ WEIGHT: dict[ActionName, float] = {
 
 
 def listing(question: Listing, asked: Asked) -> Answer:
-    """List things of a sort, with times where they have them.
+    """List things of a sort, with times where they have them; `causal` tells options and reasons.
 
     Raises:
         Unanswered: there is nothing of the sort in the record.
@@ -81,17 +76,10 @@ def listing(question: Listing, asked: Asked) -> Answer:
     match question.of:
         case "vehicles":
             return _vehicles(asked, about)
-        case "options":
-            return _options(asked, about)
         case "beliefs":
             return _beliefs(asked, question, about)
         case "wrong-predictions":
             return _mistakes(asked, question.about, about)
-        case "causes" | "reasons":
-            answer = handed(Why(That()), asked)
-            if answer is not None:
-                return answer
-            raise Unanswered(NotRecorded("not-recorded", about=question.of))
         case "capabilities":
             return Helpful()
     if question.of == "decisions" and about.instant:
@@ -161,8 +149,6 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     if vehicle is not None:
         told = _deeds(asked, vehicle, begin, end)
         told += [e for e in asked.world.account(begin, end) if number(e.object) == vehicle]
-    else:
-        told = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)] or told
     if ride:
         told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
     chosen = select(asked, told, TOLD)
@@ -242,9 +228,6 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
         return select(asked, _deeds(asked, vehicle, begin, end), LISTED)
     if is_us(actor):
         told = [e for e in told if isinstance(e.actor, Ego)]
-    else:
-        ours = [e for e in told if isinstance(e.actor, Ego) or isinstance(e.object, Ego)]
-        told = ours or told
     return tuple(sorted(told, key=lambda e: e.begin))[:LISTED]
 
 
@@ -260,14 +243,6 @@ def _vehicles(asked: Asked, about: Window) -> Identified:
     found = (first_look(asked, v, at) for v in numbers)
     seen = tuple(sorted((x for x in found if x is not None), key=lambda look: look.distance))
     return Identified(seen, none=not seen)
-
-
-def _options(asked: Asked, about: Window) -> Answer:
-    at = about.end if asked.past is None else about.begin
-    trace, found = asked.ride.at(at), asked.world.options(at)
-    if trace is None or not found:
-        raise Unanswered(NotRecorded("not-recorded", about="value", since=at))
-    return Options(found, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
 
 
 def _beliefs(asked: Asked, question: Listing, about: Window) -> Answer:

@@ -59,6 +59,7 @@ from xavi_dialogue.explain.answers.occasions import did_not_happen, occasion
 from xavi_dialogue.explain.answers.onward import which_way
 from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
+from xavi_dialogue.explain.causes.options import with_model_error
 
 #: What is chosen, and whose cost is told by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
@@ -78,7 +79,7 @@ def _options(of: Measured, asked: Asked) -> Answer:
     """Tell how the options of a decision were valued."""
     at = instant(asked, of.time, of.tense)
     trace = asked.ride.at(at)
-    known = asked.world.options(at)
+    known = with_model_error(asked.world.options(at))
     if trace is None or not known:
         raise Unanswered(NotRecorded("not-recorded", about=of.attribute, since=at))
     return Options(known, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
@@ -199,13 +200,13 @@ def _right_of_way(of: Measured, asked: Asked) -> Answer:
 
 def _origin(of: Measured, asked: Asked) -> Answer:
     """Tell where somebody came from: as the record has it, else where it was first seen."""
-    at = instant(asked, of.time, of.tense)
-    if number(of.thing) is None:
+    at, vehicle = instant(asked, of.time, of.tense), number(of.thing)
+    if vehicle is None:
         return locate(asked, of.thing, asked.world.begin)
     known = asked.world.measure("origin", of.thing, at)
     if known.gap is None:
         return Measures((known,))
-    first = first_look(asked, number(of.thing) or 0, asked.world.begin)
+    first = first_look(asked, vehicle, asked.world.begin)
     return Located(of.thing, () if first is None else (first,), gap=known.gap)
 
 

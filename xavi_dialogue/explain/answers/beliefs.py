@@ -32,7 +32,6 @@ from xavi_dialogue.explain.answers.priority import right_of_way
 UNSAID = Unsaid()
 LIKELY = 0.5  # probability from which something was expected
 MOVED = 0.08  # by which a probability has moved
-BACK = 8.0  # [s] before what a vehicle did in which its belief is asked about
 
 
 def how_sure(question: HowSure, asked: Asked) -> Answer:
@@ -59,8 +58,8 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
             return Verdict(of, None if share is None else share >= 0.5, probability=share)
         case Related(relation="has-priority-over") if (rule := ruled(asked, of)) is not None:
             return rule
-        case Related(thing=thing) if number(thing) is not None:
-            return history_of(asked, number(thing) or 0, None, time)
+        case Related(thing=thing) if (other := number(thing)) is not None:
+            return history_of(asked, other, None, time)
         case Is(thing=thing) if number(thing) is not None and of.state in ("safe", "dangerous"):
             how: How = "safe" if of.state == "safe" else "dangerous"
             return closeness(asked, number(thing), window(asked, time), how)
@@ -220,8 +219,6 @@ def _conduct(asked: Asked, vehicle: int, span: tuple[float, float]) -> Episode |
 
 def _vehicle_in(of: Proposition | None) -> int | None:
     match of:
-        case Happens(event=event):
-            return number(event.actor) or number(event.object)
         case Related(thing=thing, to=to):
             return number(thing) or number(to)
         case Is(thing=thing):

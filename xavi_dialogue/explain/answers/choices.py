@@ -5,6 +5,8 @@ from typing import Literal
 
 from msgspec.structs import replace
 
+from planner.trace import PlanTrace
+from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
@@ -25,6 +27,7 @@ from xavi_dialogue.explain.answers.reading import check_able, event_of, is_past,
 from xavi_dialogue.explain.causes.actions import (
     CHANGES,
     DRIVING,
+    STRAIGHT,
     TURNS,
     names_of,
     to_macros,
@@ -121,11 +124,19 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
         against = on_way(found.trace, against, found.node)
     except SameAsPlan as done:
         found = free(scene.ride, Premise(scene.ride.latest, None))
-        if scene.past is not None or planned(found.trace)[: len(foil)] == foil:
-            told = () if done.deed is None else (done.deed,)
-            raise Unanswered(DidNotHappen(event, told)) from None
-        foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
-        against = contrast(scene.ride, found.trace, foil)
+        turn = None if scene.past is not None else _turn_ahead(event, found.trace)
+        if turn is not None:
+            foil = to_macros(scene.ride.model(found.trace), ("exit-straight",), turn)
+            found = Premise(found.trace, None, turn)
+        elif scene.past is not None or planned(found.trace)[: len(foil)] == foil:
+            going = Episode(Ego(), event.action, found.trace.sim_time)
+            told = () if scene.past is not None else (going,)
+            raise Unanswered(
+                DidNotHappen(event, told if done.deed is None else (done.deed,))
+            ) from None
+        else:
+            foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
+        against = contrast(scene.ride, found.trace, foil, found.node)
     except Unanswered as unanswered:
         thin = unanswered.result
         if not isinstance(thin, TooLittle) or thin.reason != "too-little-evidence" or found.node:
@@ -137,6 +148,15 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
     past = _over(scene, event, found) or is_past(scene, event)
     ahead = _left_for(scene, found, against) if foil == STAYING else _beside(scene, found, against)
     return ChoiceReason("why-not", deed_of(scene, found), against, past=past, ahead=ahead)
+
+
+def _turn_ahead(event: Event, trace: PlanTrace) -> Actions | None:
+    """What a plan does before it turns, where going straight on there is asked about."""
+    plan = planned(trace)
+    turn = next((k for k, step in enumerate(plan) if step not in STRAIGHT), None)
+    if event.action != "exit-straight" or turn is None or plan[turn] not in TURNS:
+        return None
+    return plan[:turn]
 
 
 def straight(scene: Asked) -> Answer:

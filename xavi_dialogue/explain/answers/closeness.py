@@ -53,12 +53,12 @@ def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
     """Give the shortest time to a collision in a stretch of the ride, where it was ever short."""
     begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
     found = asked.world.extreme("time-to-collision", Ego(), "lowest", begin, end, Vehicle(vehicle))
-    short = found.gap is None and found.value is not None and found.value <= URGENT
+    short = found.value is not None and found.value <= URGENT
     return found if short else None
 
 
 def nearest_vehicle(asked: Asked, about: Window) -> int | None:
     """Give the vehicle that came closest to us in a stretch of the ride."""
     found = ((v, closest_approach(asked, v, about)) for v in asked.world.vehicles)
-    ranked = [(m.value, v) for v, m in found if m.gap is None and m.value is not None]
+    ranked = [(m.value, v) for v, m in found if m.value is not None]
     return min(ranked, default=(0.0, None))[1]

@@ -106,7 +106,7 @@ def _shown_over(of: Has, asked: Asked, thing: Thing, about: Window) -> Finding:
 
 
 def _moments(asked: Asked, about: Window) -> tuple[float, ...]:
-    count = max(int((about.end - about.begin) / 0.4), 1)
+    count = int((about.end - about.begin) / 0.4)
     return tuple(about.begin + k * 0.4 for k in range(count + 1))
 
 

@@ -8,6 +8,7 @@ from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
 from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
@@ -21,11 +22,11 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.beliefs import how_sure
 from xavi_dialogue.explain.answers.closeness import How, closeness
 from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.foreseen import macros
 from xavi_dialogue.explain.answers.limits import fast, within_limit
 from xavi_dialogue.explain.answers.mistakes import broken_down, wrong
@@ -38,6 +39,7 @@ from xavi_dialogue.explain.answers.naming import (
     number,
 )
 from xavi_dialogue.explain.answers.occasions import occasion, taken_place
+from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.places import to_go
 from xavi_dialogue.explain.answers.priority import (
     lawful,
@@ -48,6 +50,7 @@ from xavi_dialogue.explain.answers.priority import (
 from xavi_dialogue.explain.answers.room import free
 from xavi_dialogue.explain.answers.sight import busy, minded
 from xavi_dialogue.explain.answers.stages import actor, late, over, still, stuck
+from xavi_dialogue.explain.causes.actions import names_of
 
 NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
 NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
@@ -67,10 +70,7 @@ def condition(of: Is, asked: Asked) -> Finding:
     Raises:
         Unanswered: it is of what is unknown, or of an event that did not happen.
     """
-    found = STATES.get(of.state)
-    if found is None:
-        return unknown("not-recorded")
-    return found(of, asked)
+    return STATES[of.state](of, asked)
 
 
 def handed(question: Question, asked: Asked) -> Answer | None:
@@ -95,11 +95,21 @@ def _safe(of: Is, asked: Asked) -> Finding:
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
         taken_place(asked, of.event)
+    elif of.event is not None and _is_option(of.event, asked):
+        form: Asking = "safe" if of.state == "safe" else "crash"
+        return Finding(None, answer=of_us(of.event, asked, form))
     other = number(of.thing)
     if other is None and of.event is not None:
         other = number(of.event.actor) or number(of.event.object)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
+
+
+def _is_option(event: Event, asked: Asked) -> bool:
+    """Whether we could do something now that we are not doing."""
+    if not is_us(event.actor) or not set(names_of(event)) & MANOEUVRES:
+        return False
+    return occasion(asked, event) is None
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:
@@ -108,9 +118,10 @@ def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None:
         taken_place(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
-    if of.event is None and about.instant and is_past(asked, of.time, of.tense):
+    told = of.event is not None or (about.said and about.end < asked.now - RECENT)
+    if not told and about.instant and is_past(asked, of.time, of.tense):
         about = Window(max(begin, asked.now - RECENT), asked.now)
-    elif of.event is None and about.instant and asked.past is None:
+    elif not told and about.instant and asked.past is None:
         about = Window(begin, asked.now)
     found = comfort_of(asked, about)
     return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
@@ -239,14 +250,12 @@ def _close(of: Is, asked: Asked) -> Finding:
 
 def _sure(of: Is, asked: Asked) -> Finding:
     about = None if of.event is None else Happens(of.event)
-    question = HowSure(about, of.time)
-    return Finding(None, answer=handed(question, asked) or how_sure(question, asked))
+    return Finding(None, answer=handed(HowSure(about, of.time), asked))
 
 
 def _at_fault(of: Is, asked: Asked) -> Finding:
     about = None if of.event is None else Happens(of.event)
-    question = Fault(about, of.thing)
-    return Finding(None, answer=handed(question, asked) or blamed(question, asked))
+    return Finding(None, answer=blamed(Fault(about, of.thing), asked))
 
 
 def _first(of: Is, asked: Asked) -> Finding:

@@ -37,21 +37,20 @@ def conduct(asked: Asked, event: Event) -> Finding | None:
     """Weigh what positions and speeds show of an event; None where they add nothing."""
     if event.modal is not None or is_ahead(asked, event.time, event.tense):
         return None
-    vehicle = number(event.actor)
-    into = event.action in ("cut-in", "pull-out") and number(event.object) is not None
-    if into and is_us(event.actor):
-        cut = replace(event, action="cut-in")
-        found = _cutting_in(asked, cut, number(event.object) or 0)
+    vehicle, other = number(event.actor), number(event.object)
+    into = event.action in ("cut-in", "pull-out") and is_us(event.actor)
+    if into and other is not None:
+        found = _cutting_in(asked, replace(event, action="cut-in"), other)
         if found is not None or event.action == "cut-in":
             return found
     if event.action == "overtake" and is_us(event.actor) and event.tense == "present":
-        return _passing(asked, event, number(event.object) or 0)
+        return _passing(asked, event, other) if other else None
     ahead = event.where.to if event.where and event.where.relation == "ahead-of" else None
     if event.action in CHANGING and is_us(event.actor) and isinstance(ahead, Vehicle):
         cut = Event("cut-in", Ego(), ahead, time=event.time, tense=event.tense)
         return _cutting_in(asked, cut, ahead.number) or _cut_in(asked, cut, ahead)
-    if event.action == "follow" and is_us(event.actor) and number(event.object) is not None:
-        return _moving_behind(asked, event, number(event.object) or 0)
+    if event.action == "follow" and is_us(event.actor) and other is not None:
+        return _moving_behind(asked, event, other)
     if vehicle is None:
         straight = event.action in ("exit-straight", "continue") and event.tense == "present"
         return _straight(asked) if straight and is_us(event.actor) else None
@@ -110,7 +109,7 @@ def _moving_behind(asked: Asked, event: Event, leader: int) -> Finding | None:
 
 def _passing(asked: Asked, event: Event, other: int) -> Finding | None:
     """Tell whether we are about to pass somebody: faster than he, beside his line or leaving it."""
-    look = asked.world.look(other, asked.now) if other else None
+    look = asked.world.look(other, asked.now)
     if look is None or not look.in_view or look.oncoming or occasion(asked, event) is not None:
         return None
     speed = asked.world.measure("speed", Ego(), asked.now)

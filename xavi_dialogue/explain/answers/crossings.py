@@ -22,7 +22,7 @@ def crossing_now(asked: Asked) -> int | None:
     road = asked.world.road(asked.now)
     if road is None:
         return None
-    waiting = asked.world.episodes(actor=Ego(), actions=("give-way",), begin=asked.now - 0.5)
+    waiting = asked.world.episodes(actor=Ego(), actions=("give-way",))
     given = {number(e.object) for e in waiting if e.end is None}
     found = [
         (fact.vehicle not in given, fact.who != "vehicle", look.distance, fact.vehicle)

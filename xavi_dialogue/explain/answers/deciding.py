@@ -33,6 +33,8 @@ from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, p
 from xavi_dialogue.explain.history.ride import planned
 
 EQUAL = 0.25  # [s] of value within which two options are the same
+#: What is asked of one option that is compared with what was decided.
+FORMS: dict[str, Asking] = {"safety": "safer", "best": "better"}
 EVEN = 0.01  # probability of a collision within which two options are equally safe
 
 
@@ -96,7 +98,7 @@ def compared(question: Compare, scene: Asked) -> Answer:
         return listed(Listing("options"), scene)
     single = len(question.options) == 1 and not _was_done(scene, events[0])
     if single and question.by in ("time", "speed", "best", "safety"):
-        form: Asking = "safer" if question.by == "safety" else "quicker"
+        form: Asking = FORMS.get(question.by, "quicker")
         return of_us(replace(events[0], tense="past"), scene, form)
     found, fact, foil = _sides(scene, events)
     ride = scene.ride

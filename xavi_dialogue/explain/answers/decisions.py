@@ -63,7 +63,7 @@ def changed(question: Changed, asked: Asked) -> Answer:
     """
     about = window(asked, question.time)
     first, last = _trace(asked, about.begin), _trace(asked, about.end)
-    if first is last and len(asked.ride.traces) > 1:
+    if first is last:
         place = asked.ride.traces.index(last)
         first = asked.ride.traces[max(place - 1, 0)]
     begin, end = first.sim_time, last.sim_time

@@ -30,8 +30,8 @@ def held_up(asked: Asked, about: Window) -> Happenings:
     for one in sorted(found, key=lambda e: (e.begin, e.action != "give-way")):
         if all(e.object != one.object or not _touch(asked, e, one) for e in kept):
             kept.append(one)
-    numbers = tuple(dict.fromkeys(number(e.object) or 0 for e in kept))
-    shown = looks(asked, numbers, about.end) if numbers else ()
+    numbers = tuple(dict.fromkeys(v for e in kept if (v := number(e.object)) is not None))
+    shown = looks(asked, numbers, about.end)
     event = Event("block", object=Ego())
     return Happenings("list", tuple(kept), None, about.begin, about.end, looks=shown, asked=event)
 

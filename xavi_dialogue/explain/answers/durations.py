@@ -145,7 +145,7 @@ def halted(asked: Asked) -> bool:
 
 def _waits(asked: Asked) -> bool:
     """Tell whether our car stands, or is about to wait."""
-    on = asked.world.episodes(actor=Ego(), actions=WAITS, begin=asked.now - 0.5)
+    on = asked.world.episodes(actor=Ego(), actions=WAITS)
     return stands(asked) or any(e.end is None for e in on)
 
 

@@ -54,8 +54,8 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
     events = [replace(e, time=Unsaid()) for e in events]
     halts = [e for e in events if e.action in HALTS]
     goes = [e for e in events if e.action in GOES | SLOWS]
-    held = [e for e in asked.world.episodes(actor=Ego(), actions=tuple(HALTS | SLOWS),
-                                            begin=asked.now - 0.5) if e.end is None]  # fmt: skip
+    done = asked.world.episodes(actor=Ego(), actions=tuple(HALTS | SLOWS))
+    held = [e for e in done if e.end is None]
     if len({e.action for e in events}) == 1 and events[0].action in HALTS | SLOWS:
         return Finding(None, answer=reasons.why(Why(Happens(_deed(events[0].action))), asked))
     if held and halts:

@@ -140,17 +140,9 @@ def intent(asked: Asked, vehicle: int) -> Answer:
 def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
     """Tell what somebody is doing at a time [s], how fast, and what it is expected to do."""
     world = asked.world
-    on = [
-        e
-        for e in world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
-        if e.begin <= at + 0.1 and (e.end is None or e.end >= at - 0.3)
-    ]
+    on = world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
     if not on and isinstance(actor, Ego):
-        on = [
-            e
-            for e in world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
-            if e.action == "continue"
-        ]
+        on = world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
     speed = world.measure("speed", actor, at)
     vehicle = number(actor)
     trend = _trend(asked, EGO if vehicle is None else vehicle, at)
@@ -158,7 +150,7 @@ def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
     belief = None if vehicle is None else world.belief(vehicle, at)
     lost = look is not None and not look.in_view
     return Activity(
-        actor, at, () if lost else tuple(on), None if lost else speed.value,
+        actor, at, () if lost else on, None if lost else speed.value,
         None if lost else trend, look, belief,
     )  # fmt: skip
 

@@ -33,7 +33,6 @@ from xavi_dialogue.explain.answers.findings import Finding, known
 from xavi_dialogue.explain.answers.foreseen import YIELDS
 from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import (
-    check_sense,
     first_look,
     looks,
     of_kind,
@@ -66,7 +65,6 @@ def identify(question: Identify, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is unknown.
     """
-    check_sense(question.thing)
     return identified(asked, question.thing, asked.moment)
 
 
@@ -102,8 +100,8 @@ def which(question: Which, asked: Asked) -> Answer:
     if rule is not None and rule.rule != "none":
         return rule
     owed = owed_by_other(such)
-    given = None if owed is None else _who_did(replace(question, thing=Wanted()), owed, asked)
-    if isinstance(given, Identified) and not given.none:
+    given = None if owed is None else _let_go(question, owed, asked)
+    if given is not None:
         return given
     first = who_first(asked, such)
     if first is not None:
@@ -113,6 +111,15 @@ def which(question: Which, asked: Asked) -> Answer:
     if isinstance(such, Happens) and not is_ahead(asked, such.event.time, such.event.tense):
         return _who_did(question, such, asked)
     return _who_is(question, such, asked)
+
+
+def _let_go(question: Which, owed: Happens, asked: Asked) -> Identified | None:
+    """Find whom a vehicle let go first; None where it was not seen to."""
+    try:
+        found = _who_did(replace(question, thing=Wanted()), owed, asked)
+    except Unanswered:
+        return None
+    return found if isinstance(found, Identified) and not found.none else None
 
 
 def _who_did(question: Which, such: Happens, asked: Asked) -> Answer:

@@ -71,10 +71,10 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     yields = event is not None and event.action in YIELDS | {"wait"}
-    if vehicle is not None and event is not None and yields and not is_own(event.actor):
+    if vehicle is not None and event is not None and yields:
         return since_when(scene, event)
     if vehicle is not None:
-        names = () if event is None or is_own(event.actor) else conduct_names(event)
+        names = () if event is None else conduct_names(event)
         held = event is None or event.modal == "would" or not isinstance(event.time, Now)
         return grounds(scene.ride, vehicle, names, scene.moment, held=held)
     rule = None if event is None else _owed(event, scene)
@@ -102,7 +102,7 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
     if vehicle is not None and event is not None and _stays(event, vehicle, scene):
         return others.why(Event("stand", Vehicle(vehicle), tense="present"), scene, negated=False)
     if vehicle is not None:
-        of_it = event is not None and not is_own(event.actor) and event.action != "do"
+        of_it = event is not None and event.action != "do"
         found = beliefs(scene, vehicle, event if of_it else None)
         off = negated and event is not None and event.action in ("go", "move")
         if off and found.probability is not None:  # "that it would not move off"
@@ -120,11 +120,11 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
 
 def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
     """Tell whether it is asked if one that stands now goes on standing: what for tells that."""
-    here = event.action in HALTS and not is_own(event.actor) and not is_past(scene, event)
+    here = event.action in HALTS and not is_past(scene, event)
     return here and scene.ride.motion(vehicle).trend == "standing"
 
 
-def certain(scene: Asked, event: Event | None, *, negated: bool = False) -> Certainty:
+def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
     """Tell how surely a deed was better than the best alternative, or the plan goes well.
 
     Raises:

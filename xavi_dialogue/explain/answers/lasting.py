@@ -80,7 +80,7 @@ def staying(asked: Asked, leader: Vehicle) -> Staying:
 
 def in_front(asked: Asked) -> Vehicle | None:
     """Give the vehicle that we follow now."""
-    followed = asked.world.episodes(Ego(), ("follow",), asked.now - STEP)
+    followed = asked.world.episodes(Ego(), ("follow",))
     on = [e.object for e in followed if e.end is None and isinstance(e.object, Vehicle)]
     return on[-1] if on else None
 

@@ -46,7 +46,7 @@ def fast(of: Is, asked: Asked) -> Finding:
 def _slowing(asked: Asked) -> tuple[Episode, ...]:
     """Give our braking that is under way, or about to begin."""
     world = asked.world
-    found = world.episodes(actor=Ego(), actions=SLOWING, begin=asked.now - SHORT)
+    found = world.episodes(actor=Ego(), actions=SLOWING)
     if going := [e for e in found if e.end is None]:
         return (going[-1],)
     coming = foreseen(asked, Event("slow-down"))

@@ -141,8 +141,6 @@ def sides(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Thing, T
         return thing, of.to
     if isinstance(thing, Ego):
         return thing, _ahead(asked, at)
-    if isinstance(thing, Vehicle):
-        return Ego(), thing
     return Ego(), thing
 
 

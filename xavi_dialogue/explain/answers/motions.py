@@ -65,8 +65,7 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     for rank, kinds in enumerate(rows):
         deed = _episode(scene, event, kinds, present=present)
         if deed is not None:
-            premise = rank == 0 and not (named == "stand" and deed.action not in STILL)
-            return _told(scene, event, deed, named, premise=premise)
+            return _told(scene, event, deed, named, premise=rank == 0)
     if present and named != "speed-up":
         return _state(scene, event, named)
     raise _denied(scene, event, rows)
@@ -80,7 +79,7 @@ def is_our_speed(of: Compares) -> bool:
 
 def is_slowing(scene: Asked) -> bool:
     """Tell whether we are slowing down, and still drive."""
-    found = scene.world.episodes(Ego(), SLOWING, begin=scene.now - BEGUN)
+    found = scene.world.episodes(Ego(), SLOWING)
     speed = speed_at(scene.ride, scene.now)
     return any(e.end is None for e in found) and speed is not None and speed >= STANDING
 
@@ -211,7 +210,7 @@ def _episode(
 def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Episode]:
     """Those in order of their end; of several that meet, the kind that is named first last."""
     rank = {kind: -k for k, kind in enumerate(kinds)}
-    return sorted(found, key=lambda e: (round(e.begin / WIDER), rank.get(e.action, -9), e.begin))
+    return sorted(found, key=lambda e: (round(e.begin / WIDER), rank[e.action], e.begin))
 
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:

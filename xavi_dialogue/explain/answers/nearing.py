@@ -66,8 +66,7 @@ def stays(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None
     """Tell whether somebody who stands stays there until we are past: he does who lets us go."""
     if event.action not in ("stand", "stop", "wait") or not going:
         return None
-    at = asked.now - SINCE
-    yields = asked.world.episodes(actor=event.actor, actions=("give-way", "wait"), begin=at)
+    yields = asked.world.episodes(actor=event.actor, actions=("give-way", "wait"))
     ours = tuple(e for e in yields if isinstance(e.object, Ego) and e.end is None)
     return Finding(True, ours[-1:]) if ours else None
 

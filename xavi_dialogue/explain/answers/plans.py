@@ -19,7 +19,6 @@ from xavi_dialogue.explain.history.ride import planned
 MOVES: frozenset[Action] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight")
 )
-LIKELY = 0.5  # share of the rollouts from which something is going to happen
 AHEAD: tuple[Attribute, ...] = ("turn", "exit-number", "distance", "time-to-go")
 Mark = Callable[[Rollout, Motion], float | None]
 
@@ -109,6 +108,6 @@ def _mark(event: Event) -> Mark:
     if action in ("collide", "arrive"):
         outcome = "collision" if action == "collide" else "done"
         return lambda rollout, motion: motion.time[-1] if rollout.outcome == outcome else None
-    if action in STARTS and not names:
+    if action in STARTS:
         return moves_on
     return begins(action, names)

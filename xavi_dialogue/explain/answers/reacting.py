@@ -141,7 +141,7 @@ def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float
         if one is None or one.room is None or (in_lane and one.kind == "first"):
             continue
         rank = 0 if one.left is not None else 1 if one.kind == "standing" or not in_lane else 2
-        if rank < 2 or not in_lane:
+        if rank < 2:
             found.append((rank, one.room - (one.needed or 0.0), time))
     return min(found)[2] if found else None
 

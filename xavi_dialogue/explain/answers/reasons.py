@@ -24,10 +24,8 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Junction,
-    Pronoun,
     Proposition,
     Related,
-    Thing,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
 from xavi_dialogue.explain.answers import (
@@ -281,7 +279,7 @@ def _not_going(event: Event, scene: Asked) -> Answer:
         except Unanswered as unanswered:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise
-    if event.action in ("go", "move") and event.side is None:
+    if event.action in ("go", "move"):
         return motions.slow(scene)
     return choices.why_not(event, scene)
 
@@ -294,10 +292,10 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     vehicle = vehicle_in(of.thing)
     if of.state in ("moving", "fast") and negated and vehicle is None:
         return motions.standing_or_slow(scene, Event("move", tense=of.tense))
-    if vehicle is not None and of.state in SLOW | {"moving", "fast"}:
+    if of.thing is not None and vehicle is not None and of.state in SLOW | {"moving", "fast"}:
         still = of.state in ("stationary", "stuck") or (negated and of.state == "moving")
         action: ActionName = "stand" if still else "slow-down"
-        event = Event(action, of.thing or _nobody(), tense=of.tense)
+        event = Event(action, of.thing, tense=of.tense)
         if of.state == "slow" and scene.past is None and not others.slows(scene, vehicle):
             return others.slowly(scene, vehicle)
         return others.why(event, scene, negated=False)
@@ -310,7 +308,3 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if of.state in ("close", "far"):
         return motions.slow(scene, "close" if of.state == "close" else "far")
     return standings.fact(of, scene)
-
-
-def _nobody() -> Thing:
-    return Pronoun("it")

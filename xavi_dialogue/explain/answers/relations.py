@@ -55,8 +55,9 @@ def related(of: Related, asked: Asked) -> Finding:
         return _right_of_way(replace(of, relation=first, to=Ego()), asked, about)
     if of.relation == "waiting-for":
         return _waiting(of, asked)
-    if of.relation == "can-see" and not is_us(of.thing) and number(of.thing) is not None:
-        return others_mind(asked, number(of.thing) or 0)
+    seer = number(of.thing)
+    if of.relation == "can-see" and seer is not None:
+        return others_mind(asked, seer)
     if of.relation == "can-see" and is_us(of.thing) and number(of.to) is not None:
         seeing = Event("see", of.thing, of.to, time=of.time, tense=of.tense)
         return happens(Happens(seeing), asked)
@@ -72,8 +73,6 @@ def related(of: Related, asked: Asked) -> Finding:
         return Finding(one == other, seen)
     found = [_between(of, asked, thing, to, about) for thing in _each(asked, of.thing, about.end)
              for to in _each(asked, of.to, about.end)]  # fmt: skip
-    if not found:
-        return Finding(False)
     true = next((one for one in found if one.holds), None)
     return true or next((one for one in found if one.holds is None), found[0])
 

@@ -11,7 +11,7 @@ from xavi_dialogue.domain.terms import Ego, Event, Happens
 from xavi_dialogue.explain.answers import supposing
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.causes.actions import names_of
-from xavi_dialogue.explain.causes.options import situations
+from xavi_dialogue.explain.causes.options import situations, with_model_error
 from xavi_dialogue.explain.causes.premise import Premise
 from xavi_dialogue.explain.facts.options import of_trace
 
@@ -41,7 +41,8 @@ def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
     if trace is None:
         return None
     names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
-    found = [o for o in of_trace(asked.ride, trace) if o.action in names]
+    known = with_model_error(of_trace(asked.ride, trace))
+    found = [option for option in known if option.action in names]
     if not found:
         return None
     option, evidence = found[0], situations(Premise(trace, None))

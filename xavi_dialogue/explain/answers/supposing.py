@@ -179,7 +179,7 @@ def _of_other(
             event, question.then, scene, vehicle, here, negated=negated, past=past
         )
     quick = manner_of(event, "fast", "slowly", "early", "late") is not None
-    if quick or (isinstance(of, Exists) and not negated):  # nobody can be put where he was not
+    if quick or (event is None and not negated):  # nobody can be put where or how he was not
         raise Unanswered(CannotSay("unsupported-condition"))
     supposed = None if _is_absence(of, negated=negated) else event
     if supposed is None and not past and asks_pace(question.then):

@@ -52,9 +52,7 @@ def _bearing(act: Feel, asked: Asked) -> Answer | None:
     vehicle, speedy, event = _about(about)
     time = _recent(asked)
     if vehicle is not None:
-        near = asked.past is not None or not _stays(act)
-        past = window(asked) if asked.past is not None else time
-        return closeness(asked, vehicle, past if near else time, "safe")
+        return closeness(asked, vehicle, time, "safe")
     if speedy:
         return speed_of(asked)
     if event is not None:
@@ -96,10 +94,6 @@ def _about(about: Proposition | Thing | None) -> tuple[int | None, bool, Event |
         case None:
             return None, False, None
     return (about.number if isinstance(about, Vehicle) else None), False, None
-
-
-def _stays(act: Feel) -> bool:
-    return act.feeling in ("liking", "happy", "impressed")
 
 
 def _recent(asked: Asked) -> Window:

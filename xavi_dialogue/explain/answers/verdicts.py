@@ -110,7 +110,7 @@ def _as_state(that: Proposition) -> Proposition:
     """Take "he is going too fast" for what it says of him: that he is fast."""
     match that:
         case Not(content=content):
-            return Not(_as_state(content))
+            return replace(that, content=_as_state(content))
         case Happens(event=event) if event.action in ("go", "move") and event.modal is None:
             state = next((PACES[m] for m in event.manner if m in PACES), None)
             if state is not None and (state == "fast" or not is_us(event.actor)):

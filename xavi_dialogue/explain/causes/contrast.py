@@ -22,7 +22,8 @@ from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, same
 from xavi_dialogue.explain.causes.involved import contrastive_causes, holding_up
 from xavi_dialogue.explain.causes.necessity import Proven, proven
-from xavi_dialogue.explain.causes.ranges import likely
+from xavi_dialogue.explain.causes.ranges import likely, table
+from xavi_dialogue.explain.causes.routes import route_after, shared
 from xavi_dialogue.explain.causes.terms import RISK, differences, told
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, thin
 from xavi_dialogue.explain.history.thresholds import STANDING
@@ -189,11 +190,12 @@ def missed(trace: PlanTrace, there: Intervention, here: Intervention) -> Action 
     back = OPPOSITE.get(there.plan[0])
     if back is not None and back in here.plan and here.likeliest == "done":
         return back
-    route = () if trace.road is None or "stop" in there.plan else trace.road.route
-    if not route or route[0].kind != "junction":
+    node = shared(there.plan, here.plan)
+    route, _ = route_after(trace, node)
+    if not route or "stop" in there.plan or route[0].kind != "junction":
         return None
     turn = route[0].turn
-    taken = next((action for action in there.plan if action in EXITS), None)
+    taken = next((action for action in there.plan[len(node) :] if action in EXITS), None)
     if taken is not None:
         return turn if taken != turn and here.likeliest == "done" else None
     moves = set(there.plan) & set(CHANGES)
@@ -231,7 +233,9 @@ def outcome(intervention: Intervention) -> OutcomeEstimate:
     name = intervention.likeliest
     struck = intervention.collisions() if name == "collision" else {}
     vehicle = max(struck, key=lambda v: struck[v], default=None)
-    return OutcomeEstimate(name, min(intervention.outcomes[name], 1.0), vehicle)
+    chance = min(intervention.outcomes[name], 1.0)
+    error = 0.0 if name == "dead" else table().model_error  # where roads lead is no guess
+    return OutcomeEstimate(name, chance, vehicle, error)
 
 
 def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:

@@ -19,6 +19,7 @@ from xavi_dialogue.explain.causes.contrast import (
     contrast,
     factual,
 )
+from xavi_dialogue.explain.causes.routes import route_after
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 
 DIRECTIONS: tuple[Action, ...] = (*EXITS, "continue-next-exit")
@@ -131,16 +132,7 @@ def _staying(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
 
 def on_route(trace: PlanTrace, action: Action, node: Actions = ()) -> bool:
     """Tell whether an action is what the route has at the next junction, after those of a node."""
-    route = list(() if trace.road is None else trace.road.route)
-    passed = 0  # exits of the roundabout that comes next
-    for step in node:
-        if step == "continue-next-exit":
-            passed += 1
-        elif step in EXITS and route:
-            route, passed = route[1:], 0
-        elif step == "continue":
-            while route and route[0].kind == "junction" and route[0].turn == "exit-straight":
-                route = route[1:]
+    route, passed = route_after(trace, node)
     if not route:
         return False
     if route[0].kind == "roundabout":

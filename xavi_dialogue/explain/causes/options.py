@@ -1,5 +1,9 @@
 """Options: what a decision weighed, and how each came out."""
 
+from collections.abc import Iterable
+
+from msgspec.structs import replace
+
 from planner.trace import Action
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Intervention, plan_of
@@ -7,6 +11,7 @@ from xavi_dialogue.domain.answers import Evidence
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.explain.causes.contrast import alternatives, factual, outcome
 from xavi_dialogue.explain.causes.premise import Premise
+from xavi_dialogue.explain.causes.ranges import table
 from xavi_dialogue.explain.causes.terms import differences
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import Ride, planned
@@ -65,6 +70,16 @@ def _option(
         value=value,
         collision=risk,
         collided_with=max(struck, key=lambda v: struck[v]) if struck else None,
+        model_error=ends.model_error,
+    )
+
+
+def with_model_error(options: Iterable[OptionValue]) -> tuple[OptionValue, ...]:
+    """Return options with how far their rollouts are to be trusted."""
+    error = table().model_error
+    return tuple(
+        option if option.outcome == "dead" else replace(option, model_error=error)
+        for option in options
     )
 
 

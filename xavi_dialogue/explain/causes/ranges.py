@@ -1,4 +1,4 @@
-"""Ranges of differences in time that hold: calibrated on foils that were driven in SUMO.
+"""Ranges of times and chances of outcomes that hold: calibrated on foils driven in SUMO.
 
 `xavi bench fidelity --learn` makes the table, ranges.json, which says what it was made of. Cases
 are told apart by the kind of foil and of road (Mondrian conformal prediction, Vovk et al. 2005).
@@ -55,6 +55,7 @@ class Source(msgspec.Struct, frozen=True):
     rides: int
     cases: int
     missed: int  # of these, foils that never came to the destination
+    foils: int = 0  # of which outcomes were foreseen
 
 
 class Ranges(msgspec.Struct, frozen=True):
@@ -64,6 +65,7 @@ class Ranges(msgspec.Struct, frozen=True):
     constant: float  # [s] half the width of one range for all, a rival in the bench
     groups: tuple[Group, ...]
     source: Source
+    model_error: float = 0.0  # probability that the rollouts tell nothing of the outcome
 
     def group(self, foil: FoilKind, road: RoadKind) -> Group | None:
         """Find the group of a kind of case; None where too few rides had it."""

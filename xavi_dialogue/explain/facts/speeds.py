@@ -12,7 +12,6 @@ from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
 from xavi_dialogue.explain.history.thresholds import (
     BEGINNING,
     BRAKING,
-    CHANGED,
     MOVING,
     STANDING,
 )
@@ -177,9 +176,7 @@ def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
             if begin is None:
                 begin = motion.time[k]
     if begin is not None:
-        moved = last + 1 < len(motion.time)
-        end = motion.time[last + 1] if moved and motion.speed[-1] >= CHANGED else None
-        yield begin, end, begin <= motion.time[0] + EPSILON
+        yield begin, None, begin <= motion.time[0] + EPSILON
 
 
 def moves(states: States, vehicle: int) -> list[Episode]:

@@ -131,7 +131,7 @@ class Motion:
                 least = BEGINNING if k == len(self.speed) else CHANGED
                 if sign * (self.speed[best] - self.speed[foot]) >= least:
                     yield Sighting(action, self.time[start], self.time[best])
-                foot = start = best = min(k, len(self.speed) - 1)
+                foot = start = best = k
                 continue
             change = sign * (self.speed[k] - self.speed[foot])
             if change <= 0.0:

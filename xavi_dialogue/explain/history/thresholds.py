@@ -29,7 +29,6 @@ OPPOSITE = math.radians(130.0)  # and by more come towards us, until they have p
 ROAD_WIDTH = 12.0  # [m] sideways within which those who pass are on the same road
 NEAR = 15.0  # [m] between bodies within which a vehicle is near
 CLOSE = 1.0  # [m] between bodies below which two moving vehicles nearly touch
-URGENT = 1.5  # [s] to a collision below which it is a near miss
 
 # how two vehicles meet
 FOLLOWING = 4.0  # [s] gap to the one ahead up to which it is followed ...

@@ -81,13 +81,14 @@ def consequence_slots(
         that: the foil was named, and is "that".
     """
     outcome = contrast.outcome
-    chance = 1.0 if outcome is None else outcome.probability
+    chance = 1.0 if outcome is None else outcome.calibrated
     struck = outcome.collided_with if outcome is not None else None
     struck = struck if struck is not None else contrast.collided_with
     time, main = time_effect(contrast), main_effect(contrast)
     later = time is not None and time.delta > 0.0
     parts, though = terms.sides(contrast, context, past=past)
     risk = terms.chance_of(contrast)
+    counts = any(s.term == "collision" and s.cost > 0.0 for s in contrast.told)
     kind = kind_of(contrast)
     return {
         "kind": kind,
@@ -104,8 +105,9 @@ def consequence_slots(
         "waypoint": contrast.waypoint,
         "way": contrast.way,
         "ride": main.component if main is not None and kind == "ride" else None,
-        "risk_too": _adds_risk(contrast) and kind not in ("risk", "collision", "alone"),
-        "risk": Chance(risk) if risk >= RISK else None,
+        "risk_too": (counts or _adds_risk(contrast)) and kind not in ("risk", "collision", "alone"),
+        "risk": Chance(risk) if counts or risk >= RISK else None,
+        "tiny": risk < terms.TINY,
         "later": later,
         **terms.timed(contrast, context, more=later),
         **terms.not_worth_it(contrast),

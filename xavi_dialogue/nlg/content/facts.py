@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,
@@ -207,7 +208,7 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
         verb=verb,
         chosen=option.chosen,
         outcome=option.outcome,
-        chance=Chance(option.probability),
+        chance=Chance(calibrated(option.probability, option.model_error)),
         later=Quantity(delta, "s") if delta is not None and delta > 0.25 else None,
         sooner=Quantity(-delta, "s") if delta is not None and delta < -0.25 else None,
         struck=Who(Vehicle(option.collided_with)) if option.collided_with is not None else None,

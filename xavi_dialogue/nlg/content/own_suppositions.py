@@ -3,6 +3,7 @@
 from typing import Any
 
 from xavi_dialogue.domain.answers import Contrast, SupposedOfUs
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import (
     LIKELY,
@@ -22,7 +23,10 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
+OF_RISKS = frozenset[Asking](("crash", "safe", "safer"))  # questions that are of risks themselves
+TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
 SAFER = 0.01  # probability of a collision by which something is safer
+ALIKE = 0.1  # difference of probabilities up to which two outcomes are told as one
 ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
 
 
@@ -37,6 +41,8 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         "cause": None if context.detail == "less" else cause,
         "trouble": _troubles(contrast),
     }
+    both = _both_late(contrast) if slots["kind"] == "late" and not slots["way"] else None
+    slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
     risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
@@ -51,12 +57,27 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         core = (just, *(m for m in (risk,) if m is not None), *rest)
         return Plan(core, (), more, (), about_cause(answer))
     if answer.form != "what-if" and kind_of(contrast) != "alone":
-        told = Message("IF_ASKED", {**slots, **_asked(answer, slots)})
-        return Plan((told,), (), more, (), about_cause(answer))
+        asked = _asked(answer, slots)
+        told = Message("IF_ASKED", {**slots, **asked})
+        named = slots["kind"] == "collision" or (answer.form == "could" and asked["riskier"])
+        untold = answer.form in TIMED and not named  # times alone are told
+        if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
+            risk = risks(contrast, context, past=past, unsaid=True)
+        beside = () if risk is None or answer.form in OF_RISKS else (risk,)
+        return Plan((told, *beside), (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
     return Plan(core, (), more, (), about_cause(answer))
+
+
+def _both_late(contrast: Contrast) -> Chance | None:
+    """How sure it is that neither plan gets there in time, where that is likely of both."""
+    foil, fact = contrast.outcome, contrast.fact_outcome
+    if foil is None or fact is None or not foil.name == fact.name == "termination":
+        return None
+    least, most = sorted((foil.calibrated, fact.calibrated))
+    return Chance(least) if most - least <= ALIKE else None
 
 
 def _troubles(contrast: Contrast) -> bool:
@@ -89,6 +110,7 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
     later = tuple(a for a in contrast.continued if a in CHANGES)[:1]
     return {
         "form": answer.form,
+        "judged": contrast.verdict,
         "verdict": "yes" if risk >= LIKELY else "maybe" if risk >= RISK else "no",
         "good": not worse and slots["kind"] not in ("collision", "dead", "late"),
         "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,

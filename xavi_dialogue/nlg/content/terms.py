@@ -117,7 +117,7 @@ def _term(share: Share, contrast: Contrast, context: SpeechContext, *, past: boo
     outcome = contrast.outcome
     name = _OUTCOMES.get(share.term)
     likely = outcome is not None and name == outcome.name and outcome.probability >= LIKELY
-    chance = outcome.probability if likely and outcome is not None else share.chance or 0.0
+    chance = outcome.calibrated if likely and outcome is not None else share.chance or 0.0
     here = share.fact_chance or 0.0
     struck = contrast.collided_with
     if outcome is not None and outcome.collided_with is not None:

@@ -18,6 +18,7 @@ DOING = {
 DONE = {"turned right": "exit-right", "turned left": "exit-left"}
 HARD = -1.5  # [m/s2] a braking that nobody overlooks
 JUST = 3.0  # [s]
+NEARLY = 0.5  # [s] about a decision in which what is told of it was seen
 
 
 @claim(rf"I am (?P<how>{'|'.join(DOING)})")
@@ -179,3 +180,19 @@ def faster_by(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     gaps = [sign * (b - a) for a in ours for b in theirs]
     if not near(float(match["speed"]), gaps):
         yield Fault("speed now", f"{match[0]}: {rounded(gaps)}")
+
+
+@claim(r"(?P<who>V\d+) (?:is|was) driving at only (?P<speed>\d+) km/h in that lane")
+def slow_in_that_lane(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that a vehicle is in a lane beside ours, and drives at the speed told."""
+    decided = said.now if said.decision is None else said.decision.trace.sim_time
+    span = (decided - NEARLY, decided + NEARLY)
+
+    def aside(vehicle: int, time: float) -> bool:
+        seen = said.ride.offset(EGO, vehicle, time)
+        return seen is not None and 1.5 < abs(seen[1]) < 6.0
+
+    if not said.some(match["who"], span, aside):
+        yield Fault("place", match[0])
+    if not near(float(match["speed"]), speeds := said.speeds(match["who"], span)):
+        yield Fault("speed", f"{match[0]}: {rounded(speeds)}")

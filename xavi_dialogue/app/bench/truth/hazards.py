@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from xavi_dialogue.app.bench.truth.context import Fault, Said, Told, claim
 from xavi_dialogue.app.bench.truth.decision import Decision
 from xavi_dialogue.app.bench.truth.naming import PERCENT, foil_of, percents
-from xavi_dialogue.app.bench.truth.phrases import ADVERB, is_chance, is_likely
+from xavi_dialogue.app.bench.truth.phrases import ADVERB, is_chance, is_likely, trusted
 from xavi_dialogue.app.bench.truth.reckoning import Actions
 
 STRUCK = r"(?: with (?P<who>V\d+|it))?"
@@ -66,7 +66,7 @@ def ends_in_a_collision(said: Said, match: re.Match[str]) -> Iterator[Fault | To
     decision, foil = found
     yield Told("collision", foil)
     values = decision.risks(foil)
-    if not any(is_likely(match["adverb"], value) for value in values):
+    if not any(is_likely(match["adverb"], trusted(value)) for value in values):
         yield Fault("outcome of a foil", f"{match[0]}: {percents(values)}")
     if match["chance"]:
         yield from _risk(said, match, decision, foil)
@@ -90,7 +90,10 @@ def _risk(said: Said, match: re.Match[str], decision: Decision, foil: Actions) -
     values = decision.risks(foil)
     struck = said.who(match["who"]) if match["who"] else ()
     with_it = decision.risks(foil, struck) + decision.risks(None, struck)
-    if not any(is_chance(match, value) for value in (*values, *decision.risks(foil, struck))):
+    known = (*values, *decision.risks(foil, struck))
+    if "adverb" in match.groupdict():  # told as the outcome, and not as a risk
+        known = tuple(trusted(value) for value in known)
+    if not any(is_chance(match, value) for value in known):
         yield Fault("risk of a foil", f"{match[0]}: {percents(values)} for {', '.join(foil)}")
     elif struck and not any(with_it):
         yield Fault("collision with another", match[0])

@@ -16,6 +16,7 @@ KINDS = {
     "bicycle": {"bicycle"},
 }
 SIDE = r"(?: on the (?:left|right))?"
+BESIDE = 10.0  # [m] ahead or behind up to which a vehicle may be called beside us
 PLACE = (
     rf"(?: (?P<that>that (?:was|came|I saw last) )?(?P<place>ahead of us{SIDE}|behind us{SIDE}|"
     rf"(?:coming )?from the (?:left|right)|(?:coming )?towards us|on our (?:left|right)|"
@@ -77,9 +78,11 @@ def placed(ride: Ridden, vehicle: int, place: str, time: float) -> bool:
         return (left > -6.0) if "left" in place else (left < 6.0)
     if "towards us" in place:
         return abs(turn) > 1.6 and ahead > -8.0
-    side = left if "left" in place else -left if "right" in place else None
+    side = left if place.endswith("left") else -left if place.endswith("right") else None
     if place.startswith("ahead"):
         return ahead > -1.0 and (side is None or side > -1.0)
     if place.startswith("behind"):
         return ahead < 1.0 and (side is None or side > -1.0)
+    if "beside" in place and abs(ahead) > BESIDE:
+        return False
     return side is None or side > -1.0

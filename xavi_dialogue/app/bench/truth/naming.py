@@ -7,7 +7,7 @@ from xavi_dialogue.app.bench.truth.decision import Decision
 from xavi_dialogue.app.bench.truth.reckoning import Actions
 
 #: From where on a phrase tells of others.
-OF_OTHERS = re.compile(r"\b(?:expect|chance|possible|think|thought|might)\w*\b")
+OF_OTHERS = re.compile(r"\b(?:expect|chance|possible|(?<!now )think|thought|might)\w*\b")
 PERCENT = r"(?P<chance>(?:under |over )?\d+ %)"
 
 
@@ -18,7 +18,8 @@ def foil_of(said: Said, match: re.Match[str]) -> tuple[Decision, Actions] | None
     clause = re.split(r"[;:] ", said.text[: match.start()])[-1]
     head, _, reason = clause.rpartition("because ")
     earlier = said.before + said.text[: match.start()]
-    for phrase in (reason, head, re.split(r",? because ", earlier)[0]):
+    sentence = re.split(r"(?<=[.!?]) ", earlier)[-1]
+    for phrase in (reason, head, *(re.split(r",? because ", x)[0] for x in (sentence, earlier))):
         found = said.decision.foil_of(OF_OTHERS.split(phrase)[0])
         if found is not None:
             return said.decision, found

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from planner.trace import Action, Outcome
 from xavi_dialogue.app.bench.truth.context import Fault, Said, Told, claim
 from xavi_dialogue.app.bench.truth.naming import PERCENT, foil_of, percents
-from xavi_dialogue.app.bench.truth.phrases import ADVERB, acts, is_chance, is_likely
+from xavi_dialogue.app.bench.truth.phrases import ADVERB, acts, is_chance, is_likely, trusted
 from xavi_dialogue.app.bench.truth.reckoning import OUTCOMES
 
 ROADS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
@@ -14,7 +14,23 @@ LONGER = 1.0  # [s] by which another way is longer
 
 
 @claim(
-    rf"would {ADVERB}(?:have )?take(?:n)? (?:much too long|longer than I look(?:ed)? ahead)",
+    rf"would {ADVERB}(?:have )?take(?:n)? longer than I look(?:ed)? ahead"
+    r", and so would",
+)
+def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that neither foil nor plan is through within the time that is looked ahead."""
+    found = foil_of(said, match)
+    if found is None:
+        return
+    decision, foil = found
+    sides = [[side.chance("termination") for side in pair] for pair in decision.pairs(foil)]
+    if not any(is_likely(match["adverb"], trusted(min(pair))) for pair in sides):
+        yield Fault("outcome of both", f"{match[0]}: {percents([x for p in sides for x in p])}")
+
+
+@claim(
+    rf"would {ADVERB}(?:have )?take(?:n)? (?:much too long|longer than I look(?:ed)? ahead)"
+    r"(?!, and so would)",
     rf"might (?:have )?take(?:n)? much too long \({PERCENT}\)(?P<adverb>)",
     r"would (?:have )?take(?:n)? (?:still longer|less long)(?P<both>)",
     r"(?P<both>more certain) to get us on in time",
@@ -56,7 +72,8 @@ def _outcome(
     if part.get("chance"):
         right = any(is_chance(match, value) for value in values)
     else:
-        right = any(is_likely(match["adverb"], value) for value in values)
+        told = map(trusted, values) if outcomes == ("termination",) else values
+        right = any(is_likely(match["adverb"], value) for value in told)
     if not right:
         yield Fault("outcome of a foil", f"{match[0]}: {percents(values)} for {', '.join(foil)}")
 

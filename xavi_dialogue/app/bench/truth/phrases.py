@@ -1,6 +1,10 @@
 """Phrases of answers: what names a macro action, how long it takes, how surely it is."""
 
 import re
+from functools import cache
+from importlib.resources import files
+
+import msgspec
 
 from planner.trace import Action
 
@@ -80,3 +84,19 @@ def is_likely(adverb: str | None, value: float) -> bool:
     """Tell whether an adverb is the word for a probability; without one it is next to certain."""
     low, high = ADVERBS[adverb or ""]
     return low - SLACK <= value <= high + SLACK
+
+
+def trusted(value: float) -> float:
+    """Return what may be told of an outcome with a probability among rollouts.
+
+    In a measured share of foils the model of the rollouts is wrong; then each of the four
+    outcomes is as likely. The share is recorded with the ranges that answers give. Where roads
+    lead is no guess, and told as the rollouts have it.
+    """
+    return value + _model_error() * (0.25 - value)
+
+
+@cache
+def _model_error() -> float:
+    text = (files("xavi_dialogue.explain.causes") / "ranges.json").read_bytes()
+    return float(msgspec.json.decode(text)["model_error"])

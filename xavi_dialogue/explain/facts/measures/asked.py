@@ -7,7 +7,6 @@ from xavi_dialogue.domain.facts import Gap, Measure
 from xavi_dialogue.domain.terms import Ego, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.facts.states import States
-from xavi_dialogue.explain.history.motion import EPSILON
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +62,6 @@ class Asked:
 
     def gap(self) -> Gap | None:
         """Why the things are not known at that time; None where they are."""
-        if self.at > self.states.ride.now + EPSILON:
-            return "in-future"
         first = self.states.gap(self.vehicle, self.at)
         if first is not None or self.other is None:
             return first

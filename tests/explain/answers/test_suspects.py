@@ -1,0 +1,130 @@
+"""What the planner chooses, and whether a suspect is the cause of a choice."""
+
+from typing import Any
+
+import pytest
+
+from tests.explain.answers.chosen import (
+    LEFT,
+    STAY,
+)
+from tests.explain.answers.stated import US, did
+from tests.explain.answers.test_choices import ONE
+from xavi_dialogue.domain.answers import (
+    Cause,
+    ChoiceReason,
+    Contrast,
+    Evidence,
+    Measures,
+    MotionCause,
+    MotionReason,
+)
+from xavi_dialogue.domain.evidence import Share
+from xavi_dialogue.domain.terms import Event, Exit, Related
+from xavi_dialogue.explain.answers.choices import (
+    is_choice,
+    is_kept_from,
+    with_suspect,
+)
+
+# --- names --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("event", "choice"),
+    [
+        (Event("change-lane"), True),
+        (Event("turn"), True),
+        (Event("continue"), True),
+        (Event("stop"), False),
+        (Event("brake"), False),
+        (Event("let-go"), False),
+        (Event("follow"), False),
+        (Event("overtake"), True),
+    ],
+)
+def test_what_the_planner_chooses(event: Event, choice: bool) -> None:
+    assert is_choice(event) is choice
+
+
+@pytest.mark.parametrize(
+    ("other", "event", "kept"),
+    [
+        (Event("turn"), Event("keep-lane"), True),
+        (Event("stop"), Event("keep-lane"), True),
+        (Event("brake"), Event("keep-lane"), False),
+        (Event("turn"), Event("go"), True),
+        (Event("turn"), Event("continue"), True),
+        (Event("turn"), Event("go", object=Exit(1)), False),
+        (Event("turn"), Event("go", side="left"), False),
+        (Event("turn"), Event("go", where=Related("behind", US, ONE)), False),
+        (Event("turn"), Event("overtake"), False),
+        (Event("turn"), Event("keep-lane", object=ONE), True),
+    ],
+)
+def test_going_on_is_being_kept_from_something(other: Event, event: Event, kept: bool) -> None:
+    keeping: Any = ("keep-lane",)
+    assert is_kept_from(other, event, keeping) is kept
+
+
+# --- suspects -----------------------------------------------------------------------------------
+
+
+def of_choice(*vehicles: int, ahead: int | None = None, hit: int | None = None) -> ChoiceReason:
+    """A choice because of some vehicles, most important first."""
+    term = Share("collision" if hit is not None else "time", 2.0)
+    against = Contrast(
+        LEFT, STAY, None, (), tuple(Cause(v, ("continue",), 0.5) for v in vehicles), Evidence(),
+        6.0, collided_with=hit, verdict="better", terms=(term,), told=(term,),
+    )  # fmt: skip
+    cause = None if ahead is None else MotionCause("leader", vehicle=ahead)
+    return ChoiceReason("why", None, against, ahead=cause)
+
+
+def of_motion(*vehicles: int | None) -> MotionReason:
+    causes = tuple(MotionCause("leader", vehicle=v) for v in vehicles)
+    return MotionReason(did("brake", 3.0, 5.0), causes)
+
+
+@pytest.mark.parametrize(
+    ("found", "part", "order"),
+    [
+        (of_choice(1, 2), "main", [1, 2]),
+        (of_choice(2, 1), "part", [1, 2]),
+        (of_choice(2, 3), "none", [2, 3]),
+        (of_choice(2, ahead=1), "main", [2]),
+        (of_choice(1, 2, ahead=2), "part", [1, 2]),
+        (of_choice(2, hit=1), "main", [2]),
+        (of_choice(1, 2, hit=2), "part", [1, 2]),
+        (of_motion(2, None, 1), "part", [1, 2, None]),
+        (of_motion(1), "main", [1]),
+        (of_motion(), "none", []),
+    ],
+)
+def test_a_suspect_is_told_of_first(found: Any, part: str, order: Any) -> None:
+    told_ = with_suspect(found, 1)
+    assert isinstance(told_, ChoiceReason | MotionReason)
+    causes = told_.contrast.causes if isinstance(told_, ChoiceReason) else told_.causes
+    assert (told_.suspect, told_.suspected) == (1, part)
+    assert [cause.vehicle for cause in causes] == order
+    assert with_suspect(found, None) == found
+
+
+def test_of_two_suspects_the_one_that_is_more_of_a_cause_is_told() -> None:
+    for found, suspect, part in (
+        (of_choice(2, 1), 2, "either"),
+        (of_choice(3, 1), 1, "either"),
+        (of_choice(3), 1, "neither"),
+        (of_motion(2, 1), 2, "either"),
+        (of_motion(), 1, "neither"),
+    ):
+        told_ = with_suspect(found, 1, 2)
+        assert isinstance(told_, ChoiceReason | MotionReason)
+        assert (told_.suspect, told_.suspected) == (suspect, part)
+    other = Measures(())
+    assert with_suspect(other, 1) == other
+
+
+def test_where_a_collision_does_not_decide_whom_it_would_be_with_is_no_cause() -> None:
+    found = of_choice(2, hit=None)
+    assert with_suspect(found, 1).suspected == "none"  # type: ignore[union-attr]

@@ -1,0 +1,175 @@
+"""Questions of another time, and suppositions, completed by what was spoken of."""
+
+from typing import Any
+
+import pytest
+from msgspec.structs import replace
+
+from tests.nlu.grounding.fakes import talk
+from tests.nlu.grounding.test_completion import WHY, completed
+from tests.nlu.grounding.test_discussed import SLOWED, grounder
+from xavi_dialogue.domain.discourse import Discourse
+from xavi_dialogue.domain.meaning import (
+    Changed,
+    Doing,
+    Elliptic,
+    HowMuch,
+    Peak,
+    Question,
+    Summarise,
+    WhatIf,
+    When,
+    Whether,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    At,
+    Back,
+    Between,
+    Ego,
+    Event,
+    Exists,
+    Exit,
+    Happens,
+    Junction,
+    Measured,
+    Next,
+    Not,
+    Now,
+    Relative,
+    Vehicle,
+    Within,
+)
+from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
+from xavi_dialogue.nlu.grounding.completion.supposing import subordinate, through
+
+TURN = HowMuch(Measured("turn", to=Junction(rank=2), time=Next(), tense="future"))
+AFTER, BEFORE = Back("after"), Back("before")
+
+
+@pytest.mark.parametrize(
+    ("time", "question", "found"),
+    [
+        (Now(), WHY, Doing(Ego())),
+        (Now(), Peak("danger"), Doing(Ego())),
+        (Now(), Doing(Vehicle(1)), None),
+        (BEFORE, WHY, Doing(None, BEFORE, "past")),
+        (BEFORE, Changed(), Doing(None, BEFORE, "past")),
+        (BEFORE, Doing(), None),
+        (Next(), HowMuch(Measured("turn")), TURN),
+        (Next(), TURN, replace(TURN, of=replace(TURN.of, to=Junction(rank=3)))),
+        (Next(), Whither(), TURN),
+        (Next(), Whether(Happens(Event("turn", tense="future"))), TURN),
+        (AFTER, Doing(tense="past"), Doing(None, AFTER, "past")),
+        (AFTER, Summarise(), Doing(None, AFTER, "past")),
+        (Next(), Summarise(), None),
+        (Next(), Doing(Vehicle(1), tense="present"), None),
+        (AFTER, WHY, Doing(None, AFTER, "past")),
+        (AFTER, Whether(Happens(Event("turn", Vehicle(1), tense="present"))),
+         Doing(Ego(), Next(), "future")),
+        (Next(), Doing(Ego(), tense="present"), Doing(Ego(), Next(), "future")),
+        (Next(), Why(Not(Happens(Event("turn", tense="present")))),
+         Whether(Happens(Event("turn", tense="future", modal="will")))),
+        (Within(5.0), Why(Not(Happens(Event("turn", tense="present")))),
+         Whether(Happens(Event("turn", tense="future", modal="will")))),
+        (Relative("after", Vehicle(1)), Why(Not(Happens(Event("turn", tense="present")))),
+         Whether(Happens(Event("turn", tense="future", modal="will")))),
+        (Relative("before", Vehicle(1)), Why(Not(Happens(Event("turn", tense="present")))), None),
+        (Within(5.0), WHY, None),
+        (At(3.0), WHY, None),
+    ],
+)  # fmt: skip
+def test_another_time_may_ask_another_question(time: Any, question: Question, found: Any) -> None:
+    assert at_another_time(time, question) == found
+
+
+@pytest.mark.parametrize(
+    ("time", "found"),
+    [
+        (BEFORE, Between(6.0, 13.95)),
+        (AFTER, Between(16.05, 24.0)),
+        (Back("during"), Between(14.0, 16.0)),
+        (At(3.0), At(3.0)),
+    ],
+)
+def test_before_that_is_counted_from_what_was_asked_about(time: Any, found: Any) -> None:
+    assert counted_from(time, WHY) == found
+    assert counted_from(time, Summarise()) == time
+    early = Why(Happens(replace(SLOWED, time=Between(3.0, 4.0))))
+    assert counted_from(BEFORE, early) == Between(0.0, 2.95)
+
+
+SUPPOSED = talk(question=WhatIf(Not(Happens(SLOWED))))
+
+
+@pytest.mark.parametrize(
+    ("spoken", "discourse", "supposed"),
+    [
+        (Whether(Happens(Event("collide", modal="would"))), SUPPOSED, Not(Happens(SLOWED))),
+        (Whether(Not(Happens(Event("collide", modal="would")))), SUPPOSED, Not(Happens(SLOWED))),
+        (When(Happens(Event("arrive", modal="would"))), SUPPOSED, Not(Happens(SLOWED))),
+        (Whether(Happens(Event("stop", modal="could"))), SUPPOSED, Not(Happens(SLOWED))),
+        (Whether(Happens(Event("brake", modal="can"))), SUPPOSED, Not(Happens(SLOWED))),
+        (Whether(Happens(Event("turn", modal="could"))), SUPPOSED, None),
+        (Whether(Happens(Event("collide"))), SUPPOSED, None),
+        (Whether(Happens(replace(SLOWED, modal="would"))), SUPPOSED, None),  # it is the same
+        (Whether(Happens(Event("collide", modal="would"))), Discourse(), None),
+        (
+            Whether(Happens(Event("collide", modal="would"))),
+            talk(question=Whether(Happens(Event("turn", modal="could")))),
+            Happens(Event("turn", tense="perfect")),
+        ),
+        (
+            Whether(Happens(Event("collide", modal="would"))),
+            talk(question=Why(Not(Happens(Event("turn", modal="should"))))),
+            Happens(Event("turn", tense="perfect")),
+        ),
+        (Why(Happens(Event("collide", modal="would"))), SUPPOSED, None),
+    ],
+)
+def test_what_would_have_come_is_of_what_was_supposed(
+    spoken: Question, discourse: Discourse, supposed: Any
+) -> None:
+    g = grounder(discourse)
+    assert subordinate(spoken, g) == (spoken if supposed is None else WhatIf(supposed, spoken))
+    assert g.notes.leaned is (supposed is not None)
+
+
+def test_through_a_place() -> None:
+    left = Happens(Event("leave", Vehicle(1), object=Exit(1), time=At(3.0)))
+    assert through(Exit(2), left) == Happens(Event("leave", object=Exit(2), time=At(3.0)))
+    assert through(Exit(2), Happens(SLOWED)) == Happens(Event("leave", object=Exit(2)))
+    ring = Junction("roundabout")
+    assert through(ring, None) == Happens(Event("enter", object=ring))
+
+
+@pytest.mark.parametrize(
+    ("fragment", "question", "supposed"),
+    [
+        (Elliptic(form="what-if", event=Event("stop")), WHY, Happens(Event("stop"))),
+        (Elliptic(form="what-if", event=Event("stop"), negated=True), WHY,
+         Not(Happens(Event("stop")))),
+        (Elliptic(form="what-if", event=Event("stop"), thing=Vehicle(1)), WHY,
+         Happens(Event("stop", Vehicle(1)))),
+        (Elliptic(form="what-if"), WHY, Not(Happens(SLOWED))),
+        (Elliptic(form="what-if"), WhatIf(Happens(SLOWED)), Happens(SLOWED)),
+        (Elliptic(form="what-if", thing=Vehicle(3)), WHY,
+         Happens(Event("brake", Vehicle(3), time=Between(12.0, 13.0)))),
+        (Elliptic(form="what-if", thing=Vehicle(3), negated=True), WHY,
+         Not(Happens(Event("brake", Vehicle(3), time=Between(12.0, 13.0))))),
+        (Elliptic(form="what-if", thing=Vehicle(2)), WHY, Not(Exists(Vehicle(2)))),
+        (Elliptic(form="what-if", thing=Exit(2)), WHY, Happens(Event("leave", object=Exit(2)))),
+    ],
+)  # fmt: skip
+def test_a_fragment_may_suppose_something(
+    fragment: Elliptic, question: Question, supposed: Any
+) -> None:
+    assert completed(fragment, question).supposed == supposed
+
+
+def test_a_further_supposition_is_asked_of_what_was_asked_before() -> None:
+    then = Whether(Happens(Event("collide", modal="would")))
+    asked = WhatIf(Not(Happens(SLOWED)), then)
+    found = completed(Elliptic(form="what-if", thing=Vehicle(2)), asked)
+    assert found == WhatIf(Not(Exists(Vehicle(2))), then)
