@@ -13,8 +13,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from planner.recognise import Belief
-from planner.signals import DARK, LightPrediction, LightSample, Outlook
+from planner.signals import DARK, Outlook
 from planner.trace import Sample
+from planner.traffic_lights import LightPrediction, LightSample
 
 Samples: TypeAlias = tuple[Sample | LightSample, ...]  # of vehicles, then of lights
 

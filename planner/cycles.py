@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from planner.signals import GREENS, UNSEEN, LightCourse, LightPrediction, Showing
+from planner.traffic_lights import GREENS, UNSEEN, LightCourse, LightPrediction, Showing
 from planner.trajectory import Roads
 from sim.network import Link, angle_between, point_at
 from sim.scene import LightState, Signal

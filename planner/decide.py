@@ -14,7 +14,7 @@ from planner.reward import COSTS
 from planner.road_facts import road_facts
 from planner.rollout import Task
 from planner.search import Root, Search, Simulated
-from planner.signals import LightPrediction, Outlook
+from planner.signals import Outlook
 from planner.trace import (
     SCHEMA,
     Component,
@@ -29,6 +29,7 @@ from planner.trace import (
     VehiclePrediction,
 )
 from planner.tracks import Observed, indicating, lanes_at
+from planner.traffic_lights import LightPrediction
 from planner.trajectory import Array, Roads
 from planner.waypoints import waypoint
 from sim.scene import EGO, Point, VehicleState

@@ -18,8 +18,8 @@ from planner.lookout import changed, lookout
 from planner.memory import Memory
 from planner.routes import Refusal
 from planner.search import Root
-from planner.signals import LightPrediction
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
+from planner.traffic_lights import LightPrediction
 from planner.trajectory import Roads
 from planner.waypoints import way
 from sim.network import Location, Network

@@ -8,7 +8,8 @@ import numpy as np
 from planner.cycles import Watched, foresee
 from planner.kernels.driving import GAP_HORIZON, OPEN
 from planner.manoeuvres import ActionPlan
-from planner.signals import MEANING, STEP, LightPrediction, Lights
+from planner.signals import MEANING, STEP, Lights
+from planner.traffic_lights import LightPrediction
 from planner.trajectory import Roads
 from sim.scene import Scene, Signal
 

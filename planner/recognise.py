@@ -21,7 +21,7 @@ from planner.obstacles import NOBODY, Motions, Obstacle, Traffic
 from planner.rollout import Leg, Task, held_by_lights, held_up
 from planner.routes import onward
 from planner.scenery import Others, Scenery
-from planner.signals import DARK, HeldByLight, Outlook
+from planner.signals import DARK, Outlook
 from planner.trace import Action, EgoGoal, HeldUp, Settings
 from planner.tracks import (
     Observed,
@@ -32,6 +32,7 @@ from planner.tracks import (
     queued,
     sample_path,
 )
+from planner.traffic_lights import HeldByLight
 from planner.trajectory import Roads
 
 NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped

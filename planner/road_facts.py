@@ -13,9 +13,10 @@ from planner.manoeuvres import ActionPlan
 from planner.road import First, LightAhead, PriorityFact, RoadFacts, RoadPlace
 from planner.routes import approach, rest_of
 from planner.search import Root
-from planner.signals import MEANING, UNSEEN, LightPrediction
+from planner.signals import MEANING
 from planner.trace import EgoGoal, PlannedAction
 from planner.tracks import lanes_at
+from planner.traffic_lights import UNSEEN, LightPrediction
 from planner.trajectory import Roads
 from sim.network import Link, Location, Network
 from sim.scene import EGO, LightState, Signal, VehicleState

@@ -19,8 +19,8 @@ from planner.kernels.collision import first_hit
 from planner.kernels.reaction import FIRM
 from planner.obstacles import HOW, Traffic
 from planner.reward import components
-from planner.signals import HeldByLight
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
+from planner.traffic_lights import HeldByLight
 from planner.trajectory import Array, Roads
 from sim.network import Location
 from sim.scene import Signal

@@ -18,7 +18,7 @@ from planner.recognise import Belief
 from planner.reward import EFFORT, absent, reward, terms
 from planner.rollout import Leg, Task, held_by_lights, held_up, summarise, take
 from planner.routes import Refusal
-from planner.signals import DARK, HeldByLight, LightSample, Outlook
+from planner.signals import DARK, Outlook
 from planner.trace import (
     ACTIONS,
     Action,
@@ -31,6 +31,7 @@ from planner.trace import (
     Sample,
     Settings,
 )
+from planner.traffic_lights import HeldByLight, LightSample
 from planner.tree import Edge, Node, Tree
 from planner.waypoints import cost_left
 from sim.network import Location

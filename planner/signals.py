@@ -1,22 +1,17 @@
-"""Traffic lights: what they show over time, as seen, expected and supposed.
-
-A controller is what works the lights of a junction. Its states are written as one letter for
-each of its places (see `sim.scene.LightState`), UNSEEN where that is out of view.
-"""
+"""What traffic lights mean over time to those who come to their lines, in tables for kernels."""
 
 import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import msgspec
 import numpy as np
 
 from planner.kernels.course import Codes
 from planner.kernels.driving import AMBER, FIRST, HALT, OPEN, SHUT
+from planner.traffic_lights import LightPrediction, LightSample, Showing
 from sim.scene import LightState, Signal
 
-UNSEEN = "?"
 STEP = 0.2  # [s] of the common time base
 #: What a state means to who comes to the line. At all others, one that is not seen among them,
 #: the junction's rules hold.
@@ -27,86 +22,6 @@ MEANING: dict[str, int] = {
     LightState.AMBER.value: AMBER,
     LightState.STOP_FIRST.value: HALT,
 }
-GREENS = (LightState.GREEN.value, LightState.GREEN_YIELD.value)
-
-
-class Showing(msgspec.Struct, frozen=True):
-    """What a controller shows from a moment on."""
-
-    time: float  # [s] simulation time
-    states: str  # a letter for each of the controller's `places`
-
-
-class LightCourse(msgspec.Struct, frozen=True):
-    """One way in which a controller may go on."""
-
-    probability: float
-    showings: tuple[Showing, ...]  # from now on, in order; the last one stays
-
-
-class LightPrediction(msgspec.Struct, frozen=True):
-    """What was seen of a controller, and how it may go on; probabilities sum to 1."""
-
-    controller: str
-    places: tuple[int, ...]  # those in view now or before, by index
-    seen: tuple[Showing, ...]  # every change so far, the last one being what it shows now
-    courses: tuple[LightCourse, ...]
-
-    @property
-    def now(self) -> str:
-        """What it shows, a letter for each place."""
-        return self.seen[-1].states
-
-    @property
-    def likeliest(self) -> int:
-        """The index of the likeliest course."""
-        return max(range(len(self.courses)), key=lambda k: self.courses[k].probability)
-
-    @property
-    def fault(self) -> str | None:
-        """What in it does not fit together, if anything."""
-        if not self.courses or not self.seen:
-            return f"the light {self.controller!r} has no course, or was never seen"
-        ways = (self.seen, *(course.showings for course in self.courses))
-        if not all(way and all(len(x.states) == len(self.places) for x in way) for way in ways):
-            return f"a state of the light {self.controller!r} is not a letter for each place"
-        return None
-
-    def state(self, place: int) -> str:
-        """The letter that a place shows now; UNSEEN where it is out of view."""
-        return self.now[self.places.index(place)] if place in self.places else UNSEEN
-
-    def since(self, place: int) -> tuple[float, bool]:
-        """Since when [s] a place shows what it shows, and whether it was seen to change to it."""
-        at = self.places.index(place)
-        k = len(self.seen) - 1
-        while k > 0 and self.seen[k - 1].states[at] == self.seen[-1].states[at]:
-            k -= 1
-        return self.seen[k].time, k > 0 and self.seen[k - 1].states[at] != UNSEEN
-
-
-class LightSupposed(msgspec.Struct, frozen=True):
-    """What a traffic light is supposed to show, for good."""
-
-    controller: str
-    place: int
-    state: str  # a letter, as in LightPrediction
-
-
-class LightSample(msgspec.Struct, frozen=True):
-    """The course drawn for one controller, as an index into its prediction."""
-
-    controller: str
-    course: int
-
-
-class HeldByLight(msgspec.Struct, frozen=True):
-    """A stretch of a drive in which a light held one up, at its line or in a queue before it."""
-
-    controller: str
-    place: int
-    since: float = msgspec.field(name="from")  # [s] simulation time
-    until: float = msgspec.field(name="to")  # [s]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

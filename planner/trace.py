@@ -13,7 +13,7 @@ from typing import Literal
 import msgspec
 
 from planner.road import LightChange, RoadFacts
-from planner.signals import HeldByLight, LightPrediction, LightSample, LightSupposed
+from planner.traffic_lights import HeldByLight, LightPrediction, LightSample, LightSupposed
 from sim.scene import Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/2"

@@ -37,10 +37,10 @@ from planner.recognise import Belief
 from planner.resume import resume
 from planner.routes import Refusal
 from planner.search import Root
-from planner.signals import LightPrediction, LightSupposed
 from planner.suppose import edge_of, suppose
 from planner.trace import PlanTrace, Settings, Track, VehiclePrediction, WhatIf
 from planner.tracks import Observed, leads
+from planner.traffic_lights import LightPrediction, LightSupposed
 from planner.trajectory import Roads
 from sim.network import Network
 from sim.scene import EGO, LightState, VehicleState

@@ -14,9 +14,10 @@ from planner.cycles import Watched
 from planner.kernels.course import Codes
 from planner.obstacles import Obstacle
 from planner.routes import Refusal
-from planner.signals import MEANING, OPEN, Lights, Showing
+from planner.signals import MEANING, OPEN, Lights
 from planner.trace import Action
 from planner.tracks import links_of
+from planner.traffic_lights import Showing
 from planner.trajectory import Roads
 from sim.lanes import Lane, Link
 from sim.lines import point_at

@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from planner.forward import DT
 from planner.goals import Goal
-from planner.obstacles import NOBODY
 from planner.recognise import Belief, recognise, trajectories_to
 from planner.rollout import Task
+from planner.scenery import Others, Scenery
+from planner.signals import DARK
 from planner.trace import EgoGoal, Settings
 from planner.tracks import Observed, Side
 from planner.trajectory import Roads
@@ -217,7 +218,8 @@ def on(
     frame = Task(roads, EgoGoal("", 0.0, None), SIZE, 40.0, STEPS, 100.0, yielding=True)
     goal = Goal("continue", "there", EgoGoal("road", x + 200.0, None), 1.0)
     known = Settings(rationality=rationality)
-    ways = trajectories_to(frame, starts, goal, track, NOBODY, known)
+    nobody = Others(Scenery(roads, DARK, STEPS), ())
+    ways = trajectories_to(frame, starts, goal, track, nobody, known)
     return [(way.probability, way.actions) for way in ways]
 
 

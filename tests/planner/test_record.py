@@ -47,6 +47,7 @@ def simulated(*legs: Part, samples: tuple[Sample, ...] = (), **more: Any) -> Sim
         "reward": -5.0,
         "terms": {"time": 4.44444, "effort": 0.55556},
         "held_up": (),
+        "held_by_lights": (),
     }  # fmt: skip
     one = Simulated(samples, (), **{**known, **more})
     return replace(one, legs=cast("Any", legs)) if legs else one

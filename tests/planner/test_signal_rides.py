@@ -7,9 +7,9 @@ import pytest
 
 from planner.driver import Driver
 from planner.events import Event, LightPlace
-from planner.signals import LightSupposed
 from planner.trace import EgoGoal, PlanTrace, Settings, decode, encode
 from planner.tracks import lanes_at
+from planner.traffic_lights import LightSupposed
 from planner.trajectory import Roads
 from planner.whatif import NotInView, WhatIf, WhatIfError, replan
 from sim.netfile import read_network

@@ -23,8 +23,9 @@ from planner.kernels.driving import (
 from planner.layout import BEFORE_LINE
 from planner.obstacles import Obstacle, Traffic
 from planner.rollout import Task, summarise, take
-from planner.signals import Lights, Outlook, Showing
+from planner.signals import Lights, Outlook
 from planner.trace import Action, EgoGoal
+from planner.traffic_lights import Showing
 from sim.network import Direction
 from sim.scene import Signal
 from tests.planner.crossroads import (
