@@ -91,7 +91,7 @@ def accelerate(
 
     Returns:
         Acceleration [m/s2], the index of the one in the way (-1: nobody), how it is, and the
-        index of the light that holds it up, alone or a queue before it (-1: none).
+        index of the light that holds it up, itself or by a queue before it (-1: none).
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
@@ -123,7 +123,7 @@ def accelerate(
         needed = min(speed * speed / (2.0 * max(gap, LEAST)), EMERGENCY)
         wanted, who = min(safe, max(speed - needed * RELAXATION, 0.0)), -1
         hardest = max(hardest, needed)
-    elif light >= 0 and not _queues(others, who, how, step, arc + gap):
+    elif safe > free - HINDERED and not _queues(others, who, how, step, arc + gap):
         light = -1
     chosen = towards(speed, acceleration, wanted, hardest, dt)
     return (chosen, -1, LEADER, -1) if wanted > free - HINDERED else (chosen, who, how, light)
