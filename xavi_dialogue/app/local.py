@@ -78,7 +78,8 @@ class Conversation:
             self._tell(TraceRecorded(moment.trace))
         for event in moment.events:
             self._tell(EventRecorded(event))
-        self._tell(SceneSeen(Scene(clock(moment), moment.scene.vehicles)))
+        seen = Scene(clock(moment), moment.scene.vehicles, moment.scene.lights)
+        self._tell(SceneSeen(seen))
         if moment.ending is not None:
             self._tell(RideEnded(clock(moment)))
 

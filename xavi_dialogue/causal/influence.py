@@ -213,7 +213,7 @@ def _chance(vehicle: int, draws: Sequence[_Draws], prior: Array) -> float:
 
 def _keys(model: CausalModel, joint: Joint, draws: int) -> Array:
     """Random numbers [draws, PERMUTATIONS] that belong to a sample, whatever the option."""
-    flat = [number for choice in joint for number in choice]
+    flat = [number % 2**32 for choice in joint for number in choice]
     return np.random.default_rng((model.trace.seed, model.trace.decision, *flat)).random(
         (draws, PERMUTATIONS)
     )

@@ -20,11 +20,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
-from planner.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout, Sample
+from planner.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout
 
 #: One vehicle's goal and trajectory, as indices into its prediction.
 Choice: TypeAlias = tuple[int, int]
-#: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory).
+#: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory), and
+#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0).
 Joint: TypeAlias = tuple[tuple[int, int, int], ...]
 #: A sequence of macro actions: from the root of the search on.
 Actions: TypeAlias = tuple[Action, ...]
@@ -156,6 +157,7 @@ class CausalModel:
         self.trace = trace
         self.given = dict(given or {})
         self._choices = _choices(trace, self.given)
+        self._lights = {one.controller: -1 - k for k, one in enumerate(trace.lights)}
         self._followed: dict[Actions, Intervention | None] = {}
 
     @property
@@ -209,7 +211,7 @@ class CausalModel:
     def _index(self) -> "_Index":
         drawn: dict[tuple[Actions, Joint], list[Rollout]] = {}
         for rollout in self.trace.rollouts:
-            drawn.setdefault((plan_of(rollout), _joint(rollout.samples)), []).append(rollout)
+            drawn.setdefault((plan_of(rollout), self._joint(rollout)), []).append(rollout)
         index = _Index({}, {(): {}}, {})
         for (plan, joint), rollouts in drawn.items():
             if any((goal, way) not in self.given[v] for v, goal, way in joint if v in self.given):
@@ -227,6 +229,9 @@ class CausalModel:
     def _probability(self, joint: Joint, index: int) -> float:
         product = 1.0
         for vehicle, goal, way in joint:
+            if vehicle < 0:
+                product *= self.trace.lights[-1 - vehicle].courses[goal].probability
+                continue
             try:
                 product *= self._choices[vehicle][goal, way]
             except KeyError:
@@ -235,6 +240,12 @@ class CausalModel:
                     "which the trace does not predict: check the indices of its samples"
                 ) from None
         return product
+
+    def _joint(self, rollout: Rollout) -> Joint:
+        """The joint sample of a rollout: of others and of lights."""
+        drawn = [(s.vehicle, s.goal, s.trajectory) for s in rollout.samples]
+        drawn += [(self._lights[s.controller], s.course, 0) for s in rollout.lights]
+        return tuple(sorted(drawn))
 
     def _known(self, plan: Actions) -> Intervention | None:
         if plan not in self._followed:
@@ -317,10 +328,6 @@ def _choices(
 def plan_of(rollout: Rollout) -> Actions:
     """The macro actions of a rollout."""
     return tuple([timed.action for timed in rollout.actions])
-
-
-def _joint(samples: tuple[Sample, ...]) -> Joint:
-    return tuple(sorted([(s.vehicle, s.goal, s.trajectory) for s in samples]))
 
 
 def _agrees(plan: Actions, do: Mapping[int, Action]) -> bool:

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from planner.trace import Action as MacroAction
+from planner.traffic_lights import LightSupposed
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.evidence import (
     Aim,
@@ -338,3 +339,4 @@ class NeedRollout(Value, frozen=True):
     goal: str | None = None  # where it goes: kind of a goal, or its edge
     vehicle_actions: tuple[MacroAction, ...] = ()  # what it does first
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
+    lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET  # what they show

@@ -15,6 +15,7 @@ import msgspec
 
 from planner.events import Event
 from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
+from planner.traffic_lights import LightSupposed
 from sim.scene import EGO, Light, PersonState, Scene, VehicleState
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
@@ -33,6 +34,7 @@ DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
 Gone = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=64)]
 Faster = Annotated[float, msgspec.Meta(ge=-100.0, le=100.0)]
+Supposed = Annotated[tuple[LightSupposed, ...], msgspec.Meta(max_length=8)]
 Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
 Folder = Annotated[str, msgspec.Meta(min_length=1, max_length=4096)]
 CarState = Literal["driving", "paused", "ended"]
@@ -277,6 +279,7 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     goal: Place | None = None  # where it goes: the kind of a goal, or its edge
     vehicle_actions: Actions = ()  # what it does first
     faster: Faster | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
+    lights: Supposed | msgspec.UnsetType = msgspec.UNSET  # what traffic lights show
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 

@@ -21,7 +21,7 @@ def in_hindsight(ride: Ride, model: CausalModel, plan: Intervention) -> Interven
     weights = []
     for result, weight in zip(plan.results, plan.weights, strict=True):
         for vehicle, goal, _ in result.joint:
-            weight *= factors[vehicle].get(goal, 1.0)
+            weight *= factors.get(vehicle, {}).get(goal, 1.0)
         weights.append(weight)
     mass = sum(weights)
     if mass < KEPT:

@@ -17,7 +17,7 @@ Term: TypeAlias = Literal[
     "time", "jerk", "angular-acceleration", "curvature", "effort", "collision", "dead", "late"
 ]
 Actions: TypeAlias = tuple[Action, ...]
-Joint: TypeAlias = tuple[tuple[int, int, int], ...]
+Joint: TypeAlias = tuple[tuple[int, int, int] | tuple[str, int], ...]
 Estimator: TypeAlias = Literal["prior", "shared", "even"]
 
 ESTIMATORS: tuple[Estimator, ...] = ("prior", "shared", "even")
@@ -115,8 +115,9 @@ def _excess(side: Side, outcome: Outcome, usual: float) -> float:
 
 
 def joint(drive: Rollout) -> Joint:
-    """Return the situation of a drive: goal and trajectory of each vehicle."""
-    return tuple(sorted((s.vehicle, s.goal, s.trajectory) for s in drive.samples))
+    """Return the situation of a drive: goal and trajectory of each vehicle, and how lights go."""
+    others = sorted((s.vehicle, s.goal, s.trajectory) for s in drive.samples)
+    return (*others, *sorted((s.controller, s.course) for s in drive.lights))
 
 
 class Reckoning:
@@ -173,13 +174,16 @@ class Reckoning:
         return len({joint(drive) for drive in self.trace.rollouts})
 
     @cached_property
-    def _chances(self) -> dict[tuple[int, int, int], float]:
-        return {
-            (known.vehicle, g, t): goal.probability * way.probability
-            for known in self.trace.predictions
-            for g, goal in enumerate(known.goals)
-            for t, way in enumerate(goal.trajectories)
-        }
+    def _chances(self) -> dict[tuple[int, int, int] | tuple[str, int], float]:
+        found: dict[tuple[int, int, int] | tuple[str, int], float] = {}
+        for known in self.trace.predictions:
+            for g, goal in enumerate(known.goals):
+                for t, way in enumerate(goal.trajectories):
+                    found[known.vehicle, g, t] = goal.probability * way.probability
+        for light in self.trace.lights:
+            for k, course in enumerate(light.courses):
+                found[light.controller, k] = course.probability
+        return found
 
     @cached_property
     def _ended(self) -> dict[Actions, dict[Joint, Rollout]]:
