@@ -118,6 +118,7 @@ def _add(engine: Engine, file: Path, rider: Added) -> str:
     engine.call(api.route.add, f"route of {name}", way)
     kind, when, lane, place, speed = "DEFAULT_VEHTYPE", "now", "best", "base", "max"
     engine.call(api.vehicle.add, name, f"route of {name}", kind, when, lane, place, speed)
+    engine.call(api.vehicle.setSpeedFactor, name, 1.0)  # SUMO would draw how it keeps limits
     for _ in range(round(PATIENCE / engine.call(api.simulation.getDeltaT))):
         if name in engine.call(api.vehicle.getIDList):
             return name
