@@ -11,6 +11,7 @@ extra, make up a network.
 """
 
 import hashlib
+import importlib.util
 import os
 import re
 import shutil
@@ -141,8 +142,40 @@ def program(tool: str = "netconvert") -> str:
     return found
 
 
+def package_folder() -> Path:
+    """Where the extra has SUMO's scripts and networks.
+
+    Raises:
+        NetconvertMissing: it is not installed.
+    """
+    found = importlib.util.find_spec("sumo")
+    if found is None or not found.submodule_search_locations:
+        raise NetconvertMissing
+    return Path(found.submodule_search_locations[0])
+
+
+def random_trips(net: Path, target: Path, *arguments: str) -> None:
+    """Have SUMO's script randomTrips.py make up trips on a network.
+
+    Args:
+        net: the .net.xml file.
+        target: the route file to write.
+        arguments: of the script, beside these.
+
+    Raises:
+        NetconvertMissing: the extra is not installed.
+        ConversionFailed: the script did not accept the arguments.
+    """
+    script = package_folder() / "tools" / "randomTrips.py"
+    files = ("-n", str(net), "-r", str(target), "-o", str(target.with_suffix(".trips.xml")))
+    _done("randomTrips.py", [sys.executable, str(script), *files, "--validate", *arguments])
+
+
 def _run(*arguments: str, tool: str = "netconvert") -> None:
-    command = [program(tool), *arguments, "--xml-validation", "never"]
+    _done(tool, [program(tool), *arguments, "--xml-validation", "never"])
+
+
+def _done(tool: str, command: list[str]) -> None:
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=PATIENCE

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 from planner.driver import DriverError
 from planner.trace import TraceError
+from sim.netconvert import NetconvertMissing
 from sim.scenario import ScenarioError
 from sim.sumo import SimulationError
 from xavi_dialogue.app.bench.browser import NoBrowser
-from xavi_dialogue.app.bench.errors import FaultFound, QuestionFileError
+from xavi_dialogue.app.bench.errors import FaultFound, ForeignUnusable, QuestionFileError
 from xavi_dialogue.app.children import ChildFailed
 from xavi_dialogue.app.client import ServiceLost
 from xavi_dialogue.app.debug.files import TraceFileError
@@ -42,7 +43,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
             *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
             *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
-            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError),
+            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError, ForeignUnusable),
         ),
         ExitStatus.USAGE,
     ),
@@ -50,6 +51,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
             *(FaultFound, NoBrowser, StoreError, KeysError, IdentityError, RecordingError),
+            NetconvertMissing,
         ),
         ExitStatus.FAILED,
     ),

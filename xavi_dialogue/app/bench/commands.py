@@ -8,6 +8,7 @@ import typer
 
 from xavi_dialogue.app.bench.chosen import ours, processes, there
 from xavi_dialogue.app.bench.fidelity_commands import of_foils
+from xavi_dialogue.app.bench.foreign.commands import of_networks
 
 if TYPE_CHECKING:
     from xavi_dialogue.app.bench.figures import Report
@@ -83,6 +84,7 @@ def commands(show: Show) -> typer.Typer:
 
     _of_answers(group, show)
     of_foils(group, show)
+    of_networks(group, show)
     _of_parsing(group, show)
     return group
 

@@ -7,3 +7,7 @@ class FaultFound(ValueError):
 
 class QuestionFileError(ValueError):
     """A folder or file of annotated questions cannot be used."""
+
+
+class ForeignUnusable(ValueError):
+    """A file of rides, or the name of a network, cannot be used."""

@@ -7,7 +7,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from functools import cache
 from multiprocessing import active_children, get_context
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 import msgspec
 
@@ -24,8 +24,17 @@ from xavi_dialogue.dialogue.state import EPSILON
 
 WARMING = "s2"  # scenario of the decision that warms a process up
 
+See: TypeAlias = Callable[[Scene], None]
+
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+
+
+class Decided(msgspec.Struct, frozen=True):
+    """What one decision took."""
+
+    ms: float  # [ms] of wall time
+    others: int  # in view
 
 
 class Run(msgspec.Struct, frozen=True):
@@ -57,7 +66,11 @@ def run(task: tuple[str, int]) -> Run:
             ours, decisions = by_planner(world, scenario, network, seed)
     except Exception as error:
         return Run(name, seed, error=f"{type(error).__name__}: {error}")
-    return Run(name, seed, ours, sumo, None, decisions)
+    return Run(name, seed, ours, sumo, None, tuple(one.ms for one in decisions))
+
+
+def _overlook(_: Scene) -> None:
+    """Take no note of a scene."""
 
 
 @cache
@@ -66,27 +79,33 @@ def warm() -> None:
     warm_up(network_of(load(WARMING)))
 
 
-def by_sumo(world: Simulation, scenario: Scenario, network: Network) -> Drive:
-    """The scenario with SUMO as driver of the ego."""
-    return _driven(world, scenario, network, lambda _: None)
+def by_sumo(
+    world: Simulation, scenario: Scenario, network: Network, see: See = _overlook
+) -> Drive:
+    """The scenario with SUMO as driver of the ego; each scene is shown to `see`."""
+    return _driven(world, scenario, network, lambda _: None, see)
 
 
 def by_planner(
-    world: Simulation, scenario: Scenario, network: Network, seed: int
-) -> tuple[Drive, tuple[float, ...]]:
-    """The scenario with our planner, and the wall time [ms] of each decision."""
+    world: Simulation, scenario: Scenario, network: Network, seed: int, see: See = _overlook
+) -> tuple[Drive, tuple[Decided, ...]]:
+    """The scenario with our planner, and what each decision took.
+
+    Each scene is shown to `see`.
+    """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     driver = Driver(network, goal, settings_of(scenario), seed)
-    decisions: list[float] = []
+    decisions: list[Decided] = []
 
     def command(scene: Scene) -> Command:
         began = time.perf_counter()
         driven = driver.step(scene, scenario.step)
         if driven.trace is not None:
-            decisions.append(1000.0 * (time.perf_counter() - began))
+            taken = round(1000.0 * (time.perf_counter() - began), 2)
+            decisions.append(Decided(taken, len(scene.vehicles) + len(scene.people) - 1))
         return driven.command
 
-    return _driven(world, scenario, network, command), tuple(decisions)
+    return _driven(world, scenario, network, command, see), tuple(decisions)
 
 
 def _driven(
@@ -94,6 +113,7 @@ def _driven(
     scenario: Scenario,
     network: Network,
     command: Callable[[Scene], Command | None],
+    see: See,
 ) -> Drive:
     """Drive to the goal, a collision, the end of the ego's route, or that of the time."""
     observer = Observer(network, scenario.goal)
@@ -101,6 +121,7 @@ def _driven(
     with suppress(EgoGone):
         while True:
             observer.see(scene)
+            see(scene)
             if observer.hits:
                 return observer.drive("collided")
             if observer.arrived:

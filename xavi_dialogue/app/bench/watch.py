@@ -22,7 +22,7 @@ Ended: TypeAlias = Literal["arrived", "collided", "left", "duration"]  # left: w
 class Hit(msgspec.Struct, frozen=True):
     """A collision of the ego."""
 
-    vehicle: int
+    vehicle: int  # or somebody on foot
     time: float  # [s]
     caused: bool  # by the ego; see `blame`
 
@@ -78,7 +78,7 @@ class Observer:
         return Drive(ended, time, tuple(self.hits), self.hard_brakes, self.provoked)
 
     def _touched(self, scene: Scene) -> Iterator[Hit]:
-        for name, other in scene.vehicles.items():
+        for name, other in (*scene.vehicles.items(), *scene.people.items()):
             if name != EGO and overlap(scene.ego, other):
                 caused = caused_by_ego(self._recent, scene, name, self.network)
                 yield Hit(name, round(scene.time, 3), caused)

@@ -1,0 +1,1 @@
+"""`xavi bench foreign`: driving on networks that nobody here made, beside SUMO's own driver."""
