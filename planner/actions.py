@@ -31,7 +31,7 @@ from planner.manoeuvres import (
 from planner.roundabouts import Roundabout, roundabout_ahead
 from planner.routes import (
     Refusal,
-    approach,
+    approaches,
     lane_end,
     link_ahead,
     onward,
@@ -176,7 +176,8 @@ def exit_by(
     if lane in link.via:
         lanes = (lane, *rest_of(roads.network, lane))
     else:
-        ahead = approach(roads, here.location, FAR).lanes
+        ways = (way.lanes for way in approaches(roads, here.location, FAR))
+        ahead = next((row for row in ways if link.from_lane in row), (lane,))
         before = ahead[: ahead.index(link.from_lane) + 1] if link.from_lane in ahead else (lane,)
         lanes = (*before, *link.via, link.to_lane)
     return _through(roads, here, action, lanes, link, goal)

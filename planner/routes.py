@@ -5,6 +5,7 @@ is to the left or to the right; a roundabout is left to the side.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from planner.trace import EgoGoal
@@ -12,6 +13,7 @@ from planner.trajectory import Roads
 from sim.network import Direction, Link, Location, Network, angle_between, point_at
 
 PREVIEW = 15.0  # [m] into a road at which its bearing is taken
+TURNING_BACK = 50.0  # [m] that a way with a turn back must be shorter to be taken
 ALIKE = 0.35  # [rad] by which two roads straight on may differ in bearing
 
 
@@ -91,11 +93,13 @@ def toward(roads: Roads, lane: str, direction: Direction, goal: EgoGoal | None) 
     if len(found) < 2:
         return found[0].link if found else None
 
-    def cost(lead: Lead) -> tuple[bool, bool, float]:
-        length = remaining(roads, roads.network.lanes[lead.link.to_lane].edge, goal)
-        return math.isinf(length), lead.turnaround, length
+    return min(found, key=lambda lead: _length_by(roads, lead, goal)).link
 
-    return min(found, key=cost).link
+
+def _length_by(roads: Roads, lead: Lead, goal: EgoGoal | None) -> tuple[float, bool]:
+    """Length [m] of the way to a goal by a link, and whether it turns back, which counts as some."""
+    length = remaining(roads, roads.network.lanes[lead.link.to_lane].edge, goal)
+    return length + TURNING_BACK * lead.turnaround, lead.turnaround
 
 
 def remaining(roads: Roads, edge: str, goal: EgoGoal | None) -> float:
@@ -111,16 +115,34 @@ def approach(roads: Roads, here: Location, reach: float) -> Approach:
 
     A vehicle inside a junction follows its link first.
     """
+    return next(approaches(roads, here, reach))
+
+
+def approaches(roads: Roads, here: Location, reach: float) -> Iterator[Approach]:
+    """Follow the road as `approach` does, then as well by the lanes that begin beside its own.
+
+    Where a lane becomes two, such as the short ones for turning before a junction, it leads to
+    either without a lane change.
+    """
+    begin = (here.lane, *rest_of(roads.network, here.lane))
+    distance = sum(roads.network.lanes[lane].length for lane in begin) - here.offset
+    return _approaches(roads, begin, distance, reach)
+
+
+def _approaches(
+    roads: Roads, lanes: tuple[str, ...], distance: float, reach: float
+) -> Iterator[Approach]:
     network = roads.network
-    lanes = [here.lane, *rest_of(network, here.lane)]
-    distance = sum(network.lanes[lane].length for lane in lanes) - here.offset
-    while distance <= reach:
-        link = lane_end(roads, lanes[-1]).joint
-        if link is None or link.to_lane in lanes:
-            break
-        lanes += [*link.via, link.to_lane]
-        distance += sum(network.lanes[lane].length for lane in lanes[-1 - len(link.via) :])
-    return Approach(tuple(lanes), distance)
+    joint = lane_end(roads, lanes[-1]).joint
+    if distance > reach or joint is None or joint.to_lane in lanes:
+        yield Approach(lanes, distance)
+        return
+    edge = network.lanes[joint.to_lane].edge
+    beside = (x for x in network.links_from(lanes[-1]) if x != joint)
+    for link in (joint, *(x for x in beside if network.lanes[x.to_lane].edge == edge)):
+        more = (*link.via, link.to_lane)
+        length = sum(network.lanes[lane].length for lane in more)
+        yield from _approaches(roads, (*lanes, *more), distance + length, reach)
 
 
 def link_ahead(
@@ -145,9 +167,10 @@ def link_ahead(
     others = () if last.internal else network.edge_lanes(last.edge)
     if ahead.distance > view or not any(network.links_from(lane.id) for lane in others):
         return Refusal("there is no junction in view ahead")
-    link = toward(roads, last.id, direction, goal)
-    if link is not None:
-        return link
+    for way in approaches(roads, here, view):
+        link = toward(roads, way.lanes[-1], direction, goal)
+        if link is not None:
+            return link
     words = "straight on" if direction == "straight" else f"to the {direction}"
     if any(toward(roads, lane.id, direction, goal) for lane in others):
         return Refusal(f"its lane does not lead {words}")
@@ -185,10 +208,9 @@ def _next(roads: Roads, lane: str, goal: EgoGoal | None) -> Link | None:
         return None
     there = goal is not None and roads.network.lanes[lane].edge == goal.edge
 
-    def cost(lead: Lead) -> tuple[bool, bool, float, bool]:
-        edge = roads.network.lanes[lead.link.to_lane].edge
-        length = 0.0 if there else remaining(roads, edge, goal)
-        return math.isinf(length), lead.turnaround, length, lead.direction != "straight"
+    def cost(lead: Lead) -> tuple[float, bool, bool]:
+        by = _length_by(roads, lead, None if there else goal)
+        return *by, lead.direction != "straight"
 
     return min(leads, key=cost).link
 
