@@ -15,10 +15,12 @@ from sim.network import Network, angle_between
 from sim.scene import Point
 
 Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 SPACING = 1.0  # [m] between path points
 LATERAL_ACCELERATION = 3.5  # [m/s2] in bends, as people drive in town
 CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
+EVEN, WIDE = 0.45, 0.8  # [m] the same in wide bends, and [rad] that these turn at most
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
 TIGHTEST = 0.3  # [1/m] of curvature, from which on a line is made wider
@@ -81,6 +83,9 @@ class Roads:
         self.fastest = max(lane.speed_limit for lane in network.lanes.values())  # [m/s]
         self.ends: dict[str, Any] = {}  # by lane, kept by planner.routes
         self.foes: dict[tuple[str, int], Any] = {}  # by link, kept by planner.layout
+        self.classes: dict[str, Roads] = {}  # by kind of vehicle, kept by planner.classes
+        self.footways: dict[tuple[str, int], Any] = {}  # by link, kept by planner.footways
+        self.kerbs: Array | None = None  # kept by planner.people
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
         self._lines: dict[tuple[str, ...], Path] = {}
@@ -251,10 +256,11 @@ def _hairpins(points: Array) -> NDArray[np.bool_]:
 
 
 def _curvature(heading: Array, arc: Array) -> Array:
-    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
+    """Change of heading per metre of the smoothest line that stays near a polygon.
 
     Curvature is averaged over the widest window in which turning evenly instead of at the
     corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
+    A wide bend that is drawn with few corners may be EVEN aside.
     """
     n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
     total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
@@ -266,10 +272,32 @@ def _curvature(heading: Array, arc: Array) -> Array:
         width = np.maximum(arc[high] - arc[low], 1e-6)
         turn = heading[high] - heading[low]
         bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
-        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
+        near = np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT
+        wide = np.flatnonzero(open_ & ~near & (np.abs(turn) <= WIDE))
+        near[wide] = _aside(heading, arc, total, low[wide], high[wide]) <= EVEN
+        open_ &= near | (window == WINDOWS[0])
         wider = turn / width
         gentler = open_ & (np.abs(wider) < np.abs(result))
         result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
+    return result
+
+
+def _aside(heading: Array, arc: Array, total: Array, low: Ints, high: Ints) -> Array:
+    """How far [m] [W] a line leads aside at most of one that turns evenly in windows of it.
+
+    Args:
+        heading: [rad] [N]
+        arc: [m] [N]
+        total: [m] [N] integral of the heading.
+        low, high: [W] first and last index of each window.
+    """
+    rate = (heading[high] - heading[low]) / np.maximum(arc[high] - arc[low], 1e-6)
+    result: Array = np.zeros(len(low))
+    for step in range(1, int(np.max(high - low, initial=0)) + 1):
+        at = np.minimum(low + step, high)
+        gone = arc[at] - arc[low]
+        even = (heading[low] + 0.5 * rate * gone) * gone
+        result = np.maximum(result, np.abs(total[at] - total[low] - even))
     return result
 
 
