@@ -45,7 +45,13 @@ class Solution:
         )
 
 
-def ways(task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int) -> list[Solution]:
+def ways(
+    task: Task,
+    starts: Sequence[Situation],
+    traffic: Traffic,
+    wanted: int,
+    grip: float = GRIP,
+) -> list[Solution]:
     """The cheapest ways to the task's goal, best first.
 
     Args:
@@ -53,6 +59,7 @@ def ways(task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int)
         starts: where it may be, one for each lane that fits.
         traffic: the others' motions.
         wanted: how many ways to look for.
+        grip: [m/s2] of lateral acceleration that no way may exceed.
     """
     frontier: list[tuple[float, int, float, Situation, tuple[Leg, ...]]] = []
     count = 0
@@ -67,7 +74,7 @@ def ways(task: Task, starts: Sequence[Situation], traffic: Traffic, wanted: int)
         if legs and legs[-1].outcome == "done":
             found.append(Solution(cost, legs))
             continue
-        for leg in _expand(task, here, legs, traffic):
+        for leg in _expand(task, here, legs, traffic, grip):
             changes = sum(_lanes_moved(step, starts, k) for k, step in enumerate((*legs, leg)))
             time = leg.goal_time if leg.goal_time is not None else leg.end.time - task.start
             so_far = time + LANE_CHANGE_COST * changes
@@ -107,7 +114,9 @@ def held(
     return ()
 
 
-def _expand(task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic) -> list[Leg]:
+def _expand(
+    task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic, grip: float
+) -> list[Leg]:
     if len(legs) >= DEPTH:
         return []
     first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
@@ -120,14 +129,14 @@ def _expand(task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic
         if isinstance(plan, Refusal):
             continue
         leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
-        if leg.outcome in (None, "done") and _drivable(leg):
+        if leg.outcome in (None, "done") and _drivable(leg, grip):
             children.append(leg)
     return children
 
 
-def _drivable(leg: Leg) -> bool:
+def _drivable(leg: Leg, grip: float) -> bool:
     """Whether no bend is taken faster than any car could."""
-    return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < GRIP)
+    return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < grip)
 
 
 def _lanes_moved(leg: Leg, starts: Sequence[Situation], index: int) -> float:

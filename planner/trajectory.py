@@ -11,16 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.easing import eased
 from sim.network import Network, angle_between
 from sim.scene import Point
 
 Array = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 SPACING = 1.0  # [m] between path points
 LATERAL_ACCELERATION = 3.5  # [m/s2] in bends, as people drive in town
 CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
-EVEN, WIDE = 0.45, 0.8  # [m] the same in wide bends, and [rad] that these turn at most
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
 TIGHTEST = 0.3  # [1/m] of curvature, from which on a line is made wider
@@ -202,15 +201,20 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
                 points.append(point)
     if len(points) < 2:
         points.append((points[0][0] + 1e-3, points[0][1]))
-    raw = np.array(points)
-    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(raw, axis=0).T))))
+    raw, index = eased(np.array(points))
+    at, along = _along(raw), _along(raw[index])
     arc = np.linspace(0.0, at[-1], max(3, math.ceil(at[-1] / SPACING) + 1))
     even = np.column_stack((np.interp(arc, at, raw[:, 0]), np.interp(arc, at, raw[:, 1])))
-    arc, even, begins = _rounded(arc, even, np.array(starts))
+    arc, even, begins = _rounded(arc, even, np.interp(starts, along, at[index]))
     heading = np.unwrap(np.arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
     cap = np.array(caps)[np.searchsorted(begins, arc + 1e-9, side="right") - 1]
     row = tuple(zip(lanes, begins.tolist(), strict=True))
     return Path(even, arc, heading, _curvature(heading, arc), cap, row)
+
+
+def _along(points: Array) -> Array:
+    """How far [m] [N] points are along a line."""
+    return np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
 
 
 def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Array]:
@@ -238,7 +242,7 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
         bent[1:-1][moved] = halfway[moved]
     if bent is points:
         return arc, points, starts
-    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(bent, axis=0).T))))
+    at = _along(bent)
     even = np.linspace(0.0, at[-1], len(arc))
     line = np.column_stack((np.interp(even, at, bent[:, 0]), np.interp(even, at, bent[:, 1])))
     return even, line, np.interp(starts, arc, at)
@@ -256,11 +260,10 @@ def _hairpins(points: Array) -> NDArray[np.bool_]:
 
 
 def _curvature(heading: Array, arc: Array) -> Array:
-    """Change of heading per metre of the smoothest line that stays near a polygon.
+    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
 
     Curvature is averaged over the widest window in which turning evenly instead of at the
     corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
-    A wide bend that is drawn with few corners may be EVEN aside.
     """
     n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
     total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
@@ -272,32 +275,10 @@ def _curvature(heading: Array, arc: Array) -> Array:
         width = np.maximum(arc[high] - arc[low], 1e-6)
         turn = heading[high] - heading[low]
         bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
-        near = np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT
-        wide = np.flatnonzero(open_ & ~near & (np.abs(turn) <= WIDE))
-        near[wide] = _aside(heading, arc, total, low[wide], high[wide]) <= EVEN
-        open_ &= near | (window == WINDOWS[0])
+        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
         wider = turn / width
         gentler = open_ & (np.abs(wider) < np.abs(result))
         result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
-    return result
-
-
-def _aside(heading: Array, arc: Array, total: Array, low: Ints, high: Ints) -> Array:
-    """How far [m] [W] a line leads aside at most of one that turns evenly in windows of it.
-
-    Args:
-        heading: [rad] [N]
-        arc: [m] [N]
-        total: [m] [N] integral of the heading.
-        low, high: [W] first and last index of each window.
-    """
-    rate = (heading[high] - heading[low]) / np.maximum(arc[high] - arc[low], 1e-6)
-    result: Array = np.zeros(len(low))
-    for step in range(1, int(np.max(high - low, initial=0)) + 1):
-        at = np.minimum(low + step, high)
-        gone = arc[at] - arc[low]
-        even = (heading[low] + 0.5 * rate * gone) * gone
-        result = np.maximum(result, np.abs(total[at] - total[low] - even))
     return result
 
 
