@@ -3,9 +3,11 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from planner.clearance import first_touch
 from planner.decide import observed
+from planner.everybody import everybody_in, going_on
 from planner.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
 from planner.kernels.driving import (
     COMFORT,
@@ -23,11 +25,14 @@ from planner.manoeuvres import ActionPlan, GiveWay
 from planner.memory import Memory
 from planner.obstacles import Obstacle, Traffic, occupancy
 from planner.recognise import Belief
-from planner.tracks import aligned, coast
+from planner.trace import ON_FOOT
+from planner.tracks import aligned
 from planner.trajectory import Roads
-from sim.scene import EGO, Scene
+from planner.walkers import AROUND, with_walkers
+from sim.scene import EGO, Scene, VehicleState
 
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
+CERTAIN = 0.5  # the same for people once the ego has stood for a while: else it never sets off
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
 SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 INSIDE = 1.0  # [m] beyond its line from which the ego is in the way of those who may go first
@@ -53,7 +58,7 @@ class Outlook:
     beliefs: Mapping[int, Sequence[Belief]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Around:
     """What is known of the others."""
 
@@ -61,6 +66,11 @@ class Around:
     memory: Memory
     outlook: Outlook | None
     scene: Scene
+
+    @cached_property
+    def seen(self) -> dict[int, VehicleState]:
+        """Everybody in the scene."""
+        return everybody_in(self.scene)
 
 
 def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping]:
@@ -70,15 +80,16 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
         Acceleration [m/s2] in the coming step of `dt` [s], and what is in the way.
     """
     path, ego, lights = driving.plan.path, around.scene.ego, shown_now(around.scene)
-    seen = Traffic.of(_seen(around), lights)
-    meeting = _predicted(driving, around, 0.0) if driving.plan.give_ways else []
-    crossing = Traffic.of(meeting, lights)
+    seen = _seen(around)
+    plan, walkers = with_walkers(driving.plan, around.roads, seen, ego)
+    meeting = _predicted(driving, around, 0.0) if plan.lines else []
+    crossing = Traffic.of([*meeting, *walkers], lights)
     foreseen = Traffic.of(_predicted(driving, around, LIKELY))
     chosen = accelerate(
-        driving.plan,
+        plan,
         driving.lane,
         driving.motion,
-        occupancy(path, seen, ego.width, 0, 2),
+        occupancy(path, Traffic.of(seen, lights), ego.width, 0, 2),
         occupancy(path, crossing, ego.width, 0, GAP_HORIZON),
         occupancy(path, foreseen, ego.width, 0, FORESIGHT),
         ego.length,
@@ -114,11 +125,12 @@ def _clear(
 
 def _seen(around: Around) -> list[Obstacle]:
     """The others where they are, going on as they do."""
-    found = []
+    found, ego = [], around.scene.ego
     for vehicle, state in around.memory.now.items():
-        if vehicle != EGO:
+        near = state.kind not in ON_FOOT or math.dist(state.position, ego.position) < AROUND
+        if vehicle != EGO and near:
             track = observed(vehicle, around.memory.track(vehicle, around.scene.time), state)
-            found.append(coast(around.roads, track, 2, past=False))
+            found.append(going_on(around.roads, track, 2))
     return found
 
 
@@ -127,13 +139,16 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle
     found: list[Obstacle] = []
     if around.outlook is None:
         return found
-    elapsed = round((around.scene.time - around.outlook.time) / DT)
+    elapsed, seen = round((around.scene.time - around.outlook.time) / DT), around.seen
+    lingering = bool(driving.plan.crossings) and _lingers(around)
     for vehicle, beliefs in around.outlook.beliefs.items():
-        here = around.scene.vehicles.get(vehicle)
+        here = seen.get(vehicle)
         if here is not None and _waits_for_us(driving, around, vehicle):
             continue
         slow = here is None or here.speed < SLOW
         least = max(likely, CAUTION if slow else 0.0)
+        if here is not None and here.kind in ON_FOOT and lingering:
+            least = max(least, CERTAIN)
         for belief in beliefs:
             for line in belief.trajectories:
                 if belief.probability * line.probability >= least:
@@ -149,7 +164,7 @@ def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
     """
     if not _crossing(driving):
         arc = driving.motion.arc
-        at_line = any(-SPARE < line.stop - arc < SPARE for line in driving.plan.give_ways)
+        at_line = any(-SPARE < line.stop - arc < SPARE for line in driving.plan.lines)
         if not at_line or not _lingers(around) or _just_green(driving, around):
             return False
     return _stands(around, vehicle)

@@ -8,7 +8,9 @@ import numpy as np
 
 from planner.actions import Situation
 from planner.fitting import fitted
+from planner.footways import crossings_along
 from planner.forward import DT
+from planner.people import concerned
 from planner.recognise import Belief, Trajectory, recognise
 from planner.reward import COSTS
 from planner.road_facts import road_facts
@@ -16,6 +18,7 @@ from planner.rollout import Task
 from planner.search import Root, Search, Simulated
 from planner.signals import Outlook
 from planner.trace import (
+    ON_FOOT,
     SCHEMA,
     Component,
     EgoGoal,
@@ -31,7 +34,8 @@ from planner.trace import (
 from planner.tracks import Observed, indicating, lanes_at
 from planner.traffic_lights import LightPrediction
 from planner.trajectory import Array, Roads
-from planner.waypoints import waypoint
+from planner.waypoints import way, waypoint
+from sim.network import Crossing
 from sim.scene import EGO, Point, VehicleState
 
 CROWD = 16  # vehicles of which the goals are recognised at most
@@ -90,19 +94,36 @@ def decide(frame: Frame, moment: Moment) -> Decision:
 
 
 def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
-    """Recognise the goals of the others in view; in a crowd, of those nearest to the ego."""
-    here = moment.scene[EGO].position
+    """Recognise the goals of the others in view; in a crowd, of those nearest to the ego.
+
+    Of people on foot, those matter that may get in the way.
+    """
+    ego, view = moment.scene[EGO], frame.settings.view_radius
     nearest = sorted(
-        moment.scene, key=lambda vehicle: math.dist(moment.scene[vehicle].position, here)
+        (vehicle for vehicle, state in moment.scene.items() if state.kind not in ON_FOOT),
+        key=lambda vehicle: math.dist(moment.scene[vehicle].position, ego.position),
     )
+    people = concerned(frame.roads, moment.scene, _crossings_ahead(frame, moment), view)
     tracks = [
         replace(
             observed(vehicle, moment.history[vehicle], moment.scene[vehicle]),
             paced=vehicle not in moment.unpaced,
         )
-        for vehicle in sorted(nearest[: 1 + CROWD])
+        for vehicle in sorted([*nearest[: 1 + CROWD], *people])
     ]
     return recognise(frame.roads, tracks, frame.settings, moment.time, EGO, moment.outlook)
+
+
+def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:
+    """The crossings for people on the ego's way."""
+    here, under_way = moment.root.here.location.lane, moment.root.under_way
+    lanes: tuple[str, ...] = (here,)
+    if under_way is not None:
+        plan, _ = under_way
+        row = [lane for lane, start in plan.path.lanes if start <= plan.end]
+        lanes = tuple(row[row.index(here) :]) if here in row else lanes
+    edges = way(frame.roads, lanes, frame.goal)
+    return crossings_along(frame.roads, here, edges, frame.settings.view_radius)
 
 
 def prepare(
@@ -133,6 +154,7 @@ def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
         np.array(track.heading),
         np.array(track.speed),
         indicating(state),
+        kind=state.kind,
     )
 
 

@@ -195,7 +195,7 @@ class Driver:
             return False
         if changed(self._current.plan, scene, self._last.trace.lights):
             return True
-        if not self._current.plan.give_ways:
+        if not self._current.plan.lines:
             return False
         step = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():

@@ -7,6 +7,7 @@ from planner.layout import (
     CLEAR,
     FAR,
     STRAIGHTEN,
+    WAITS,
     Layout,
     finish,
     lookahead,
@@ -15,9 +16,8 @@ from planner.layout import (
 from planner.manoeuvres import (
     ActionPlan,
     GiveWay,
-    KeepClear,
     LaneFollow,
-    ObeyLight,
+    LetCross,
     Situation,
     Stop,
 )
@@ -79,8 +79,7 @@ def follow_on(
         if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
             return halt
     way = Layout.of(roads, here, tuple(lanes), goal)
-    kinds = GiveWay | KeepClear | ObeyLight
-    waits = tuple(m for m in way.manoeuvres() if isinstance(m, kinds))
+    waits = tuple(m for m in way.manoeuvres() if isinstance(m, WAITS))
     end = max(min(end, FAR, way.path.length), 0.1)
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
 
@@ -94,7 +93,7 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
     reach = rest + lookahead(roads, here)
     row = onward(roads, (lane,), reach + here.location.offset, goal)
     path = roads.path(row, here.position, here.heading, STRAIGHTEN, reach, rest + MARGIN)
-    lines = [m.stop for m in waits_along(roads, path, row) if isinstance(m, GiveWay)]
+    lines = [m.stop for m in waits_along(roads, path, row) if isinstance(m, GiveWay | LetCross)]
     for braking in (COMFORT, FOLLOWING, EMERGENCY):
         end = _rest(here.speed, braking)
         if end <= min(lines, default=end) and not network.lanes[path.lane_at(end)[0]].internal:

@@ -15,6 +15,7 @@ from planner.actions import ActionPlan
 from planner.kernels import driving
 from planner.kernels.along import braking_caps
 from planner.kernels.course import Codes, Course, Ints
+from planner.manoeuvres import GiveWay
 from planner.obstacles import HOW, Occupancy, Traffic, occupancy
 from planner.signals import Lights
 from planner.trace import SAMPLE_PERIOD, HoldUp
@@ -131,7 +132,7 @@ def drive(
         _course(plan, np.minimum(Lane(plan.path).caps, pace), traffic.lights, size[0]),
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
-        others.firsts(plan.give_ways),
+        others.firsts(plan.lines),
         (float(start.arc), float(start.speed), float(start.acceleration)),
         first,
         horizon,
@@ -186,7 +187,7 @@ def accelerate(
         seen.stretches,
         seen.behind(motion.arc - 0.5 * length),
         crossing.stretches,
-        crossing.firsts(plan.give_ways),
+        crossing.firsts(plan.lines),
         foreseen.stretches,
         float(length),
         dt,
@@ -196,19 +197,20 @@ def accelerate(
         return acceleration, Keeping(None, signal)
     others = {driving.RIGHT_OF_WAY: crossing, driving.NEWCOMER: foreseen}.get(how, seen)
     speed = float(others.stretches.speed[who, 0])
-    hindrance = Hindrance(others.traffic.vehicles[who], HOW[how], speed)
+    manner = others.manner(np.array([who]), np.array([0]), np.array([how]))
+    hindrance = Hindrance(others.traffic.vehicles[who], HOW[int(manner[0])], speed)
     return acceleration, Keeping(hindrance, signal)
 
 
 def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
     """A plan as the kernels know it, with the highest speed [m/s] at every metre."""
-    lines = [(line.stop, line.clear) for line in plan.give_ways]
+    lines = [(line.stop, line.clear, isinstance(line, GiveWay)) for line in plan.lines]
     rooms = [(room.stop, room.out + length) for room in plan.keep_clears]
     ahead = plan.obey_lights
     return Course(
         caps,
         plan.halting,
-        np.array(lines).reshape(-1, 2),
+        np.array(lines, np.float64).reshape(-1, 3),
         np.array(rooms).reshape(-1, 2),
         np.array([light.stop for light in ahead], np.float64),
         _shown(lights, tuple(light.signal for light in ahead)),
@@ -238,4 +240,4 @@ def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:
         return Hindrances(step, who, held[at, 1], np.empty(0))
     speeds = others.stretches.speed
     speed = speeds[who, np.minimum(step, speeds.shape[1] - 1)]
-    return Hindrances(step, names[who], held[at, 1], speed)
+    return Hindrances(step, names[who], others.manner(who, step, held[at, 1]), speed)

@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from planner.classes import links_beside
+from planner.footways import lines_over
 from planner.kernels.driving import COMFORT
 from planner.manoeuvres import (
     ActionPlan,
@@ -11,6 +13,7 @@ from planner.manoeuvres import (
     GiveWay,
     KeepClear,
     LaneFollow,
+    LetCross,
     Manoeuvre,
     ObeyLight,
     Situation,
@@ -19,7 +22,7 @@ from planner.manoeuvres import (
 from planner.routes import direction_of, lane_end, onward
 from planner.trace import Action, EgoGoal
 from planner.trajectory import Path, Roads
-from sim.network import Direction, Link, point_at
+from sim.network import Direction, Lane, Link, Network, point_at
 from sim.scene import Signal
 
 STRAIGHTEN = 12.0  # [m] in which a vehicle off its centreline gets back to it
@@ -27,6 +30,7 @@ AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders
 FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 BEFORE_LINE = 0.5  # [m] at which a vehicle waits
+WAITS = GiveWay | KeepClear | LetCross | ObeyLight  # where one may have to wait
 SHORT = 10.0  # [m] before the goal at which no action ends: the next would begin beyond it
 
 
@@ -41,7 +45,9 @@ class Crossing:
     inside: bool
     turns: bool  # whether it is more than following the road
     direction: Direction
+    firsts: tuple[int, ...]  # the links of its junction that go first
     foes: tuple[Foe, ...]  # where a light controls it
+    on_foot: tuple[LetCross, ...]  # the crossings for people on it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,13 +78,14 @@ class Layout:
         for x in self.crossings:
             if x.turns and not x.inside:
                 found.append(LaneFollow(at, x.enter))
-            if x.link.foes and not x.inside:
+            if (x.link.foes or x.link.other_foes) and not x.inside:
                 found.append(KeepClear(x.enter - BEFORE_LINE, x.out))
             if isinstance(x.link.control, Signal) and not x.inside:
                 found.append(ObeyLight(x.enter - BEFORE_LINE, x.link.control))
             if x.line is not None:
-                first = frozenset((x.link.junction, index) for index in x.link.yields_to)
+                first = frozenset((x.link.junction, index) for index in x.firsts)
                 found.append(GiveWay(x.line, x.out, x.link, first, x.foes))
+            found += x.on_foot
             if x.turns:
                 found.append(Turn(x.enter, x.out, x.direction))
                 at = x.out
@@ -94,7 +101,7 @@ def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuv
         row: the lanes.
     """
     way = Layout(path, path.length, tuple(_crossings(roads, row, _begins(path, row))))
-    return tuple(m for m in way.manoeuvres() if isinstance(m, GiveWay | KeepClear | ObeyLight))
+    return tuple(m for m in way.manoeuvres() if isinstance(m, WAITS))
 
 
 def lookahead(roads: Roads, here: Situation) -> float:
@@ -149,8 +156,8 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
             enter = begins[k + 1]
         waits = link.waits_inside and len(link.via) > 1
         line = begins[k + 1 - gone] if waits and gone <= 1 else enter
-        foes = _foes(roads, link)
-        due = (link.yields_to or foes) and (not inside or (waits and gone <= 1))
+        firsts, foes = _firsts(roads, link), _foes(roads, link)
+        due = (firsts or foes) and (not inside or (waits and gone <= 1))
         yield Crossing(
             link,
             enter,
@@ -159,9 +166,23 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
             inside is not None,
             _turns(roads, link),
             direction_of(roads, link),
+            firsts,
             foes,
+            tuple(lines_over(roads, link, _beginning(roads, link, begins[k], gone, enter))),
         )
         k += ahead
+
+
+def _beginning(roads: Roads, link: Link, here: float, gone: int, enter: float) -> float:
+    """The arc [m] at which a link begins: before that of its lane `gone`, where one is on it."""
+    passed = sum(roads.network.lanes[lane].length for lane in link.via[: max(gone, 0)])
+    return here - passed if gone >= 0 else enter
+
+
+def _firsts(roads: Roads, link: Link) -> tuple[int, ...]:
+    """The links of a junction that go first, those for others than cars among them."""
+    beside = links_beside(roads.network, link, link.other_yields_to)
+    return (*link.yields_to, *(other.index for other in beside))
 
 
 def _foes(roads: Roads, link: Link) -> tuple[Foe, ...]:
@@ -172,23 +193,30 @@ def _foes(roads: Roads, link: Link) -> tuple[Foe, ...]:
     if found is None:
         others = roads.network.junction_links(link.junction)
         known = [others[k] for k in link.foes if k in others]
-        found = tuple(_foe(roads, other, other.index in link.yields_to) for other in known)
+        known += links_beside(roads.network, link, link.other_foes)
+        firsts = _firsts(roads, link)
+        found = tuple(_foe(roads, other, other.index in firsts) for other in known)
         roads.foes[link.junction, link.index] = found
     return found
 
 
 def _foe(roads: Roads, link: Link, first: bool) -> Foe:
-    lanes = roads.network.lanes
     begin = link.via[1] if link.waits_inside and len(link.via) > 1 else (*link.via, "")[0]
-    before = lanes[link.from_lane]
+    network = roads.network
+    before = _any_lane(network, link.from_lane)
     (x, y), heading = (
-        point_at(lanes[begin].centreline, 0.0)
+        point_at(_any_lane(network, begin).centreline, 0.0)
         if begin
         else point_at(before.centreline, before.length)
     )
     signal = link.control if isinstance(link.control, Signal) else None
     line = (x, y, math.cos(heading), math.sin(heading))
     return Foe((link.junction, link.index), first, signal, line)
+
+
+def _any_lane(network: Network, name: str) -> Lane:
+    """A lane, whoever may use it."""
+    return network.lanes[name] if name in network.lanes else network.other_lanes[name]
 
 
 def _link_between(roads: Roads, lanes: tuple[str, ...], k: int) -> Link | None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from planner.trace import Action
 from planner.trajectory import Path
-from sim.network import Direction, Link, Location
+from sim.network import Crossing, Direction, Link, Location
 from sim.scene import Point, Signal
 
 
@@ -47,6 +47,22 @@ class GiveWay:
 
 
 @dataclass(frozen=True, slots=True)
+class LetCross:
+    """Wait before a crossing until the people who come over it leave a gap."""
+
+    stop: float  # [m] arc at which to wait, for the front bumper; negative once passed
+    clear: float  # [m] arc at which the crossing is left
+    yields_to: frozenset[tuple[str, int]]  # (junction, index) of the crossing
+    crossing: Crossing | None  # None: wherever somebody walks on the road
+    first: bool  # whether people have priority there
+
+    @property
+    def foes(self) -> tuple[Foe, ...]:
+        """None: how people wait at lights is part of their motion."""
+        return ()
+
+
+@dataclass(frozen=True, slots=True)
 class ObeyLight:
     """Stop at a light unless it shows green."""
 
@@ -79,7 +95,7 @@ class Stop:
     braking: float  # [m/s2]
 
 
-Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | ObeyLight | Turn | Stop
+Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | LetCross | ObeyLight | Turn | Stop
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +125,16 @@ class ActionPlan:
     def give_ways(self) -> tuple[GiveWay, ...]:
         """The lines at which this action may have to wait."""
         return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
+
+    @property
+    def crossings(self) -> tuple[LetCross, ...]:
+        """The crossings for people that this action comes to."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, LetCross))
+
+    @property
+    def lines(self) -> tuple[GiveWay | LetCross, ...]:
+        """Where this action may have to wait for others who go first."""
+        return (*self.give_ways, *self.crossings)
 
     @property
     def obey_lights(self) -> tuple[ObeyLight, ...]:

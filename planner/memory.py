@@ -12,11 +12,12 @@ import msgspec
 import numpy as np
 
 from planner.cycles import Watched, watch
+from planner.everybody import everybody_in, going_on
 from planner.forward import DT
 from planner.obstacles import Obstacle
 from planner.road import LightChange
-from planner.trace import Track
-from planner.tracks import Observed, coast
+from planner.trace import ON_FOOT, Track
+from planner.tracks import Observed
 from planner.trajectory import Roads
 from sim.scene import EGO, Point, Scene, VehicleState
 
@@ -61,9 +62,10 @@ class Memory:
 
     def observe(self, scene: Scene) -> None:
         """Take down what is seen now."""
-        for vehicle in [x for x in self._seen if x not in scene.vehicles]:
+        everybody = everybody_in(scene)
+        for vehicle in [x for x in self._seen if x not in everybody]:
             self._recall(vehicle, scene)
-        for vehicle, state in scene.vehicles.items():
+        for vehicle, state in everybody.items():
             self._lost.pop(vehicle, None)
             self._note(vehicle, scene.time, state)
         self._watch(scene)
@@ -90,6 +92,8 @@ class Memory:
     def recorded(self, vehicle: int, time: float) -> Track:
         """The same with its lights, as the trace records it."""
         track = self.track(vehicle, time)
+        if self._seen[vehicle][-1][1].kind in ON_FOOT:
+            return track
         return msgspec.structs.replace(track, lights=_lights(self._seen[vehicle], track.start))
 
     def _note(self, vehicle: int, time: float, state: VehicleState) -> None:
@@ -130,9 +134,10 @@ class Memory:
             np.array(track.position),
             np.array(track.heading),
             np.array(track.speed),
+            kind=last.kind,
         )
         steps = math.ceil(HIDDEN / DT) + 1
-        return Lost(since, last, coast(self._roads, watched, steps, past=False))
+        return Lost(since, last, going_on(self._roads, watched, steps))
 
 
 def hidden(state: VehicleState, scene: Scene) -> bool:

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from planner.kernels.course import Bools
-from planner.kernels.driving import OPEN, SHUT
-from planner.kernels.projection import Stretches, project
+from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
+from planner.kernels.projection import SIDE_MARGIN, Stretches, project
 from planner.kernels.reaction import Ints, react
-from planner.manoeuvres import Foe, GiveWay
+from planner.manoeuvres import Foe, GiveWay, LetCross
 from planner.signals import NO_LIGHTS, Lights
 from planner.trace import HoldUp
 from planner.trajectory import Array, Path
@@ -31,6 +31,8 @@ class Obstacle:
     heading: Array  # [rad] [T]
     speed: Array  # [m/s] [T]
     links: frozenset[tuple[str, int]]  # (junction, link index) that it drives along
+    berth: float = SIDE_MARGIN  # [m] kept free beside it
+    on_foot: bool = False
 
     @property
     def rests(self) -> bool:
@@ -60,6 +62,8 @@ class Traffic:
     links: tuple[frozenset[tuple[str, int]], ...]  # [M]
     noticed: Ints  # [M] steps for which the ego has been on their path, as `reacting` counts
     braking: Bools  # [M] who has braked for the ego, or for one that did
+    spaces: Array  # [M, 2] length and width [m] with what is kept free beside them
+    on_foot: Bools  # [M]
     lights: Lights = field(default=NO_LIGHTS)
 
     @classmethod
@@ -72,13 +76,17 @@ class Traffic:
             states[m, :count, :2] = obstacle.position
             states[m, :count, 2], states[m, :count, 3] = obstacle.heading, obstacle.speed
             states[m, count:] = states[m, count - 1]
+        wider = [(0.0, 2.0 * (o.berth - SIDE_MARGIN)) for o in obstacles]
+        sizes = np.array([(o.length, o.width) for o in obstacles]).reshape(-1, 2)
         return cls(
             tuple(obstacle.vehicle for obstacle in obstacles),
             states,
-            np.array([(o.length, o.width) for o in obstacles]).reshape(-1, 2),
+            sizes,
             tuple(obstacle.links for obstacle in obstacles),
             np.zeros(len(obstacles), np.int64),
             np.zeros(len(obstacles), np.bool_),
+            sizes + np.array(wider).reshape(-1, 2),
+            np.array([o.on_foot for o in obstacles], np.bool_),
             lights,
         )
 
@@ -118,7 +126,20 @@ class Occupancy:
         found: Bools = 0.5 * (self.stretches.low[:, 0] + self.stretches.high[:, 0]) < centre
         return found
 
-    def firsts(self, lines: Sequence[GiveWay]) -> Bools:
+    def manner(self, who: Ints, step: Ints, how: Ints) -> Ints:
+        """How vehicles hold up, as indices into HOW: people who walk across have right of way.
+
+        Args:
+            who, step, how: [H] index of the one, when, and how it would be of a vehicle.
+        """
+        if not np.any(self.traffic.on_foot):
+            return how
+        t = np.minimum(step, self.stretches.cosine.shape[1] - 1)
+        crosses = self.traffic.on_foot[who] & (self.stretches.cosine[who, t] < ALIGNED)
+        found: Ints = np.where(crosses, RIGHT_OF_WAY, how)
+        return found
+
+    def firsts(self, lines: Sequence[GiveWay | LetCross]) -> Bools:
         """Who goes first at each line [L, M, T], at each step where there are lights."""
         links = self.traffic.links
         found = [[not own.isdisjoint(line.yields_to) for own in links] for line in lines]
@@ -128,7 +149,7 @@ class Occupancy:
         steps = self.traffic.states.shape[1]
         changing = np.repeat(always, steps, axis=2)
         for k, line in enumerate(lines):
-            if line.foes:
+            if isinstance(line, GiveWay) and line.foes:
                 changing[k] = _by_light(self.traffic, line, steps)
         return changing
 
@@ -144,7 +165,7 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
         last: step up to which it is needed.
     """
     stretches = project(
-        path.points, path.arc, path.heading, traffic.states, traffic.sizes, width, first, last
+        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
     )
     return Occupancy(traffic, stretches)
 

@@ -11,21 +11,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.actions import COMFORT, ActionPlan, Situation, Stop
-from planner.astar import SOLUTIONS, Solution, held, ways
+from planner.astar import GRIP, SOLUTIONS, Solution, held, ways
+from planner.beliefs import NEGLIGIBLE, Belief, Trajectory, likeliest
 from planner.forward import DT, Motion, drive
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.indication import indicated
 from planner.kernels.driving import GAP_HORIZON
 from planner.likelihood import likelihoods
 from planner.obstacles import NOBODY, Motions, Obstacle, Traffic
+from planner.people import past_of, recognise_people
 from planner.rollout import Leg, Task, held_by_lights, held_up
 from planner.routes import onward
 from planner.scenery import Others, Scenery
 from planner.signals import DARK, Outlook
-from planner.trace import Action, EgoGoal, HeldUp, Settings
+from planner.trace import ON_FOOT, Action, EgoGoal, HeldUp, Settings
 from planner.tracks import (
     Observed,
     aligned,
+    berth_of,
     coast,
     drive_on,
     links_of,
@@ -35,34 +38,9 @@ from planner.tracks import (
 from planner.traffic_lights import HeldByLight
 from planner.trajectory import Roads
 
-NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped
+__all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to"]
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Trajectory:
-    """One way in which a vehicle may go on, as an obstacle from now (step 0) on."""
-
-    probability: float  # given the goal
-    actions: tuple[Action, ...]
-    motions: Motions
-    held_up: tuple[HeldUp, ...] = ()  # by whom, on the way to the goal
-    held_by_lights: tuple[HeldByLight, ...] = ()
-
-    @property
-    def motion(self) -> Obstacle:
-        """The motion where lights take their likeliest courses."""
-        return self.motions.usual
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Belief:
-    """One goal of one vehicle, and how likely it is."""
-
-    goal: Goal
-    likelihood: float
-    probability: float
-    trajectories: tuple[Trajectory, ...]
-    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
+STOPPING = 100.0  # [m] at least of road on which a vehicle may stop
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,7 +72,7 @@ def recognise(
     ego: int,
     outlook: Outlook = DARK,
 ) -> dict[int, tuple[Belief, ...]]:
-    """What every vehicle but the ego may be up to.
+    """What everybody but the ego may be up to.
 
     Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
     it will most likely move off, so that a queue dissolves from its head on; and so is who will
@@ -102,7 +80,7 @@ def recognise(
 
     Args:
         roads: the road network.
-        tracks: all vehicles in view, the ego among them; each ends now.
+        tracks: vehicles in view, the ego among them, and people on foot; each ends now.
         settings: view radius [m], horizon [s], rationality [1/s].
         time: [s] now.
         ego: name of the ego.
@@ -111,34 +89,33 @@ def recognise(
     steps = round(settings.horizon / DT)
     scenery = Scenery(roads, outlook, steps)
     usual = scenery.lights(outlook.usual)
+    people = [track for track in tracks if track.kind in ON_FOOT]
+    vehicles = [track for track in tracks if track.kind not in ON_FOOT]
     coasting = {
         track.vehicle: _Coasting(
             track.elapsed,
-            scenery.coast(track),
-            coast(roads, track, steps, past=True, lights=usual),
+            scenery.on(track.kind).coast(track),
+            coast(scenery.on(track.kind).roads, track, steps, past=True, lights=usual),
         )
-        for track in tracks
+        for track in vehicles
     }
-    held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
     found: dict[int, tuple[Belief, ...]] = {}
-    for observed in queued(tracks, held):
+    if people:
+        going_on = [mine.now.usual for mine in coasting.values()]
+        found = recognise_people(scenery, people, vehicles, going_on, settings)
+    for walker in people:
+        now = likeliest(found[walker.vehicle])
+        coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
+    held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
+    for observed in queued(vehicles, held):
         if observed.vehicle != ego:
-            found[observed.vehicle] = _beliefs(scenery, observed, coasting, settings, time)
+            own = scenery.on(observed.kind)
+            found[observed.vehicle] = _beliefs(own, observed, coasting, settings, time)
             if observed.standing or observed.vehicle in held:
                 mine = coasting[observed.vehicle]
-                moving_off = _likeliest(found[observed.vehicle])
+                moving_off = likeliest(found[observed.vehicle])
                 coasting[observed.vehicle] = replace(mine, now=moving_off)
     return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle != ego}
-
-
-def _likeliest(beliefs: Sequence[Belief]) -> Motions:
-    """The likeliest motion of a vehicle."""
-    pairs = (
-        (belief.probability * way.probability, way.motions)
-        for belief in beliefs
-        for way in belief.trajectories
-    )
-    return max(pairs, key=lambda pair: pair[0])[1]
 
 
 def _beliefs(
@@ -159,7 +136,7 @@ def _beliefs(
     pace = observed.pace
     frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True, pace=pace)
     now = Others(scenery, tuple(other.now for other in others))
-    onwards = [_ways_on(frame, starts, goal, observed, now) for goal in goals]
+    onwards = _ways_to(frame, starts, goals, observed, now)
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
     likelihood = (
         likelihoods(frame, observed, goals, left, _before(scenery, observed, others), settings)
@@ -198,19 +175,37 @@ def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
     return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
 
 
+def _ways_to(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goals: Sequence[Goal],
+    observed: Observed,
+    others: Others,
+) -> list[list[_Way]]:
+    """The ways on to each goal.
+
+    Where none but to stop could be driven as fast as it comes, the bends are drawn too sharp.
+    """
+    found = [_ways_on(frame, starts, goal, observed, others) for goal in goals]
+    if any(ways for goal, ways in zip(goals, found, strict=True) if goal.target is not None):
+        return found
+    return [_ways_on(frame, starts, goal, observed, others, math.inf) for goal in goals]
+
+
 def _ways_on(
     frame: Task,
     starts: tuple[Situation, ...],
     goal: Goal,
     observed: Observed,
     others: Others,
+    grip: float = GRIP,
 ) -> list[_Way]:
     if goal.target is None:
         return _stopping(frame, starts[0], observed, others.usual)
     task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others.usual, SOLUTIONS)
+    solutions = ways(task, starts, others.usual, SOLUTIONS, grip)
     if not solutions:
-        return _held_up(task, starts, observed, others)
+        return _held_up(task, starts, observed, others, grip)
     return [
         _Way(
             solution.cost,
@@ -225,11 +220,11 @@ def _ways_on(
 
 
 def _held_up(
-    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others
+    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others, grip: float
 ) -> list[_Way]:
     """The best way to a goal that others or lights keep it from, as far as they let it drive."""
     found = []
-    for free in ways(task, starts, NOBODY, 1):
+    for free in ways(task, starts, NOBODY, 1, grip):
         legs = held(task, starts, free.actions, others.usual) or free.legs
         motions = _motions(task, starts, Solution(free.cost, legs), observed, others)
         stretches, stops = held_up(legs, task.start), held_by_lights(legs, task.start)
@@ -272,13 +267,15 @@ def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic)
         np.concatenate((legs[0].heading[:1], *(leg.heading[1:] for leg in legs), heading)),
         np.concatenate((legs[0].speed[:1], *(leg.speed[1:] for leg in legs), speed)),
         links_of(task.roads, [lane for leg in legs for lane in leg.lanes] + list(lanes)),
+        berth_of(task.roads, observed),
     )
 
 
 def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic) -> list[_Way]:
     """Braking to a standstill and staying there; nobody means to stay inside a junction."""
-    row = onward(frame.roads, (here.location.lane,), here.location.offset + 100.0)
-    path = frame.roads.path(row, here.position, here.heading, 12.0, 100.0)
+    reach = max(STOPPING, here.speed**2 / COMFORT)  # twice what the braking takes
+    row = onward(frame.roads, (here.location.lane,), here.location.offset + reach)
+    path = frame.roads.path(row, here.position, here.heading, 12.0, reach, reach)
     plan = ActionPlan("stop", path, (Stop(0.0, COMFORT),), path.length, math.inf, None)
     driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
     arcs, speed = driven.motion[:, 0], driven.motion[:, 1]
@@ -294,6 +291,7 @@ def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic)
         np.concatenate((heading, np.repeat(heading[-1:], rest))),
         np.concatenate((speed, np.zeros(rest))),
         links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
+        berth_of(frame.roads, observed),
     )
     return [_Way(here.speed / COMFORT, 0.0, ("stop",), Motions(motion))]
 

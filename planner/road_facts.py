@@ -7,6 +7,7 @@ every link counts that they may take from where they are.
 from collections.abc import Iterator, Mapping, Sequence
 
 from planner.actions import expand
+from planner.classes import roads_of
 from planner.itinerary import Leg, is_junction, itinerary, rings_of, steps
 from planner.kernels.driving import OPEN, SHUT
 from planner.manoeuvres import ActionPlan
@@ -46,7 +47,7 @@ def road_facts(
         lights: in view.
     """
     here = root.here.location
-    at = {v: lanes_at(roads, state.position, state.heading) for v, state in scene.items()}
+    at = {v: _lanes_at(roads, state) for v, state in scene.items()}
     at[EGO] = (here,)
     way = itinerary(roads, here, _planned(roads, root, plan, goal, view), goal)
     meetings = _meetings(roads.network, here, way.legs, view)
@@ -58,6 +59,12 @@ def road_facts(
         priority=_priority(roads, at, meetings, view, lights),
         lights=_ahead(way.legs, lights),
     )
+
+
+def _lanes_at(roads: Roads, state: VehicleState) -> tuple[Location, ...]:
+    """Where a vehicle may be on lanes for cars; nowhere on one of its own."""
+    own, lanes = roads_of(roads, state.kind), roads.network.lanes
+    return tuple(x for x in lanes_at(own, state.position, state.heading) if x.lane in lanes)
 
 
 def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[LightAhead, ...]:

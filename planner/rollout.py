@@ -92,7 +92,7 @@ def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> b
 
     On an open road it does not where those that brake stay behind.
     """
-    if plan.give_ways or plan.keep_clears:
+    if plan.lines or plan.keep_clears:
         return True
     theirs = traffic.states[traffic.braking, first : first + len(states)]
     own = states[: theirs.shape[1]]

@@ -1,13 +1,15 @@
 """What predictions have in common: the roads, the lights as they may go on, and the others."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from planner.classes import roads_of
 from planner.kernels.driving import GAP_HORIZON
 from planner.obstacles import Motions, Obstacle, Traffic
 from planner.signals import Lights, Outlook
 from planner.tracks import Observed, coast
 from planner.trajectory import Roads
+from sim.network import UNSIGNALLED
 from sim.scene import Signal
 
 
@@ -19,6 +21,11 @@ class Scenery:
     outlook: Outlook
     steps: int
     _lights: dict[tuple[int, ...], Lights] = field(default_factory=dict)
+
+    def on(self, kind: str) -> "Scenery":
+        """The same on the roads for a kind of vehicle."""
+        roads = roads_of(self.roads, kind)
+        return self if roads is self.roads else replace(self, roads=roads)
 
     def lights(self, courses: tuple[int, ...]) -> Lights:
         """What lights show from now on, where controllers take certain courses."""
@@ -76,7 +83,12 @@ class Others:
         return self.under(self.scenery.outlook.usual)
 
 
-def _controllers(roads: Roads, links: Iterable[tuple[str, int]]) -> frozenset[str]:
-    """What controls the lights of some links, given as (junction, index)."""
-    found = (roads.network.junction_links(junction)[index].control for junction, index in links)
+def _controllers(roads: Roads, ways: Iterable[tuple[str, int]]) -> frozenset[str]:
+    """What controls the lights of some links and crossings, given as (junction, index)."""
+    network = roads.network
+    found = []
+    for junction, index in ways:
+        link = network.junction_links(junction).get(index)
+        way = link or network.junction_others(junction).get(index)
+        found.append(UNSIGNALLED if way is None else way.control)
     return frozenset(control.controller for control in found if isinstance(control, Signal))

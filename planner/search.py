@@ -18,7 +18,7 @@ from planner.recognise import Belief
 from planner.reward import EFFORT, absent, reward, terms
 from planner.rollout import Leg, Task, held_by_lights, held_up, summarise, take
 from planner.routes import Refusal
-from planner.signals import DARK, Outlook
+from planner.signals import DARK, Lights, Outlook
 from planner.trace import (
     ACTIONS,
     Action,
@@ -109,6 +109,7 @@ class Search:
     _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
     _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
     _motions: dict[Samples, Traffic] = field(default_factory=dict)
+    _lit: dict[tuple[int, ...], Lights] = field(default_factory=dict)  # by courses
     # By vehicle and controller: nobody shifts another's.
     _draws: dict[int | str, random.Random] = field(init=False)
 
@@ -313,8 +314,9 @@ class Search:
                 for s in samples
                 if isinstance(s, Sample)
             ]
-            lights = self.lights.lights(courses, self.task.horizon + GAP_HORIZON)
-            found = self._motions[samples] = Traffic.of(motions, lights)
+            if courses not in self._lit:
+                self._lit[courses] = self.lights.lights(courses, self.task.horizon + GAP_HORIZON)
+            found = self._motions[samples] = Traffic.of(motions, self._lit[courses])
         return found
 
 

@@ -80,15 +80,18 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
         name: observed(name, moment.history[name], state) for name, state in moment.scene.items()
     }
     one = seen[vehicle]
-    steps, view = round(frame.settings.horizon / DT), frame.settings.view_radius
+    scenery = Scenery(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
+    own = scenery.on(one.kind)
+    view = frame.settings.view_radius
     nowhere = EgoGoal("", 0.0, None)
     task = Task(
-        frame.roads, nowhere, (one.length, one.width), moment.time, steps, view, yielding=True
+        own.roads, nowhere, (one.length, one.width), moment.time, own.steps, view, yielding=True
     )
-    scenery = Scenery(frame.roads, moment.outlook, steps)
-    coasting = tuple(scenery.coast(other) for name, other in seen.items() if name != vehicle)
-    starts = one.situation(frame.roads, -1, moment.time)
-    return _Prospect(task, one, starts, Others(scenery, coasting))
+    coasting = tuple(
+        scenery.on(other.kind).coast(other) for name, other in seen.items() if name != vehicle
+    )
+    starts = one.situation(own.roads, -1, moment.time)
+    return _Prospect(task, one, starts, Others(own, coasting))
 
 
 def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:

@@ -31,6 +31,7 @@ Action = Literal[
     "exit-straight",
     "continue-next-exit",
     "stop",
+    "cross",  # of people on foot alone: walk over the road
 ]
 Outcome = Literal["done", "collision", "termination", "dead"]
 Component = Literal[
@@ -55,6 +56,8 @@ ACTIONS: tuple[Action, ...] = (
     "continue-next-exit",
     "stop",
 )
+#: Kinds of people outside of vehicles.
+ON_FOOT = ("pedestrian", "wheelchair", "scooter")
 OUTCOMES: tuple[Outcome, ...] = ("done", "collision", "termination", "dead")
 COMPONENTS: tuple[Component, ...] = ("time", "jerk", "angular-acceleration", "curvature")
 UNITS: dict[Component, str] = {

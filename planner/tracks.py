@@ -11,6 +11,7 @@ import numpy as np
 from planner.actions import ActionPlan, LaneFollow, Situation
 from planner.forward import DT, Motion, drive
 from planner.kernels.driving import FOLLOWING, OPEN
+from planner.kernels.projection import SIDE_MARGIN
 from planner.layout import waits_along
 from planner.manoeuvres import Manoeuvre, ObeyLight
 from planner.obstacles import Obstacle, Traffic
@@ -26,6 +27,12 @@ TREND = 5  # steps over which a change of speed is read off a track
 STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
 RIPPLE = 0.5  # [m/s] by which a steady speed varies
 INDICATORS: tuple[Side, ...] = ("left", "right")
+#: [m/s] faster than which few ride a bicycle; the mean of those without a motor is 4.3 (Schleinitz
+#: et al. 2017, The German Naturalistic Cycling Study, Safety Science 92).
+CYCLING = 6.0
+#: [m] kept free beside a bicycle by who passes it on the road, its own side margin included
+#: (German road traffic regulations, StVO, section 5 (4)).
+PASSING = 1.5
 LEAST_PACE = 3.0  # [m/s] below which nobody wants to drive for long
 CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
 QUEUE = 60.0  # [m] over which one stands behind another
@@ -46,6 +53,7 @@ class Observed:
     speed: Array  # [m/s] [N]
     indicating: frozenset[Side] = frozenset()  # the sides that it indicates now
     paced: bool = True  # False: how fast it drove says nothing of how fast it wants to drive
+    kind: str = "car"  # what it looks like, as in a scene
 
     @property
     def elapsed(self) -> int:
@@ -63,12 +71,11 @@ class Observed:
 
         Who has driven steadily for a while, and never faster, has got to the speed it wants.
         """
-        lately = self.speed[-STEADY:]
+        lately, fastest = self.speed[-STEADY:], float(np.max(self.speed)) + RIPPLE
+        most = max(CYCLING, fastest) if self.kind == "bicycle" else math.inf
         if not self.paced or self.elapsed < STEADY or float(np.ptp(lately)) > RIPPLE:
-            return math.inf
-        if lately[-1] < LEAST_PACE:
-            return math.inf
-        return float(np.max(self.speed)) + RIPPLE
+            return most
+        return fastest if lately[-1] >= LEAST_PACE else most
 
     def situation(self, roads: Roads, sample: int, time: float) -> tuple[Situation, ...]:
         """Where it may have been at a sample: one entry for each lane that fits."""
@@ -83,6 +90,19 @@ class Observed:
 def indicating(state: VehicleState) -> frozenset[Side]:
     """Return the sides that a vehicle indicates."""
     return frozenset(side for side in INDICATORS if side in state.signals)
+
+
+def berth_of(roads: Roads, observed: Observed) -> float:
+    """What [m] is kept free beside a vehicle by who passes it: more, where it is a bicycle.
+
+    On a lane of its own, a bicycle is passed as the lanes allow.
+    """
+    if observed.kind != "bicycle":
+        return SIDE_MARGIN
+    lanes = roads.network.lanes
+    here = observed.situation(roads, -1, 0.0)[:1]
+    own = any("passenger" not in lanes[at.location.lane].permits for at in here)
+    return SIDE_MARGIN if own else PASSING
 
 
 def queued(tracks: Sequence[Observed], held: Collection[int] = ()) -> list[Observed]:
@@ -171,6 +191,7 @@ def coast(
         np.concatenate((observed.heading[first:], heading)),
         np.concatenate((observed.speed[first:], speed)),
         links,
+        berth_of(roads, observed),
     )
 
 
@@ -192,6 +213,8 @@ def aligned(obstacle: Obstacle, shift: int, steps: int) -> Obstacle:
         move(obstacle.heading, 0.0),
         move(obstacle.speed, 0.0),
         obstacle.links,
+        obstacle.berth,
+        obstacle.on_foot,
     )
 
 

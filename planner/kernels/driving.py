@@ -96,10 +96,11 @@ def accelerate(
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
     stops = course.halting > 0.0
-    free = 0.0 if stops else _cap(caps, arc + speed * RELAXATION)
-    free = min(free, _ready(arc, lines, crossing, firsts, step))
+    free = min(_cap(caps, arc + speed * RELAXATION), _ready(arc, lines, crossing, firsts, step))
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free)
-    hardest = course.halting if stops and who < 0 else hardest
+    if stops:
+        free, wanted, who = 0.0, 0.0, -1
+        hardest = EMERGENCY if hardest == EMERGENCY else course.halting
     how = LEADER if who < 0 else _manner(others, who, step)
     safe, newcomer = _make_room(motion, step, foreseen, length, wanted)
     if newcomer >= 0:
@@ -238,7 +239,7 @@ def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: 
     found, t = math.inf, min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
-        if gap > 0.0 and np.any(firsts[line, :, t] & slow):
+        if gap > 0.0 and lines[line, 2] > 0.0 and np.any(firsts[line, :, t] & slow):
             found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
     return found
 

@@ -33,7 +33,7 @@ from planner.kernels.driving import (
     STANDING_TIME,
 )
 from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
-from planner.manoeuvres import ActionPlan, GiveWay, KeepClear
+from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LetCross
 from planner.obstacles import Obstacle
 from planner.trace import HoldUp
 from planner.trajectory import Array, Path, relative
@@ -332,7 +332,7 @@ def accelerate(
         Acceleration [m/s2], and the hindrance where there is one.
     """
     first = others if crossing is None else crossing
-    free = 0.0 if plan.stops else lane.speed(motion.arc + motion.speed * RELAXATION)
+    free = lane.speed(motion.arc + motion.speed * RELAXATION)
     for line in plan.give_ways:
         gap = line.stop - motion.arc
         stand = (other.speed(step) < JAM for other in first if other.goes_first(line.yields_to))
@@ -347,6 +347,9 @@ def accelerate(
         if speed < wanted:
             wanted, hindrance = speed, (other, other.manner(step))
             hardest = EMERGENCY if gap < MIN_GAP or speed < motion.speed - 3.0 else FOLLOWING
+    if plan.stops:
+        free, wanted, hindrance = 0.0, 0.0, None
+        hardest = hardest if hardest == EMERGENCY else plan.halting
     for other in everybody:
         newcomer = other.newcomer(step)
         if newcomer is not None:
@@ -361,7 +364,7 @@ def accelerate(
         jam = _jam(others, step, room, length)
         if 0.0 <= gap <= braking and jam is not None and speed < wanted:
             wanted, hindrance = speed, (jam, "blocked")
-    for line in plan.give_ways:
+    for line in plan.lines:
         gap = line.stop - motion.arc
         if gap <= braking and motion.arc < line.clear:
             blocker = _blocker(lane, motion, step, line, first, length)
@@ -405,7 +408,7 @@ def _blocker(
     lane: Lane,
     motion: Motion,
     step: int,
-    line: GiveWay,
+    line: GiveWay | LetCross,
     others: Sequence[Occupancy],
     length: float,
 ) -> Occupancy | None:
