@@ -1,5 +1,7 @@
 """Reward: from a driven trajectory to its components, and from components to one number."""
 
+import math
+
 import numpy as np
 
 from planner.trace import SAMPLE_PERIOD, Action, Component, Costs, Outcome, RewardTerm
@@ -17,6 +19,8 @@ WEIGHTS: dict[Component, float] = {
 #: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
 #: within reach: that costs what was driven, and the rest of the way.
 PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 10.0}
+#: [s] Beyond the whole way, what losing the way to the goal costs at least: being late is better.
+LOST = 100.0
 
 
 def components(
@@ -67,7 +71,8 @@ def terms(
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
-        left: [s] that the rest of the way costs where nobody is in the way.
+        left: [s] that the rest of the way costs where nobody is in the way; where the way to the
+            goal is lost (dead), what it would have cost in the beginning.
         effort: [s] that its actions cost by themselves.
 
     Returns:
@@ -76,7 +81,8 @@ def terms(
     if outcome == "collision":
         return {"collision": PENALTY[outcome]}
     if outcome == "dead":
-        return {"dead": PENALTY[outcome]}
+        whole = LOST + left if math.isfinite(left) else 0.0
+        return {"dead": max(PENALTY[outcome], whole)}
     time = parts["time"]
     found: dict[RewardTerm, float] = {"time": WEIGHTS["time"] * time, "effort": effort}
     for name, value in parts.items():

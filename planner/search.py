@@ -227,7 +227,8 @@ class Search:
         if found is None:
             parts = summarise(self.task, legs)
             effort = sum(EFFORT.get(leg.action, 0.0) for leg in legs)
-            spent = terms(outcome, parts, self._left(legs), effort)
+            left = self._left(() if outcome == "dead" else legs)
+            spent = terms(outcome, parts, left, effort)
             gained = round(reward(spent), 3)
             stretches = held_up(legs, self.task.start)
             stops = held_by_lights(legs, self.task.start)

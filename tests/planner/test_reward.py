@@ -1,5 +1,7 @@
 """What a drive costs, worked out by hand."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,8 @@ def test_who_does_not_arrive_has_no_components() -> None:
         ("termination", 0.0, 0.0, {**SPENT, "late": 10.0}),
         ("collision", 7.0, 3.0, {"collision": 200.0}),
         ("dead", 7.0, 3.0, {"dead": 150.0}),
+        ("dead", 70.0, 3.0, {"dead": 170.0}),
+        ("dead", math.inf, 3.0, {"dead": 150.0}),
     ],
 )
 def test_terms_are_seconds(
