@@ -23,6 +23,7 @@ from planner.manoeuvres import (
     GiveWay,
     LaneChange,
     LaneFollow,
+    LetCross,
     Manoeuvre,
     Situation,
     Stop,
@@ -39,7 +40,7 @@ from planner.routes import (
     rest_of,
 )
 from planner.trace import Action, EgoGoal
-from planner.trajectory import LATERAL_ACCELERATION, Roads
+from planner.trajectory import KEPT, LATERAL_ACCELERATION, Roads
 from sim.network import Direction, Lane, Link
 
 __all__ = [
@@ -86,6 +87,18 @@ def expand(
             several links in one direction the one that leads there is taken.
         view: [m] how far ahead a junction is seen.
     """
+    key = (here.position, here.heading, here.speed, here.location, action, goal, view)
+    found: ActionPlan | Refusal | None = roads.plans.get(key)
+    if found is None:
+        if len(roads.plans) >= KEPT:
+            roads.plans.clear()
+        found = roads.plans[key] = _expanded(roads, here, action, goal, view)
+    return found
+
+
+def _expanded(
+    roads: Roads, here: Situation, action: Action, goal: EgoGoal | None, view: float
+) -> ActionPlan | Refusal:
     if action in SIDES:
         return _change(roads, here, action, goal)
     if action in DIRECTIONS:
@@ -110,7 +123,10 @@ def _change(
     reach = length + lookahead(roads, here)
     row = onward(roads, (target.id,), reach + here.location.offset, goal)
     path = roads.path(row, here.position, here.heading, length, reach, length)
-    manoeuvres = (LaneChange(0.0, length, side), *waits_along(roads, path, row))
+    waits = waits_along(roads, path, row)
+    if any(isinstance(m, LetCross) and m.stop < length for m in waits):
+        return Refusal("a crossing for pedestrians comes first, where nobody overtakes")
+    manoeuvres = (LaneChange(0.0, length, side), *waits)
     return finish(roads, action, path, manoeuvres, length, 0.0, goal)
 
 

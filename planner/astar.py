@@ -6,13 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.actions import Situation, expand
-from planner.forward import Motion
+from planner.actions import ActionPlan, Situation, expand
+from planner.forward import DT, Motion
 from planner.obstacles import Traffic
 from planner.rollout import Leg, Task, take
 from planner.routes import Refusal
 from planner.trace import ACTIONS, Action
 from planner.waypoints import time_left
+from sim.network import Location
 
 LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
 DEPTH = 3  # macro actions in a row
@@ -20,6 +21,7 @@ GRIP = 12.0  # [m/s2] of lateral acceleration; well beyond that of tyres, for pa
 SOLUTIONS = 2
 SLOW = 2.0  # [m/s] below which a vehicle waits rather than drives
 SLACK = 8.0  # [s] by which a further solution may cost more than the best
+SPARE = 0.5  # [s] of error in lower bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +47,32 @@ class Solution:
         )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Reached:
+    """A node of the search: what was driven to get there."""
+
+    cost: float  # [s] of time and lane changes so far
+    here: Situation
+    legs: tuple[Leg, ...]
+
+    @property
+    def there(self) -> bool:
+        """Whether the goal is reached."""
+        return bool(self.legs) and self.legs[-1].outcome == "done"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ahead:
+    """An action that may be taken at a node. It is driven when no other node is more promising.
+
+    What leads elsewhere than to the goal is mostly ruled out before.
+    """
+
+    node: _Reached
+    plan: ActionPlan
+    changes: float  # [s] that the lane changes are worth, its own among them
+
+
 def ways(
     task: Task,
     starts: Sequence[Situation],
@@ -61,26 +89,27 @@ def ways(
         wanted: how many ways to look for.
         grip: [m/s2] of lateral acceleration that no way may exceed.
     """
-    frontier: list[tuple[float, int, float, Situation, tuple[Leg, ...]]] = []
+    frontier: list[tuple[float, int, _Reached | _Ahead]] = []
     count = 0
     for here in starts:
-        heapq.heappush(frontier, (_remaining(task, here), count, 0.0, here, ()))
+        heapq.heappush(frontier, (_remaining(task, here), count, _Reached(0.0, here, ())))
         count += 1
     found: list[Solution] = []
     while frontier and len(found) < wanted:
-        estimate, _, cost, here, legs = heapq.heappop(frontier)
+        estimate, order, node = heapq.heappop(frontier)
         if found and estimate > found[0].cost + SLACK:
             break
-        if legs and legs[-1].outcome == "done":
-            found.append(Solution(cost, legs))
-            continue
-        for leg in _expand(task, here, legs, traffic, grip):
-            changes = sum(_lanes_moved(step, starts, k) for k, step in enumerate((*legs, leg)))
-            time = leg.goal_time if leg.goal_time is not None else leg.end.time - task.start
-            so_far = time + LANE_CHANGE_COST * changes
-            ahead = 0.0 if leg.outcome == "done" else _remaining(task, leg.end)
-            count += 1
-            heapq.heappush(frontier, (so_far + ahead, count, so_far, leg.end, (*legs, leg)))
+        if isinstance(node, _Ahead):
+            reached = _driven(task, node, traffic, grip)
+            if reached is not None:
+                ahead = 0.0 if reached.there else _remaining(task, reached.here)
+                heapq.heappush(frontier, (reached.cost + ahead, order, reached))
+        elif node.there:
+            found.append(Solution(node.cost, node.legs))
+        else:
+            for child in _expand(task, starts, node):
+                count += 1
+                heapq.heappush(frontier, (_least(task, child), count, child))
     return found
 
 
@@ -114,24 +143,54 @@ def held(
     return ()
 
 
-def _expand(
-    task: Task, here: Situation, legs: tuple[Leg, ...], traffic: Traffic, grip: float
-) -> list[Leg]:
+def _expand(task: Task, starts: Sequence[Situation], node: _Reached) -> list[_Ahead]:
+    """The actions that may be taken at a node."""
+    legs = node.legs
     if len(legs) >= DEPTH:
         return []
-    first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
-    moved = {leg.action for leg in legs} & {"change-left", "change-right"}
+    driven = [leg.action for leg in legs]
+    moved = {"change-left", "change-right"}.intersection(driven)
     children = []
     for action in ACTIONS:
         if action == "stop" or (moved and action.startswith("change") and action not in moved):
             continue
-        plan = expand(task.roads, here, action, task.goal, task.view)
-        if isinstance(plan, Refusal):
-            continue
-        leg = take(task, plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
-        if leg.outcome in (None, "done") and _drivable(leg, grip):
-            children.append(leg)
+        plan = expand(task.roads, node.here, action, task.goal, task.view)
+        if not isinstance(plan, Refusal):
+            changes = sum(_lanes_moved(x, starts, k) for k, x in enumerate((*driven, action)))
+            children.append(_Ahead(node, plan, LANE_CHANGE_COST * changes))
     return children
+
+
+def _driven(task: Task, ahead: _Ahead, traffic: Traffic, grip: float) -> _Reached | None:
+    """What comes of an action; None where it fails."""
+    here, legs = ahead.node.here, ahead.node.legs
+    first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
+    leg = take(task, ahead.plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
+    if leg.outcome not in (None, "done") or not _drivable(leg, grip):
+        return None
+    time = leg.goal_time if leg.goal_time is not None else leg.end.time - task.start
+    return _Reached(time + ahead.changes, leg.end, (*legs, leg))
+
+
+def _least(task: Task, ahead: _Ahead) -> float:
+    """A lower bound of the cost [s] of ways to the goal that go on with an action.
+
+    No speed is beyond what a vehicle has, or its path allows. The action is over at most a step
+    beyond its end.
+    """
+    plan, here = ahead.plan, ahead.node.here
+    fastest = max(here.speed, float(np.max(plan.path.cap)))
+    so_far = here.time - task.start + plan.end / fastest + ahead.changes
+    if plan.goal is not None:
+        return so_far - SPARE
+    ends = (plan.end, plan.end + fastest * DT)
+    left = min(time_left(task.roads, _at(plan, arc), task.goal) for arc in ends)
+    return so_far + left - DT - SPARE
+
+
+def _at(plan: ActionPlan, arc: float) -> Location:
+    lane, begin = plan.path.lane_at(arc)
+    return Location(lane, arc - begin, 0.0)
 
 
 def _drivable(leg: Leg, grip: float) -> bool:
@@ -139,13 +198,13 @@ def _drivable(leg: Leg, grip: float) -> bool:
     return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < grip)
 
 
-def _lanes_moved(leg: Leg, starts: Sequence[Situation], index: int) -> float:
-    """By how many lane widths a leg moves sideways; the first one starts from where it is."""
-    moved = 1.0 if leg.action in ("change-left", "change-right") else 0.0
+def _lanes_moved(action: Action, starts: Sequence[Situation], index: int) -> float:
+    """By how many lane widths an action moves sideways; the first one starts from where it is."""
+    moved = 1.0 if action in ("change-left", "change-right") else 0.0
     if index > 0:
         return moved
     aside = starts[0].location.lateral / 3.5
-    side = 1.0 if leg.action == "change-left" else -1.0
+    side = 1.0 if action == "change-left" else -1.0
     return abs(moved * side - aside)
 
 

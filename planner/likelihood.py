@@ -47,8 +47,9 @@ def likelihoods(
         before: the others, from the first sample of the track on.
         settings: rationality [1/s].
     """
+    moved = _sideways(frame.roads, observed)
     excess = [
-        _excess(frame, observed, goal, driving, before)
+        _excess(frame, observed, goal, driving, before, moved)
         for goal, driving in zip(goals, left, strict=True)
     ]
     best = min(excess)
@@ -61,7 +62,12 @@ def likelihoods(
 
 
 def _excess(
-    frame: Task, observed: Observed, goal: Goal, left: float | None, before: Traffic
+    frame: Task,
+    observed: Observed,
+    goal: Goal,
+    left: float | None,
+    before: Traffic,
+    moved: float,
 ) -> float:
     """By how much [s] the track and the best way on cost more than the best way from its start.
 
@@ -77,7 +83,7 @@ def _excess(
     best = ways(task, then, before, 1) or ways(task, then, NOBODY, 1)
     if not best:
         return NO_WAY
-    spent = observed.elapsed * DT + LANE_CHANGE_COST * _sideways(frame.roads, observed)
+    spent = observed.elapsed * DT + LANE_CHANGE_COST * moved
     spent -= _waited(frame, observed, goal.target, before)
     return max(spent + left - (best[0].cost - len(best[0].waits) * DT), 0.0)
 

@@ -7,7 +7,7 @@ who is hit from behind without having changed lanes has not collided.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from planner.actions import ActionPlan, Situation
 from planner.forward import DT, Drive, Hindrances, Motion, Stops, drive
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
+from planner.kernels.driving import RIGHT_OF_WAY
 from planner.kernels.reaction import FIRM
 from planner.obstacles import HOW, Traffic
 from planner.reward import components
@@ -200,52 +201,41 @@ def held_up(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
     A leader that brakes while it is in the way is recorded as leader even where it cut in
     before: what costs time then is its braking.
     """
-    stretches: dict[int, list[list[_Step]]] = {}
-    for step in _steps(legs):
-        runs = stretches.setdefault(step.vehicle, [])
-        if runs and step.continues(runs[-1][-1]):
-            runs[-1].append(step)
-        else:
-            runs.append([step])
-    found = [_stretch(run, start) for runs in stretches.values() for run in runs]
+    known = [leg.hindrances for leg in legs]
+    step = np.concatenate([h.step for h in known]) if known else np.empty(0, np.int64)
+    if len(step) == 0:
+        return ()
+    vehicle = np.concatenate([h.vehicle for h in known])
+    order = np.argsort(vehicle, kind="stable")
+    step, vehicle = step[order], vehicle[order]
+    how = np.concatenate([h.how for h in known])[order]
+    speed = np.concatenate([h.speed for h in known])[order]
+    other = np.diff(vehicle) != 0
+    other |= np.diff(step) > GRACE
+    other |= np.diff(how == RIGHT_OF_WAY)
+    begin = np.concatenate(([0], np.flatnonzero(other) + 1))
+    end = np.concatenate((begin[1:], [len(step)])) - 1
+    columns = (vehicle[begin], step[begin], step[end], how[begin], speed[begin])
+    lowest = np.minimum.reduceat(speed, begin)
+    rows = zip(*(column.tolist() for column in (*columns, lowest)), strict=True)
+    found = [_stretch(start, *row) for row in rows]
     return tuple(sorted(found, key=lambda stretch: (stretch.since, stretch.vehicle)))
 
 
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """One step in which a vehicle held the ego up."""
-
-    step: int
-    vehicle: int
-    how: HoldUp
-    speed: float  # [m/s]
-
-    def continues(self, other: "_Step") -> bool:
-        """Whether it belongs to the same stretch as an earlier one of the same vehicle."""
-        near = self.step - other.step <= GRACE
-        return near and (self.how == "right-of-way") == (other.how == "right-of-way")
-
-
-def _steps(legs: Sequence[Leg]) -> Iterator[_Step]:
-    for leg in legs:
-        h = leg.hindrances
-        columns = (h.step.tolist(), h.vehicle.tolist(), h.how.tolist(), h.speed.tolist())
-        for step, vehicle, how, speed in zip(*columns, strict=True):
-            yield _Step(step, vehicle, HOW[how], speed)
-
-
-def _stretch(run: list[_Step], start: float) -> HeldUp:
-    speeds = [step.speed for step in run]
-    how: HoldUp = run[0].how
-    if how == "cut-in" and speeds[0] - min(speeds) > 2.0:
+def _stretch(
+    start: float, vehicle: int, first: int, last: int, code: int, speed: float, lowest: float
+) -> HeldUp:
+    """A stretch of steps `first` to `last` in which a vehicle held one up."""
+    how: HoldUp = HOW[code]
+    if how == "cut-in" and speed - lowest > 2.0:
         how = "leader"
     return HeldUp(
-        vehicle=run[0].vehicle,
-        since=round(start + run[0].step * DT, 2),
-        until=round(start + (run[-1].step + 1) * DT, 2),
+        vehicle=vehicle,
+        since=round(start + first * DT, 2),
+        until=round(start + (last + 1) * DT, 2),
         how=how,
-        speed_from=round(speeds[0], 2),
-        speed_to=round(min(speeds), 2),
+        speed_from=round(speed, 2),
+        speed_to=round(lowest, 2),
     )
 
 

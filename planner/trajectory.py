@@ -27,6 +27,7 @@ ROUNDS = 20  # of widening at most
 HAIRPIN = (5, 2.2)  # path points on each side, and [rad] turned there: no corner to be widened
 OVERSHOOT = 6.0  # [m] beyond its lane at which a vehicle may be found
 STEEPEST = 0.6  # [rad] of heading against a lane with which a blend onto it begins
+KEPT = 1024  # paths, and plans along them, that are kept for whoever is at the same place again
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,7 +88,9 @@ class Roads:
         self.kerbs: Array | None = None  # kept by planner.people
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
+        self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions
         self._lines: dict[tuple[str, ...], Path] = {}
+        self._paths: dict[Any, Path] = {}
 
     def line(self, lanes: tuple[str, ...]) -> Path:
         """The centreline of a row of connected lanes, from the start of the first one."""
@@ -115,6 +118,23 @@ class Roads:
             reach: [m] largest length of the path; the lanes may end earlier.
             least: [m] shortest length; where the lanes end earlier, it leads straight on.
         """
+        key = (lanes, position, heading, blend, reach, least)
+        found = self._paths.get(key)
+        if found is None:
+            if len(self._paths) >= KEPT:
+                self._paths.clear()
+            found = self._paths[key] = self._path(*key)
+        return found
+
+    def _path(
+        self,
+        lanes: tuple[str, ...],
+        position: Point,
+        heading: float,
+        blend: float,
+        reach: float,
+        least: float,
+    ) -> Path:
         line = self.line(lanes)
         offset, lateral, direction = _nearest(line, position)
         turned = angle_between(heading, direction)

@@ -25,6 +25,7 @@ class Line(NamedTuple):
     cos: Floats  # [N] of the heading
     sin: Floats  # [N]
     spacing: float  # [m] largest distance between neighbouring points
+    box: tuple[float, float, float, float]  # [m] least x and y, greatest x and y
 
 
 class Stretches(NamedTuple):
@@ -79,7 +80,12 @@ def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
     spacing = 1e-9
     for k in range(len(arc) - 1):
         spacing = max(spacing, arc[k + 1] - arc[k])
-    return Line(points, arc, heading, np.cos(heading), np.sin(heading), spacing)
+    low_x, low_y, high_x, high_y = points[0, 0], points[0, 1], points[0, 0], points[0, 1]
+    for k in range(1, len(points)):
+        low_x, high_x = min(low_x, points[k, 0]), max(high_x, points[k, 0])
+        low_y, high_y = min(low_y, points[k, 1]), max(high_y, points[k, 1])
+    box = (low_x, low_y, high_x, high_y)
+    return Line(points, arc, heading, np.cos(heading), np.sin(heading), spacing, box)
 
 
 @_jit
@@ -110,34 +116,64 @@ def _occupied(
     start: int,
 ) -> None:
     """Fill in the steps of one vehicle, from step `start` on."""
-    points, arc, heading, line_cos, line_sin, spacing = line
     low, high = found.low[m, start:], found.high[m, start:]
     along, cosine = found.along[m, start:], found.cosine[m, start:]
+    near = 0
+    for t in range(len(states)):
+        if t > 0 and _alike(states[t], states[t - 1]):
+            low[t], high[t], cosine[t] = low[t - 1], high[t - 1], cosine[t - 1]
+            along[t] = states[t, 3] * cosine[t]
+        elif math.isfinite(states[t, 0]):
+            near, low[t], high[t], cosine[t] = _stretch(line, states[t], size, corridor, near)
+            along[t] = states[t, 3] * cosine[t]
+
+
+@_jit
+def _alike(state: Floats, before: Floats) -> bool:
+    """Whether a vehicle stands."""
+    same = state[0] == before[0] and state[1] == before[1] and state[2] == before[2]
+    return bool(same)
+
+
+@_jit
+def _stretch(
+    line: Line, state: Floats, size: Floats, corridor: float, near: int
+) -> tuple[int, float, float, float]:
+    """Where a body lies on a path.
+
+    Args:
+        line: the path.
+        state, size: of the vehicle.
+        corridor: [m] to either side of the path.
+        near: index of a path point that may be near.
+
+    Returns:
+        The index of the nearest path point, from where to where [m] it lies, and the cosine of
+        the angle to the path; NaN and 0 where it is not on the path.
+    """
+    points, arc, heading, line_cos, line_sin, spacing, box = line
     length, width = size[0], size[1]
     widest = corridor + 0.5 * (length + width)  # a body reaches no farther aside
-    end, near = len(arc) - 1, 0
-    for t in range(len(states)):
-        x = states[t, 0] - 0.5 * length * math.cos(states[t, 2])
-        y = states[t, 1] - 0.5 * length * math.sin(states[t, 2])
-        if not math.isfinite(x):
-            continue
-        dx, dy = x - points[0, 0], y - points[0, 1]
-        ahead, aside = dx * line_cos[0] + dy * line_sin[0], dy * line_cos[0] - dx * line_sin[0]
-        follows = ahead < 0.0 and abs(aside) < widest  # however far behind
-        k = _nearest(points, x, y, spacing, near, math.inf if follows else widest + length)
-        if k < 0:
-            continue
-        near = k
-        dx, dy = x - points[k, 0], y - points[k, 1]
-        ahead, aside = dx * line_cos[k] + dy * line_sin[k], dy * line_cos[k] - dx * line_sin[k]
-        if abs(aside) >= widest or (k == end and ahead > length):
-            continue
-        turned = states[t, 2] - heading[k]
-        cos, sin = math.cos(turned), math.sin(turned)
-        if abs(aside) < 0.5 * (length * abs(sin) + width * abs(cos)) + corridor:
-            least, most = _extent(length, width, aside, cos, sin, corridor)
-            low[t], high[t] = arc[k] + ahead + least, arc[k] + ahead + most
-            along[t], cosine[t] = states[t, 3] * cos, cos
+    x = state[0] - 0.5 * length * math.cos(state[2])
+    y = state[1] - 0.5 * length * math.sin(state[2])
+    dx, dy = x - points[0, 0], y - points[0, 1]
+    ahead, aside = dx * line_cos[0] + dy * line_sin[0], dy * line_cos[0] - dx * line_sin[0]
+    follows = ahead < 0.0 and abs(aside) < widest  # however far behind
+    within = math.inf if follows else widest + length
+    off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
+    k = _nearest(points, x, y, spacing, near, within) if follows or off < within else -1
+    if k < 0:
+        return near, math.nan, math.nan, 0.0
+    dx, dy = x - points[k, 0], y - points[k, 1]
+    ahead, aside = dx * line_cos[k] + dy * line_sin[k], dy * line_cos[k] - dx * line_sin[k]
+    if abs(aside) >= widest or (k == len(arc) - 1 and ahead > length):
+        return k, math.nan, math.nan, 0.0
+    turned = state[2] - heading[k]
+    cos, sin = math.cos(turned), math.sin(turned)
+    if abs(aside) >= 0.5 * (length * abs(sin) + width * abs(cos)) + corridor:
+        return k, math.nan, math.nan, 0.0
+    least, most = _extent(length, width, aside, cos, sin, corridor)
+    return k, arc[k] + ahead + least, arc[k] + ahead + most, cos
 
 
 @_jit
