@@ -28,7 +28,7 @@ from planner.recognise import Belief
 from planner.trace import ON_FOOT
 from planner.tracks import aligned
 from planner.trajectory import Roads
-from planner.walkers import AROUND, with_walkers
+from planner.walkers import AROUND, passing_speed, with_walkers
 from sim.scene import EGO, Scene, VehicleState
 
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
@@ -95,7 +95,20 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
         ego.length,
         dt,
     )
-    return _clear(driving, around, chosen, dt)
+    return _clear(driving, around, _beside(driving, around, chosen, dt), dt)
+
+
+def _beside(
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Drive slowly past who waits beside at a crossing."""
+    motion = driving.motion
+    others = [s for v, s in around.scene.vehicles.items() if v != EGO]
+    allowed = passing_speed(driving.plan, motion, others) if driving.plan.crossings else math.inf
+    if allowed >= motion.speed + COMFORT * dt:
+        return chosen
+    braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
+    return (min(chosen[0], braking), chosen[1])
 
 
 def _clear(

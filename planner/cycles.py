@@ -112,6 +112,14 @@ class _Cycle:
         self._links = [
             network.signalled(Signal(watched.controller, place)) for place in watched.places
         ]
+        places = {place: k for k, place in enumerate(watched.places)}
+        self._crossings = {
+            places[crossing.control.index]: crossing
+            for crossing in network.crossings
+            if isinstance(crossing.control, Signal)
+            and crossing.control.controller == watched.controller
+            and crossing.control.index in places
+        }
 
     def again(self) -> tuple[Showing, ...] | None:
         """As it went on the last time that it showed what it shows now; None if it never did.
@@ -229,7 +237,18 @@ class _Cycle:
             yields = any((x.junction, i) in keys for x in self._links[k] for i in x.yields_to)
             return LightState.GREEN_YIELD.value if yields else LightState.GREEN.value
 
-        return "".join(shown(k) if k in going else letter for k, letter in enumerate(letters))
+        now = "".join(shown(k) if k in going else letter for k, letter in enumerate(letters))
+        return self._with_people(now, ours)
+
+    def _with_people(self, letters: str, going: Sequence[Link]) -> str:
+        """The same with crossings green, where all that go over them give way or are held."""
+        found = list(letters)
+        for k, crossing in self._crossings.items():
+            met = [x for x in going if x.junction == crossing.junction]
+            over = [x for x in met if crossing.index in x.other_foes]
+            if letters[k] == RED and all(crossing.index in x.other_yields_to for x in over):
+                found[k] = LightState.GREEN.value
+        return "".join(found)
 
 
 def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:

@@ -23,6 +23,7 @@ from planner.trace import ON_FOOT, EgoGoal, Settings
 from planner.tracks import Observed
 from planner.trajectory import Array, Roads
 from planner.walking import (
+    HALF_LANE,
     MEAN,
     WALKING,
     Route,
@@ -375,7 +376,7 @@ def _came_over(person: Observed, crossing: Crossing) -> bool:
 
 def _aslant(roads: Roads, person: Observed) -> bool:
     """Whether somebody on a road walks rather across than along it."""
-    found = roads.network.locate(place_of(person), 0.0, 2.0, math.pi)
+    found = roads.network.locate(place_of(person), 0.0, HALF_LANE, math.pi)
     if not found or person.speed[-1] < WALKING:
         return False
     _, _, along = project(roads.network.lanes[found[0].lane].centreline, place_of(person))

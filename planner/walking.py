@@ -26,7 +26,8 @@ WALKING = 0.3  # [m/s] from which one walks
 BESIDE = 0.3  # [m] from the edge of a crossing at which people walk on it at least
 AWAY = 2.0  # [m] beyond a crossing at which one is out of the way
 SAFE = 1.5  # [s] by which a gap must be longer than crossing takes
-LEAVES = 1.0  # [m] of walking after which it is looked whether that leads onto a road
+LEAVES = 0.5  # [m] of walking after which it is looked whether that leads onto a road
+SEEN = 15.0  # [m] as far as that is done
 HALF_LANE = 1.6  # [m]
 
 
@@ -73,8 +74,10 @@ def onward(network: Network, person: Observed, reach: float) -> Route:
     cos, sin = math.cos(heading), math.sin(heading)
     free = reach
     if not on_road(network, (x, y)):
-        steps = np.arange(LEAVES, reach, LEAVES).tolist()
-        free = next((a for a in steps if on_road(network, (x + a * cos, y + a * sin))), reach)
+        steps = np.arange(0.0, min(reach, SEEN), LEAVES).tolist()
+        places = ((a, a + LEAVES) for a in steps)
+        ahead = (a for a, b in places if on_road(network, (x + b * cos, y + b * sin)))
+        free = next(ahead, reach)
     return Route(((x, y), (x + free * cos, y + free * sin)), 0.0, None)
 
 
