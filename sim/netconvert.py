@@ -183,7 +183,8 @@ def _done(tool: str, command: list[str]) -> None:
     except subprocess.TimeoutExpired as error:
         raise ConversionFailed(f"{tool} did not finish within {PATIENCE:g} s") from error
     if done.returncode != 0:
-        reason = next((x for x in done.stderr.splitlines() if x.startswith("Error")), done.stderr)
+        told = done.stderr.strip().splitlines() or [f"exit status {done.returncode}"]
+        reason = next((x for x in told if x.startswith("Error")), told[-1])
         raise ConversionFailed(f"{tool} failed: {reason.strip()}")
 
 

@@ -1,0 +1,58 @@
+"""Wide bends that a map draws with few corners."""
+
+import math
+
+import numpy as np
+import pytest
+
+from planner.easing import AWAY, eased
+
+RADIUS = 65.0  # [m]
+
+
+def circle(side: float, count: int = 8) -> np.ndarray:
+    """The corners of a polygon on a circle, with sides of a length [m]."""
+    angles = 2.0 * math.asin(side / 2.0 / RADIUS) * np.arange(count)
+    return RADIUS * np.column_stack((np.sin(angles), 1.0 - np.cos(angles)))
+
+
+def test_a_polygon_on_a_circle_becomes_the_circle() -> None:
+    points, index = eased(circle(14.0))
+    inner = points[index[1] : index[-2] + 1]
+    away = np.hypot(inner[:, 0], inner[:, 1] - RADIUS) - RADIUS
+    assert np.max(np.abs(away)) < 0.02
+    heading = np.unwrap(np.arctan2(*np.diff(inner, axis=0).T[::-1]))
+    turning = np.diff(heading) / np.hypot(*np.diff(inner, axis=0)[1:].T)
+    assert turning == pytest.approx(1.0 / RADIUS, rel=0.1)
+
+
+def test_corners_stay_where_they_are() -> None:
+    corners = circle(14.0)
+    points, index = eased(corners)
+    assert points[index] == pytest.approx(corners)
+
+
+def test_a_curve_leads_away_from_its_sides_by_a_little_at_most() -> None:
+    corners = circle(30.0)
+    points, index = eased(corners)
+    for a, b, first, last in zip(corners, corners[1:], index, index[1:], strict=False):
+        along = (b - a) / np.hypot(*(b - a))
+        offset = points[first : last + 1] - a
+        aside = offset[:, 0] * along[1] - offset[:, 1] * along[0]
+        assert np.max(np.abs(aside)) <= AWAY + 1e-9
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [
+        [(0.0, 0.0), (50.0, 0.0)],
+        [(0.0, 0.0), (50.0, 0.0), (50.0, 50.0)],  # a corner, no bend
+        [(0.0, 0.0), (100.0, 0.0), (101.0, 0.1), (102.0, 0.3)],  # drawn with many corners
+        [(0.0, 0.0), (100.0, 0.0), (110.0, 3.0)],  # a straight road before a bend
+        [(0.0, 0.0), (20.0, 0.0), (40.0, 0.0)],
+    ],
+)
+def test_what_is_no_polygon_of_a_bend_stays_as_it_is(corners: list[tuple[float, float]]) -> None:
+    points, index = eased(np.array(corners))
+    assert points.tolist() == [list(x) for x in corners]
+    assert index.tolist() == list(range(len(corners)))
