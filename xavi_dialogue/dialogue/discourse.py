@@ -47,6 +47,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
 )
+from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
 REMEMBERED = 20  # turns; what was said before them is no longer referred to
@@ -121,6 +122,8 @@ def _roles(result: Answer | Refusal) -> Iterator[tuple[Thing, str]]:
         yield from _others(episode.actor, episode.object)
     for measure in parts(result, Measure):
         yield from _others(measure.thing, measure.to)
+    for light in dict.fromkeys(shown.light for shown in parts(result, Shown)):
+        yield light, "cause"
 
 
 def causes_of(result: Answer | Refusal) -> Iterator[tuple[int, tuple[str, ...]]]:

@@ -62,6 +62,7 @@ from xavi_dialogue.domain.reasons import (
     Unslowed,
 )
 from xavi_dialogue.domain.terms import Event, Proposition, Thing
+from xavi_dialogue.domain.traffic_lights import LightAnswer
 
 __all__ = [
     "Acknowledged", "Activity", "Again", "Aim", "Altered", "Answer", "Avoidance", "Beliefs",
@@ -283,6 +284,7 @@ Answer: TypeAlias = (
     | PlaceReason
     | SupposedOfUs
     | SupposedOfOther
+    | LightAnswer
     | Reaction
     | Measures
     | Verdict

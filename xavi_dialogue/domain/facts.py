@@ -8,7 +8,8 @@ from typing import Literal, TypeAlias
 from planner.trace import Action as MacroAction
 from planner.trace import HoldUp, Outcome
 from xavi_dialogue.domain.base import Value
-from xavi_dialogue.domain.terms import Ego, Junction, Thing, Vehicle
+from xavi_dialogue.domain.terms import Ego, Feature, Junction, Thing, Vehicle
+from xavi_dialogue.domain.traffic_lights import Crossed, Foreseen, Shown
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Bearing, Kind, Side
 
 Somebody: TypeAlias = Ego | Vehicle
@@ -48,9 +49,9 @@ class Look(Value, frozen=True):
 
 
 class Episode(Value, frozen=True):
-    """A stretch of the ride in which somebody did one thing."""
+    """A stretch of the ride in which somebody did one thing, or a traffic light showed one."""
 
-    actor: Somebody
+    actor: Somebody | Feature
     action: ActionName
     begin: float  # [s]
     end: float | None = None  # [s] None while it goes on
@@ -129,4 +130,6 @@ class Relating(Value, frozen=True):
     holds: bool
 
 
-Fact: TypeAlias = Episode | Measure | Belief | Look | OptionValue | Relating
+Fact: TypeAlias = (
+    Episode | Measure | Belief | Look | OptionValue | Relating | Shown | Crossed | Foreseen
+)

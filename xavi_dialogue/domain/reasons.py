@@ -7,6 +7,7 @@ from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.evidence import Causation, Contrast, Evidence
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
 
 #: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither.
@@ -51,7 +52,7 @@ class MotionCause(Value, frozen=True):
         "parked",  # it has stood there since it was first seen
         "next-move",  # the change of lanes that `actions` are comes next
         "given-up",  # a stop, or the turn that `actions` are, was decided, and given up again
-        "light",
+        "light",  # a traffic light, `shown`
     ]
     vehicle: int | None = None
     actions: tuple[MacroAction, ...] = ()  # what it was expected to do ...
@@ -60,6 +61,7 @@ class MotionCause(Value, frozen=True):
     did: Episode | None = None  # what it did in fact since
     necessary: bool | None = None  # without it we would not have done so; None: not tried
     value: float | None = None  # the limit [m/s], the turn's speed, the distance [m]
+    shown: Shown | None = None  # what a traffic light shows that holds us, or that vehicle
 
 
 class MotionReason(Value, frozen=True):

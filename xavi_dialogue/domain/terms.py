@@ -140,12 +140,16 @@ class Road(Value, frozen=True):
 
 
 class Feature(Value, frozen=True):
-    """What a road has beside lanes."""
+    """What a road has beside lanes; what is said of colour, rank and owner is said of lights."""
 
     kind: Literal[
         "light", "sign", "crossing", "curb", "parking", "building", "line", "bend", "queue",
-        "space", "way", "obstacle",
+        "space", "way", "obstacle", "headlight",
     ]  # fmt: skip
+    colour: str | None = None  # that it is said to show: "the red light"
+    rank: int | None = None  # 1 the next one, 2 the one behind it, -1 the last one
+    of: "Thing | None" = None  # who faces it; None: we
+    time: float | None = None  # [s] grounded: when it is spoken of
 
 
 class Passenger(Value, frozen=True):

@@ -56,6 +56,8 @@ ActionName: TypeAlias = Literal[
     "change-plan",
     "do",  # something: "what is he doing", "do that"
     "happen",  # "what happened"
+    "show",  # of a traffic light: a colour, the object
+    "turn-colour",  # of a traffic light: to a colour, the object; or to another one
     # What the car has no way of doing; told so when it is asked for.
     "honk",
     "flash",

@@ -216,7 +216,8 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
     reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
-    if deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
+    lit = any(cause.kind == "light" for cause in reasons.causes)
+    if not lit and deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
         going_on = deed.end is None and scene.moment >= scene.now - BEGUN
         contrast = stopping(scene.ride, reasons.trace, going_on=going_on)
         if _speaks(contrast, somebody=bool(ours)):

@@ -27,6 +27,7 @@ from xavi_dialogue.explain.causes.involved import LIKELY, expected_actions, hold
 from xavi_dialogue.explain.causes.necessity import proven
 from xavi_dialogue.explain.causes.ready import given_up, next_move, ready_for
 from xavi_dialogue.explain.causes.roadside import road_causes
+from xavi_dialogue.explain.causes.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.yielding import close_leader, goes_first, kept, leads
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
@@ -77,6 +78,9 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
     end = ride.now if deed.end is None else deed.end
     wait = _waited(ride, world, deed, end)
     moment = (deed.begin + end) / 2.0 if at is None else min(max(at, deed.begin), end)
+    lit = light_causes(ride, world, deed, moment) if wait is None else None
+    if lit is not None:
+        return Reasons(lit[0], None, Evidence(traces=(lit[1].trace_id,)), lit[1])
     trace = _decision(ride, deed, end, wait, moment)
     model = ride.model(trace)
     try:

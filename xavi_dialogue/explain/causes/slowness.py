@@ -24,6 +24,7 @@ from xavi_dialogue.explain.causes.driving import (
 from xavi_dialogue.explain.causes.involved import expected_actions, holding_up
 from xavi_dialogue.explain.causes.necessity import proven
 from xavi_dialogue.explain.causes.roadside import limit_at, road_causes, setting_off
+from xavi_dialogue.explain.causes.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.yielding import kept
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at
@@ -136,6 +137,9 @@ def _same_lane(ride: Ride, look: Look, time: float) -> bool:
 def _reasons(
     ride: Ride, world: World, trace: PlanTrace, deed: Episode, ahead: Look | None
 ) -> Reasons:
+    lit = light_causes(ride, world, deed, deed.begin)
+    if lit is not None:
+        return Reasons(lit[0], None, _recorded(lit[1]), lit[1])
     model = ride.model(trace)
     try:
         plan = factual(model, trace)

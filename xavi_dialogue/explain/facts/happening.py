@@ -5,7 +5,17 @@ from typing import TypeAlias, TypeGuard
 
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Exit, Junction, Lane, Road, Thing, Wanted
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exit,
+    Feature,
+    Junction,
+    Lane,
+    Road,
+    Thing,
+    Wanted,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import SIDES, somebody
 from xavi_dialogue.explain.facts.meetings import crossings, followings, movings_in, passings
@@ -148,6 +158,8 @@ def _concerns(episode: Episode, thing: Thing | None) -> bool:
     if wanted is not None:
         have = somebody(episode.object)
         return have is not None and bool(have & wanted)
+    if isinstance(thing, Feature) and thing.kind == "light":
+        return isinstance(episode.object, Feature) and episode.object.kind == "light"
     if isinstance(thing, Junction):
         return episode.place is None or episode.place.form == thing.form
     if isinstance(thing, Exit):

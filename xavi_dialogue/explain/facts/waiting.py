@@ -13,6 +13,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.light_waits import waits_at_lights
 from xavi_dialogue.explain.facts.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.ride import prediction
@@ -35,8 +36,12 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
             wait for still in stood for wait in _let_us_go(states, vehicle, still)
         ]
         ended = (_until_past(states, vehicle, wait) for wait in found)
-        return [wait for wait in ended if wait is not None]
+        lit = list(waits_at_lights(states.ride, vehicle, stood))
+        others = [wait for wait in ended if wait is not None]
+        others = [w for w in others if w.object != Ego() or not any(_meet(w, x) for x in lit)]
+        return [*others, *lit]
     given = _merged(_gave_way(states, stood))
+    given += waits_at_lights(states.ride, EGO, stood)
     waited = [wait for still in stood for wait in _stood_for(states, EGO, still)]
     told = [
         wait

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import Event, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation
 from xavi_dialogue.explain.facts import beliefs, happening, looks, options, relations
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
+from xavi_dialogue.explain.facts.light_events import light_episodes
 from xavi_dialogue.explain.facts.measures import extremes, measuring
 from xavi_dialogue.explain.facts.states import states_of
 from xavi_dialogue.explain.history.motion import EPSILON
@@ -105,6 +106,9 @@ class World:
 
     def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
         """The episodes in an interval that are such a grounded event."""
+        lit = light_episodes(self.states, event, begin, end)
+        if lit is not None:
+            return lit
         named = mirrored(event)
         actors = happening.actors_of(self.states, named)
         found = self.episodes(actors, (named.action,), begin, end)

@@ -201,6 +201,7 @@ class Ride:
             if (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
             and set(extra.scene) == vehicles
             and (extra.what_if is None or extra.what_if.vehicle is None)
+            and not getattr(extra.what_if, "lights", ())
         )
 
     def without(self, trace: PlanTrace, *vehicles: int) -> PlanTrace | None:

@@ -1,6 +1,6 @@
 """Tables: the planner of each type of causal answer, and of refusals."""
 
-from xavi_dialogue.domain import answers
+from xavi_dialogue.domain import answers, traffic_lights
 from xavi_dialogue.nlg.content import insights, refusals
 from xavi_dialogue.nlg.content.clarifications import plan_which_one
 from xavi_dialogue.nlg.content.corrections import plan_did_not_happen
@@ -13,6 +13,7 @@ from xavi_dialogue.nlg.content.reactions import plan_reaction
 from xavi_dialogue.nlg.content.reasons import plan_choice
 from xavi_dialogue.nlg.content.signals import plan_own_signal
 from xavi_dialogue.nlg.content.suppositions import plan_supposed_of_other
+from xavi_dialogue.nlg.content.traffic_lights import plan_supposed_light
 
 CAUSES: dict[type, Planner] = {
     answers.ChoiceReason: plan_choice,
@@ -26,6 +27,7 @@ CAUSES: dict[type, Planner] = {
     answers.SupposedOfUs: plan_supposed_of_us,
     answers.SupposedOfOther: plan_supposed_of_other,
     answers.Reaction: plan_reaction,
+    traffic_lights.SupposedOfLight: plan_supposed_light,
     answers.Grounds: insights.plan_grounds,
     answers.Certainty: insights.plan_certainty,
     answers.Method: insights.plan_method,

@@ -4,6 +4,7 @@ from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import SURE, chances
 from xavi_dialogue.nlg.content.manoeuvres import own_verbs
+from xavi_dialogue.nlg.content.traffic_lights import COLOURS
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Quantity, Who
@@ -59,8 +60,18 @@ def motion_cause(
         lower=deed in ("slow-down", "brake"),
         higher=deed == "speed-up",
         foreseen=foreseen,
+        **_shown(cause, past=past),
         **chances(cause.probability if cause.probability is not None else 1.0, context),
     )
+
+
+def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
+    """The slots of what the traffic light shows that holds us."""
+    shown = cause.shown
+    if shown is None:
+        return {}
+    turned = shown.colour == "amber" and shown.begun
+    return {"colour": COLOURS[shown.colour], "turned": turned and past}
 
 
 def _gone(cause: MotionCause, context: SpeechContext) -> bool:

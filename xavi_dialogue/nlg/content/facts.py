@@ -16,10 +16,16 @@ from xavi_dialogue.domain.facts import (
     Relating,
 )
 from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
+from xavi_dialogue.domain.traffic_lights import Crossed, Foreseen, Shown
 from xavi_dialogue.nlg.content.clauses import doing, episode_clause
 from xavi_dialogue.nlg.content.measures import measure_message
 from xavi_dialogue.nlg.content.propositions import clause_of
 from xavi_dialogue.nlg.content.tenses import since, tense_at
+from xavi_dialogue.nlg.content.traffic_lights import (
+    crossed_slots,
+    foreseen_message,
+    light_message,
+)
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
@@ -46,6 +52,12 @@ def fact_message(fact: Fact, context: SpeechContext, *, when: bool = True) -> Me
             return look_message(fact, context)
         case OptionValue():
             return option_message(fact)
+        case Shown():
+            return light_message(fact, context)
+        case Crossed():
+            return message("PASSED_AT", **crossed_slots(fact))
+        case Foreseen():
+            return foreseen_message(fact, context)
         case Relating():
             tense = tense_at(fact.time, context.now)
             that = Related(fact.relation, fact.thing, fact.to, tense=_domain(tense))  # type: ignore[arg-type]

@@ -23,6 +23,7 @@ COMING = {"crossing-right": "right", "crossing-left": "left"}
 YIELDS = frozenset(("give-way", "wait", "let-go"))
 CREEPING = 2.6  # [m/s] up to which one may speak of stopping
 STOPS = frozenset(("stop", "stand"))
+NEAR = 15.0  # [m] to a traffic light at which we are
 MARGIN = 0.5  # [m/s] over the limit that is no more than rounding
 #: Actions that exclude one another.
 WAYS = frozenset(("exit-left", "exit-right", "exit-straight", "change-left", "change-right"))
@@ -74,7 +75,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         "past": past,
         "yields": answer.deed.action in YIELDS and causes[0].kind == "right-of-way",
         "cause": motion_cause(
-            replace(causes[0], value=None) if past and causes[0].kind != "limit" else causes[0],
+            _placed(causes[0], past=past),
             _seen_at(causes[0], answer, context, past=past),
             context,
             past=past,
@@ -112,6 +113,13 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         denied = denial(answer.asked, past=past)
         deed = _only(deed, answer)
     return message("DRIVING", deed=deed, denied=denied, did=answer.form == "did", **slots)
+
+
+def _placed(cause: MotionCause, *, past: bool) -> MotionCause:
+    """The reason with how far it is, where that is worth telling: not of what is past or here."""
+    near = cause.kind == "light" and (cause.value or 0.0) < NEAR
+    gone = near or (past and cause.kind != "limit")
+    return replace(cause, value=None) if gone else cause
 
 
 def _nobody(answer: MotionReason) -> bool:
@@ -154,6 +162,8 @@ def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
     """What we did; whom it was for is told by the reason."""
     deed = answer.deed
     if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
+        deed = replace(deed, object=None)
+    if any(cause.kind == "light" for cause in answer.causes[:1]):
         deed = replace(deed, object=None)
     if deed.action == "stop" and deed.end is None and not past:
         deed = replace(deed, action="stand")

@@ -15,6 +15,7 @@ from xavi_dialogue.nlg.content.motives import CREEPING, HALTS, is_past
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause, about_vehicle
 from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.traffic_lights import COLOURS
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
@@ -158,6 +159,7 @@ def _their_cause(
         other=other,
         stands=stands,
         past=past,
+        colour=None if cause.shown is None else COLOURS[cause.shown.colour],
         speed=speed_told(cause.speed, context),
     )
 

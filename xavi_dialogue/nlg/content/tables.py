@@ -1,6 +1,6 @@
 """Tables: the planner of each type of factual answer, and of replies to talk."""
 
-from xavi_dialogue.domain import answers
+from xavi_dialogue.domain import answers, traffic_lights
 from xavi_dialogue.nlg.content import (
     beliefs,
     clarifications,
@@ -14,6 +14,7 @@ from xavi_dialogue.nlg.content import (
     talk,
     whereabouts,
 )
+from xavi_dialogue.nlg.content import traffic_lights as lights
 from xavi_dialogue.nlg.content.happenings import plan_happenings
 from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures, plan_staying
 from xavi_dialogue.nlg.content.plan import Planner
@@ -28,6 +29,10 @@ FACTS: dict[type, Planner] = {
     answers.Happenings: plan_happenings,
     answers.Lasted: plan_lasted,
     answers.Staying: plan_staying,
+    traffic_lights.LightTold: lights.plan_light,
+    traffic_lights.LightForeseen: lights.plan_foreseen,
+    traffic_lights.LightPassed: lights.plan_passed,
+    traffic_lights.TurnOnRed: lights.plan_turn_on_red,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,

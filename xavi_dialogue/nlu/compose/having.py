@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.deeds import tense_of, time_of
+from xavi_dialogue.nlu.compose.lights import had_light
 from xavi_dialogue.nlu.compose.others import is_other
 from xavi_dialogue.nlu.compose.rooms import roomy
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
@@ -33,6 +34,9 @@ from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 def had(special: Special) -> Proposition:
     """Read what the subject has: a right, a signal, room, a choice or somebody near."""
     sem = special.object
+    lit = had_light(special)
+    if lit is not None:
+        return lit
     over = next((as_thing(s) for k, s in special.match.phrases.items() if k in
                  ("over", "bearing-ahead", "with")), None)  # fmt: skip
     if over is None and not isinstance(special.clause.than, Clause):

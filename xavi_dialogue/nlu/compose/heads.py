@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.extents import SLOWING, extent_of
+from xavi_dialogue.nlu.compose.lights import light_of
 from xavi_dialogue.nlu.compose.peaks import quality_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
@@ -146,7 +147,9 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     owner = as_thing(traits.owner or traits.of)
     if head.key == "destination" and owner is not None and not isinstance(owner, Ego):
         return Measure(Measured("heading", owner))
-    if head.key == "light" and owner is not None:
+    if head.key == "light":
+        return light_of(head, traits, owner)
+    if head.key == "headlight" and owner is not None:
         return Measure(Measured("indicator", owner))
     if head.key in _PLACES and not (head.key.endswith("lane") and traits.owner):
         return _PLACES[head.key]

@@ -24,6 +24,7 @@ from xavi_dialogue.nlu.compose.clause import (
     is_share,
     takes_name,
 )
+from xavi_dialogue.nlu.compose.lights import on_light
 from xavi_dialogue.nlu.compose.positions import place_of, placeless
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.tally import often
@@ -183,7 +184,7 @@ class Phrases(Adjuncts):
         if leaf.key == "by" and forced and is_named(sem):
             clause.because = sem  # "were you forced to stop by the bus"
             return
-        clause.complements.append(Complement(leaf.key, sem, node))
+        clause.complements.append(Complement(leaf.key, on_light(leaf.key, sem), node))
 
     def _sided(self, key: str, side: str, node: Node, clause: Clause) -> None:
         if key == "from":

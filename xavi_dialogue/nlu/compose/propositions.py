@@ -11,6 +11,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Has,
     Is,
     Not,
     Passenger,
@@ -26,6 +27,7 @@ from xavi_dialogue.nlu.compose.adoption import adopt, as_of, compared, with_fiel
 from xavi_dialogue.nlu.compose.candidates import Candidate, Special
 from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.events import event_of, when
+from xavi_dialogue.nlu.compose.lights import shining
 from xavi_dialogue.nlu.compose.patterns import senses
 from xavi_dialogue.nlu.compose.positions import by_event
 from xavi_dialogue.nlu.compose.sem import Measure, Notes, Noun, Sem, as_thing
@@ -253,6 +255,8 @@ class Propositions:
                 return Event("go", thing, manner=(manner,), time=found.time, tense=found.tense)
             case Related(relation="can-see", thing=thing, to=to):
                 return Event("see", thing, to, tense=found.tense)
+            case Has() if (shown := shining(found)) is not None:
+                return shown
             case None:
                 return None
             case _:

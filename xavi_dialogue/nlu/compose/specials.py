@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose import lights
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.becoming import become
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -287,7 +288,8 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
-    "give-priority": _priority, "switch": _signal,
+    "give-priority": _priority, "switch": _signal, "colour": lights.coloured,
+    "stay-colour": lights.stays, "run-light": lights.ran,
     "become": lambda s: become(s, event_of),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),

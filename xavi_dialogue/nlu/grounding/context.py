@@ -13,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Feature,
     Proposition,
     Tense,
     Thing,
@@ -140,7 +141,7 @@ class Context:
                 each = [replace(event, actor=Vehicle(n)) for n in self.world.vehicles]
             case Event(object=Vehicles(numbers=numbers)):
                 each = [replace(event, object=Vehicle(n)) for n in numbers]
-            case Event(actor=Ego() | Vehicle()):
+            case Event(actor=Ego() | Vehicle() | Feature()):
                 return self.world.holds(event, begin, min(end, self.now))
             case _:
                 return ()

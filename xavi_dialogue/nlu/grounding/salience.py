@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Mention
 from xavi_dialogue.domain.meaning import Ask, Claim
 from xavi_dialogue.domain.rewriting import parts
-from xavi_dialogue.domain.terms import At, Event, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import At, Event, Feature, Thing, Vehicle, Vehicles
 
 DECAY: Final = 0.6  # of salience with each turn
 FRESH: Final = 1.5  # more salience within the turn, so that it outdoes the turn before
@@ -63,6 +63,9 @@ def mentions_of(act: object, turn: int, by_car: bool = False) -> tuple[Mention, 
         for one in found:
             if isinstance(one, kind):
                 roles.setdefault(one, "subject")
+    for light in parts(act, Feature):
+        if light.kind == "light":
+            roles.setdefault(Feature("light", of=light.of), "subject")
     return tuple(mention(thing, turn, role, by_car) for thing, role in roles.items())
 
 

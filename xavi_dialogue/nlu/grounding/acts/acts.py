@@ -22,6 +22,7 @@ from xavi_dialogue.nlu.grounding.completion.binding import bound
 from xavi_dialogue.nlu.grounding.completion.discussion import PROPOSITIONS
 from xavi_dialogue.nlu.grounding.completion.supposing import subordinate
 from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.things.lights import lit
 
 LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
 INCOMPLETE: Final = 1.0  # cost of a fragment that nothing completes
@@ -45,6 +46,7 @@ def completed(spoken: Act, g: Grounder) -> Act | None:
 
 def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
+    spoken = lit(spoken, g)
     match spoken:
         case Ask():
             return Ask(question(subordinate(bound(spoken, g).question, g), g))

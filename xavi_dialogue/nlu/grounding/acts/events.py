@@ -223,7 +223,12 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
 
 
 def _is_next(found: Event, g: Grounder) -> bool:
-    """Tell whether an event is the next turn of our own way: "why turn left?" is asked of it."""
+    """Tell whether an event is the next turn of our own way: "why turn left?" is asked of it.
+
+    So is that a light changes, of which nothing else is to come.
+    """
+    if found.action == "turn-colour" and found.tense in ("present", "future"):
+        return True
     road = g.context.world.road(g.context.now)
     route = () if road is None or found.tense != "present" else road.route
     return isinstance(found.actor, Ego) and bool(route) and route[0].turn == found.action

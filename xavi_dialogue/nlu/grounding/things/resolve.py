@@ -2,10 +2,13 @@
 
 from typing import Final
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
+    Feature,
     Junction,
     Lane,
     Passenger,
@@ -36,6 +39,9 @@ def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None)
             return _numbered(thing, g, window)
         case Described():
             return described(thing, g, window, fits)
+        case Feature(kind="light", of=of) if of is not None:
+            owner = g.thing(of, window)
+            return replace(thing, of=None if isinstance(owner, Ego) else owner)
         case Pronoun(form="who"):
             return Wanted()
         case Pronoun():

@@ -1,0 +1,58 @@
+"""A traffic light is a cause where planning again with it green would save time."""
+
+import pytest
+
+from tests.explain.lit import STANDS, answer, record
+from xavi_dialogue.domain.answers import MotionReason, NeedRollout
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.domain.terms import Event, Happens, Not
+from xavi_dialogue.explain.answers.engine import explain
+
+STOPPED = Ask(Why(Happens(Event("stop", tense="past"))))
+
+
+def causes(found):
+    assert isinstance(found, MotionReason)
+    return [(c.kind, c.necessary, c.shown and c.shown.colour) for c in found.causes]
+
+
+def test_it_is_asked_what_would_be_were_it_green():
+    need = explain(GroundedAct(STOPPED), record(25.0))
+    assert isinstance(need, NeedRollout)
+    assert [(x.controller, x.place, x.state) for x in need.lights] == [("J", 0, "G")]
+
+
+def test_we_stopped_because_it_is_red():
+    assert causes(answer(STOPPED, 25.0)) == [("light", True, "red")]
+
+
+def test_we_slowed_down_for_it_and_do_not_go_because_of_it():
+    slowed = answer(Ask(Why(Happens(Event("slow-down", tense="past")))), 25.0)
+    assert causes(slowed)[0] == ("light", True, "red")
+    waits = answer(Ask(Why(Not(Happens(Event("go", tense="present"))))), 25.0)
+    assert causes(waits)[0] == ("light", True, "red")
+
+
+def test_a_light_that_makes_no_difference_is_no_cause():
+    found = answer(STOPPED, 25.0, frees=False)
+    assert isinstance(found, MotionReason)
+    assert all(cause.kind != "light" for cause in found.causes)
+
+
+def test_without_the_planner_it_is_left_open():
+    known = record(25.0)
+    need = explain(GroundedAct(STOPPED), known)
+    found = explain(GroundedAct(STOPPED), record(25.0, refused=(need,)))
+    assert causes(found) == [("light", None, "red")]
+
+
+def test_what_is_over_is_told_by_what_it_showed_then():
+    found = answer(STOPPED, 40.0)
+    assert causes(found) == [("light", True, "red")]
+    assert found.deed.begin == pytest.approx(STANDS, abs=1.0)
+
+
+def test_nobody_is_held_once_it_is_green():
+    found = answer(Ask(Why(Happens(Event("speed-up", tense="past")))), 34.0)
+    assert all(cause.kind != "light" for cause in getattr(found, "causes", ()))

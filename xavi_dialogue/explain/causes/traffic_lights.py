@@ -1,0 +1,138 @@
+"""Traffic lights as causes: that one holds us is told by the drives imagined at a decision.
+
+Whether it matters is tried by planning that decision again with the light green for good: it does
+where this saves time. Who stands before us in the queue is told beside it.
+"""
+
+from collections.abc import Iterable
+
+from planner.trace import PlanTrace
+from planner.traffic_lights import LightSupposed
+from sim.scene import EGO, LightState, Signal
+from xavi_dialogue.domain.answers import MotionCause, NeedRollout
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Feature, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.facts.light_waits import Hold, holding
+from xavi_dialogue.explain.facts.traffic_lights import told
+from xavi_dialogue.explain.facts.waiting import top_holders
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered
+from xavi_dialogue.explain.history.traffic_lights import ahead, shown
+
+HELD = frozenset[ActionName](("slow-down", "brake", "stop", "stand", "wait", "move"))
+STILL = frozenset[ActionName](("stop", "stand", "wait"))
+GREEN = LightState.GREEN.value
+LEAST = 0.5  # [s] of reward that must be saved were it green
+
+
+def light_causes(
+    ride: Ride, world: World, deed: Episode, at: float
+) -> tuple[tuple[MotionCause, ...], PlanTrace] | None:
+    """Tell that a traffic light is why the ego slowed down or stood, and by which decision.
+
+    Args:
+        ride: the record.
+        world: its facts.
+        deed: the slowing or standing.
+        at: [s] the moment of it that is asked about.
+
+    Returns:
+        The light, and who stands before us at it; None where no light holds us, or it does not
+        matter.
+
+    Raises:
+        Unanswered: the decision must be planned again first.
+    """
+    end = ride.now if deed.end is None else deed.end
+    yielded = deed.action == "give-way" and isinstance(deed.object, Vehicle)
+    hold = None if yielded or deed.action not in HELD else holding(ride, EGO, deed.begin, end)
+    trace = None if hold is None else _decision(ride, hold, deed, at)
+    if hold is None or trace is None:
+        return None
+    needed = matters(ride, trace, hold.signal)
+    if needed is False:
+        return None
+    until = ride.now if hold.goes_on else hold.end
+    time = min(max(at, hold.begin), until) if deed.action in STILL else trace.sim_time
+    one = shown(ride, hold.signal, time) or shown(ride, hold.signal, trace.sim_time)
+    if one is None:
+        return None
+    far = [x.distance for x in ahead(ride, time) if _signal(x) == hold.signal]
+    seen = told(ride, hold.signal, one, Feature("light"))
+    cause = MotionCause("light", necessary=needed, value=next(iter(far), None), shown=seen)
+    return (cause, *_queue(world, trace)), trace
+
+
+def _signal(light: object) -> Signal:
+    return Signal(light.controller, light.place)  # type: ignore[attr-defined]
+
+
+def _decision(ride: Ride, hold: Hold, deed: Episode, at: float) -> PlanTrace | None:
+    """The decision at which the light held us: of standing the one at the moment, else the first.
+
+    One that had a choice goes first.
+    """
+    known = [
+        t
+        for t in ride.traces
+        if hold.begin - ROUNDING <= t.sim_time <= hold.end + ROUNDING
+        and t.sim_time >= deed.begin - 1.0
+    ]
+    if deed.action in STILL:
+        known = [t for t in known if t.sim_time <= at + ROUNDING][::-1] or known
+    return next((t for t in known if t.under_way is None), next(iter(known), None))
+
+
+def matters(ride: Ride, trace: PlanTrace, signal: Signal) -> bool | None:
+    """Tell whether a decision would save time were a light green; None where it is not known.
+
+    Raises:
+        Unanswered: the decision must be planned again first.
+    """
+    again = with_light(ride, trace, signal, GREEN)
+    if again is None:
+        return None
+    try:
+        here = factual(ride.model(trace), trace)
+        there = factual(ride.model(again), again)
+    except Unanswered:
+        return None
+    return there.value - here.value >= LEAST
+
+
+def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> PlanTrace | None:
+    """Find the plan made again from a decision with what a light is supposed to show for good.
+
+    None where the planner could not make it.
+
+    Raises:
+        Unanswered: it must be made first.
+    """
+    supposed = (LightSupposed(signal.controller, signal.index, state),)
+    need = NeedRollout(trace_id=trace.trace_id, lights=supposed)
+    for extra in ride.record.extra:
+        same = (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
+        if same and extra.what_if is not None and extra.what_if.lights == supposed:
+            return extra
+    if ride.cannot_have(need):
+        return None
+    raise Unanswered(need)
+
+
+def _queue(world: World, trace: PlanTrace) -> Iterable[MotionCause]:
+    """Who stands right before us at the light."""
+    for vehicle, how in top_holders(world.states, trace, EGO)[:1]:
+        if how == "leader":
+            yield MotionCause("leader", vehicle, speed=trace.scene[vehicle].speed)
+
+
+def light_of_other(ride: Ride, vehicle: int, begin: float, end: float) -> MotionCause | None:
+    """Tell that a traffic light is why another vehicle slowed or stood, as was predicted of it."""
+    hold = holding(ride, vehicle, begin, end)
+    one = None if hold is None else shown(ride, hold.signal, min(max(begin, hold.begin), end))
+    if hold is None or one is None:
+        return None
+    seen = told(ride, hold.signal, one, Feature("light", of=Vehicle(vehicle)))
+    return MotionCause("light", probability=hold.share, shown=seen)

@@ -1,0 +1,209 @@
+"""Traffic lights as facts: which one is meant, what it showed, how it was expected to go on."""
+
+from collections.abc import Iterator, Sequence
+
+from planner.trace import PlanTrace
+from planner.traffic_lights import LightPrediction
+from sim.scene import EGO, Signal
+from xavi_dialogue.domain.terms import Feature, Thing, Vehicle
+from xavi_dialogue.domain.traffic_lights import (
+    COLOURS,
+    TURNING,
+    YIELDING,
+    Crossed,
+    Foreseen,
+    LightColour,
+    Shown,
+)
+from xavi_dialogue.explain.facts.light_waits import facing
+from xavi_dialogue.explain.history.ride import ROUNDING, Ride
+from xavi_dialogue.explain.history.thresholds import STALE
+from xavi_dialogue.explain.history.traffic_lights import (
+    Passing,
+    Stretch,
+    ahead,
+    passings,
+    shown,
+    stretches,
+)
+
+SAID: dict[str, LightColour] = {
+    "red": "red", "green": "green", "amber": "amber", "yellow": "amber", "orange": "amber",
+    "gold": "amber",
+}  # fmt: skip
+AROUND = 1.0  # [s] around a line that we pass in which that light is the one spoken of
+BEHIND = 20.0  # [s] for which a light that we passed is still the one spoken of
+
+
+def is_light(thing: Thing | None) -> bool:
+    """Tell whether a thing is a traffic light."""
+    return isinstance(thing, Feature) and thing.kind == "light"
+
+
+def light_in(*things: object) -> Feature | None:
+    """Find the first traffic light among some things."""
+    return next((t for t in things if isinstance(t, Feature) and t.kind == "light"), None)
+
+
+def colour_of(light: Feature | None) -> LightColour | None:
+    """Tell what a light is said to show."""
+    return None if light is None or light.colour is None else SAID.get(light.colour)
+
+
+def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
+    """Find which light is meant at a time [s]; None where none was in view, or none is known.
+
+    Ours is the next one on our way, or the one whose line we pass; where there is none ahead, the
+    one that we passed last. Of another vehicle, it is the one that holds it.
+    """
+    time = time if light.time is None else light.time
+    if isinstance(light.of, Vehicle):
+        return facing(ride, light.of.number, time)
+    done = [one for one in passings(ride) if one.time <= time + AROUND]
+    near = [Signal(one.controller, one.place) for one in ahead(ride, time)]
+    if light.rank is not None and light.rank > 0:
+        return near[light.rank - 1] if len(near) >= light.rank else None
+    back = [one for one in done if time - one.time <= BEHIND]
+    if light.rank == -1:
+        return done[-1].signal if done else None
+    if done and abs(time - done[-1].time) <= AROUND:
+        return done[-1].signal
+    wanted = colour_of(light)
+    such = [s for s in near if wanted is not None and colour_at(ride, s, time) == wanted]
+    found = such[:1] or near[:1] or [one.signal for one in back[-1:]]
+    return next(iter(found), None)
+
+
+def colour_at(ride: Ride, signal: Signal, time: float) -> LightColour | None:
+    """Tell what a light showed at a time [s]; None where it was not seen then."""
+    one = shown(ride, signal, time)
+    return None if one is None else COLOURS.get(one.state)
+
+
+def told(ride: Ride, signal: Signal, one: Stretch, light: Feature) -> Shown:
+    """Tell what a light showed over a stretch."""
+    goes_on = not one.changed and one.end >= ride.now - STALE
+    known = stretches(ride, signal)
+    later = [other for other in known if other.begin >= one.end - ROUNDING and other is not one]
+    after = COLOURS.get(later[0].state) if one.changed and later else None
+    return Shown(
+        Feature("light", of=light.of),
+        COLOURS.get(one.state, "off"),
+        one.begin,
+        one.begun,
+        None if goes_on else one.end,
+        one.changed,
+        one.state == YIELDING,
+        one.state == TURNING,
+        after,
+    )
+
+
+def shown_at(ride: Ride, light: Feature, time: float) -> Shown | None:
+    """Tell what the light that is meant showed at a time [s]; None where that was not seen."""
+    signal = meant(ride, light, time)
+    one = None if signal is None else shown(ride, signal, min(time, ride.now))
+    return None if signal is None or one is None else told(ride, signal, one, light)
+
+
+def crossed(ride: Ride, one: Passing) -> Crossed:
+    """Tell how we passed a line."""
+    light = Feature("light")
+    seen = None if one.shown is None else told(ride, one.signal, one.shown, light)
+    since = None if one.shown is None else one.time - one.shown.begin
+    return Crossed(one.time, one.speed, seen, since)
+
+
+def foreseen(
+    ride: Ride, signal: Signal, time: float, to: LightColour | None = None
+) -> Foreseen | None:
+    """Tell when a light was expected to change, at the last decision up to a time [s].
+
+    Args:
+        ride: the record.
+        signal: the light.
+        time: [s] of what was expected then.
+        to: what it is to show; None: whatever comes next.
+
+    Returns:
+        None where the light was not in view, shows that already, or is not foreseen to change.
+    """
+    trace = ride.at(time)
+    known = None if trace is None else _prediction(trace, signal)
+    now = None if trace is None else shown(ride, signal, trace.sim_time)
+    if trace is None or known is None or now is None:
+        return None
+    colour = COLOURS.get(now.state, "off")
+    to = to or next(_next(known, signal, trace.sim_time, colour), None)
+    if to is None or to == colour:
+        return None
+    within = sorted(_turns(known, signal, trace, to))
+    chance = min(sum(share for _, share in within), 1.0)
+    sure = chance >= 1.0 - ROUNDING
+    came = [s.begin for s in stretches(ride, signal) if COLOURS.get(s.state) == to and s.begun]
+    return Foreseen(
+        told(ride, signal, now, Feature("light")),
+        trace.sim_time,
+        to,
+        chance,
+        trace.settings.horizon,
+        _middle(within),
+        within[0][0] if within else None,
+        within[-1][0] if within and sure else None,
+        _repeats(stretches(ride, signal), now, trace.sim_time),
+        next((at for at in came if at > trace.sim_time + ROUNDING), None),
+    )
+
+
+def _prediction(trace: PlanTrace, signal: Signal) -> LightPrediction | None:
+    known = (one for one in trace.lights if one.controller == signal.controller)
+    return next((one for one in known if signal.index in one.places), None)
+
+
+def _next(
+    known: LightPrediction, signal: Signal, time: float, colour: LightColour
+) -> Iterator[LightColour]:
+    """What it is expected to show next: in the likeliest course first."""
+    at = known.places.index(signal.index)
+    for course in sorted(known.courses, key=lambda c: -c.probability):
+        for change in course.showings:
+            found = COLOURS.get(change.states[at])
+            if change.time > time + ROUNDING and found is not None and found != colour:
+                yield found
+                break
+
+
+def _turns(
+    known: LightPrediction, signal: Signal, trace: PlanTrace, to: LightColour
+) -> Iterator[tuple[float, float]]:
+    """When [s] it shows something in each course within the horizon, with its probability."""
+    at, end = known.places.index(signal.index), trace.sim_time + trace.settings.horizon
+    for course in known.courses:
+        for change in course.showings:
+            later = trace.sim_time + ROUNDING < change.time <= end
+            if later and COLOURS.get(change.states[at]) == to:
+                yield change.time, course.probability
+                break
+
+
+def _middle(times: Sequence[tuple[float, float]]) -> float | None:
+    """By when [s] it is as likely as not."""
+    mass = 0.0
+    for time, share in times:
+        mass += share
+        if mass >= 0.5 - ROUNDING:
+            return time
+    return None
+
+
+def _repeats(known: Sequence[Stretch], now: Stretch, time: float) -> bool:
+    """Whether the light was seen to show the same before, from beginning to end."""
+    before = [one for one in known if one.end <= time + ROUNDING and one is not now]
+    return any(one.state == now.state and one.begun and one.changed for one in before)
+
+
+def others_facing(ride: Ride, vehicle: int, time: float) -> Shown | None:
+    """Tell what the light shows that another vehicle is held by; None where none is known."""
+    if vehicle == EGO:
+        return shown_at(ride, Feature("light"), time)
+    return shown_at(ride, Feature("light", of=Vehicle(vehicle)), time)

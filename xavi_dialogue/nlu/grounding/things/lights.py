@@ -1,0 +1,154 @@
+"""Lights: "it", "the red one" and what is done at a light, where a traffic light is meant.
+
+A light is a place, and stays in the term; which of them it is, is known to who answers. What only
+lights do, or show, is said of one; what others may be or do as well, of whichever was spoken of.
+"""
+
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Act, Doing, Identify, Where
+from xavi_dialogue.domain.rewriting import rewrite
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Has,
+    Measured,
+    Pronoun,
+    Related,
+    Relative,
+    Thing,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
+
+LIGHT: Final = Feature("light")
+LIT: Final = frozenset(("red", "green", "amber", "yellow", "orange"))
+SHOWING: Final = frozenset[ActionName](("show", "turn-colour"))
+HELD: Final = frozenset[ActionName](("wait", "stop", "stand", "brake", "slow-down"))
+GOING: Final = frozenset[ActionName](
+    ("go", "move", "continue", "enter", "cross", "pass", "overtake", "arrive", "exit-straight")
+)
+CROSSING: Final = frozenset[ActionName](("cross", "pass", "enter"))
+AT: Final = frozenset(("near", "on", "ahead-of", "to", "with"))
+_OPEN: Final = frozenset(("it", "that", "this", "one"))
+_MEASURED: Final = frozenset(("distance", "place", "colour", "kind"))
+NONE_SEEN: Final = 0.5  # cost of speaking of a light where none has been seen
+NOBODY: Final = 0.2  # salience below which no vehicle is spoken of
+
+
+def lit(spoken: Act, g: Grounder) -> Act:
+    """Put traffic lights where words that may mean one do mean one."""
+    return rewrite(spoken, lambda part: _meant(part, g))
+
+
+def _meant(part: Any, g: Grounder) -> Any:
+    match part:
+        case Event():
+            return _event(part, g)
+        case Has(attribute="colour", value=value, thing=thing) if value in LIT:
+            time: Any = rewrite(part.time, lambda inner: _meant(inner, g))
+            shown = _shown(thing, g)
+            return replace(part, thing=shown, time=_passing(time) if _light(shown) else time)
+        case Related(relation="can-see", thing=Ego(), to=to):
+            return replace(part, to=_spoken(to, g))
+        case Doing(actor=None, time=Relative(anchor=Event(action=action) as anchor)) if (
+            action in SHOWING and anchor.tense in ("present", "future")
+        ):  # "what happens when it turns green?"
+            return Doing(Ego(), _meant(part.time, g), "future")
+        case Where(of=Pronoun() as thing):
+            return replace(part, of=_spoken(thing, g))
+        case Identify(thing=thing) | Exists(thing=thing):
+            return replace(part, thing=_spoken(thing, g))
+        case Measured(attribute=attribute) if attribute in _MEASURED:
+            to = None if part.to is None else _spoken(part.to, g)
+            return replace(part, thing=_spoken(part.thing, g), to=to)
+    return part
+
+
+def _event(event: Event, g: Grounder) -> Event:
+    """An event at a light as what is done with the light; "it changed" as said of one."""
+    time: Any = rewrite(event.time, lambda part: _meant(part, g))
+    event = event if time is event.time else replace(event, time=time)
+    if event.action in SHOWING and isinstance(event.actor, Pronoun):
+        g.notes.cost += 0.0 if _known(g) else NONE_SEEN
+        return replace(event, actor=LIGHT)
+    where = event.where
+    place = None if where is None or where.relation not in AT else where.to
+    light = _light(place) or _light(event.object)
+    if light is None:
+        return event
+    if event.action in HELD:
+        return replace(event, object=light, where=None)
+    if event.action in GOING and (light.colour is not None or event.action != "go"):
+        return replace(event, action="pass", object=light, where=None)
+    return event
+
+
+def _passing(time: Any) -> Any:
+    """Take "when we crossed", said of a light, for when we passed it."""
+    match time:
+        case Relative(anchor=Event(action=action, actor=Ego(), object=to) as anchor) if (
+            action in CROSSING and not isinstance(to, Vehicle | Described | Pronoun)
+        ):
+            return replace(time, anchor=replace(anchor, action="pass", object=LIGHT))
+    return time
+
+
+def _light(thing: Thing | None) -> Feature | None:
+    return thing if isinstance(thing, Feature) and thing.kind == "light" else None
+
+
+def _shown(thing: Thing, g: Grounder) -> Thing:
+    """What is said to be red: a light, where one leads, or nobody has been spoken of."""
+    if isinstance(thing, Pronoun) and thing.form in _OPEN and _leads(g, unsaid=True):
+        return LIGHT
+    return _one(thing, g)
+
+
+def _spoken(thing: Thing, g: Grounder) -> Thing:
+    if isinstance(thing, Pronoun) and thing.form in _OPEN and _leads(g, unsaid=False):
+        return LIGHT
+    return _one(thing, g)
+
+
+def _one(thing: Thing, g: Grounder) -> Thing:
+    """Take "the red one" for a light, where one was spoken of and no vehicle in view is red."""
+    if not isinstance(thing, Described) or thing.colour not in LIT:
+        return thing
+    plain = thing == Described(colour=thing.colour, rank=thing.rank, other=thing.other)
+    if not plain or not _leads(g, unsaid=False):
+        return thing
+    now = g.context.now
+    looks = (g.context.look(v, now) for v in g.context.in_view(now))
+    if any(look is not None and look.colour == thing.colour for look in looks):
+        return thing
+    return Feature("light", colour=thing.colour)
+
+
+def _leads(g: Grounder, *, unsaid: bool) -> bool:
+    """Tell whether a light was spoken of rather than a vehicle.
+
+    Args:
+        g: the grounder.
+        unsaid: whether it also does where neither was, and there is a light on our way.
+    """
+    mentions = g.context.discourse.mentions
+    lights = [m.salience for m in mentions if isinstance(m.thing, Feature)]
+    others = [salience for _, salience in vehicles_of(mentions)]
+    best = max(others, default=0.0)
+    if max(lights, default=0.0) > best:
+        return True
+    return unsaid and best < NOBODY and _known(g)
+
+
+def _known(g: Grounder) -> bool:
+    """Tell whether a traffic light has been seen."""
+    event = Event("show", LIGHT)
+    return bool(g.context.holds(event, g.context.begin, g.context.now))
