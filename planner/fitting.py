@@ -2,18 +2,32 @@
 
 import msgspec
 
-from planner.trace import MAX_BYTES, GoalPrediction, PlanTrace, VehiclePrediction, encode
+from planner.road import LightChange
+from planner.trace import (
+    MAX_BYTES,
+    SAMPLE_PERIOD,
+    GoalPrediction,
+    PlanTrace,
+    Track,
+    VehiclePrediction,
+    encode,
+)
+from sim.scene import EGO
 
+RECENT = 11  # samples of the history of who is not predicted: what came before is in older traces
 IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
 
 
 def fitted(trace: PlanTrace) -> PlanTrace:
     """The trace without the lines that it has no room for.
 
-    Where it is larger than MAX_BYTES, the less probable predictions lose path, speed and who
+    Where it is larger than MAX_BYTES, the histories of those who are not predicted shrink to
+    RECENT samples; then the less probable predictions lose path, speed and who
     holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
     what rollouts came to, and why, always stays.
     """
+    if len(encode(trace)) > MAX_BYTES:
+        trace = _without_past(trace)
     for below in IMPROBABLE:
         if len(encode(trace)) > MAX_BYTES:
             trace = _without_lines(trace, below)
@@ -28,6 +42,33 @@ def fitted(trace: PlanTrace) -> PlanTrace:
             rollouts[k] = bare
     trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
     return trace if excess <= 0 else _without_lines(trace, 1.0)
+
+
+def _without_past(trace: PlanTrace) -> PlanTrace:
+    """The trace with the latest samples alone of those who are not predicted."""
+    kept = {EGO, *(known.vehicle for known in trace.predictions)}
+    history = {
+        name: track if name in kept else _recent(track) for name, track in trace.history.items()
+    }
+    return msgspec.structs.replace(trace, history=history)
+
+
+def _recent(track: Track) -> Track:
+    """The latest samples of a track, with the lights shown since."""
+    left_out = max(len(track.speed) - RECENT, 0)
+    if left_out == 0:
+        return track
+    start = round(track.start + left_out * SAMPLE_PERIOD, 3)
+    before = [change for change in track.lights if change.time <= start + 1e-3]
+    since = tuple(change for change in track.lights if change.time > start + 1e-3)
+    shown = (LightChange(start, before[-1].shown),) if before else ()
+    return Track(
+        start,
+        track.position[-RECENT:],
+        track.heading[-RECENT:],
+        track.speed[-RECENT:],
+        (*shown, *since),
+    )
 
 
 def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:

@@ -10,13 +10,15 @@ import msgspec
 import pytest
 
 from planner.decide import decide
-from planner.fitting import IMPROBABLE, fitted
+from planner.fitting import IMPROBABLE, RECENT, fitted
+from planner.road import LightChange
 from planner.trace import (
     MAX_BYTES,
     SCHEMA,
     PlanTrace,
     Rollout,
     TraceError,
+    Track,
     decode,
     encode,
 )
@@ -159,6 +161,27 @@ def test_what_does_not_fit_loses_the_lines_recorded_last(trace: PlanTrace) -> No
         for way, known in zip(goal.trajectories, before.trajectories, strict=True):
             likely = before.probability * known.probability > max(IMPROBABLE)
             assert way == known if likely else way.path == ()
+
+
+def test_in_a_great_crowd_the_past_of_who_is_not_predicted_goes_first(trace: PlanTrace) -> None:
+    n = 45
+    shown = (LightChange(2.0, ()), LightChange(3.0, ("left",)), LightChange(10.4, ("right",)))
+    line = tuple((100.0 + k, 200.0) for k in range(n))
+    track = Track(2.0, line, (0.0,) * n, tuple(float(k) for k in range(n)), shown)
+    far = dict.fromkeys(range(2, 60), track)
+    scene = trace.scene | {name: trace.scene[1] for name in far}
+    crowd = msgspec.structs.replace(trace, scene=scene, history=trace.history | far)
+    large = crowded(crowd, 100)
+    assert len(encode(large)) > MAX_BYTES
+    small = fitted(large)
+    assert len(encode(small)) <= MAX_BYTES
+    assert small.history[0] == large.history[0]
+    assert small.history[1] == large.history[1]
+    assert small.history[30].start == pytest.approx(2.0 + 0.2 * (n - RECENT))
+    assert small.history[30].speed == track.speed[-RECENT:]
+    assert small.history[30].position == track.position[-RECENT:]
+    assert [x.shown for x in small.history[30].lights] == [("left",), ("right",)]
+    assert small.history[30].lights[0].time == small.history[30].start
 
 
 def test_in_a_great_crowd_predictions_lose_their_lines_too(trace: PlanTrace) -> None:
