@@ -1,8 +1,11 @@
-"""Wide bends that a map draws with few corners, as the curves that they stand for.
+"""How sharply a road that a map draws with corners is driven.
 
+Wide bends with few corners are drawn as the curves that they stand for.
 Between two corners a cubic leads from the direction of one to that of the other. At a corner the
 direction divides the turn as a circle through the corners would: in proportion to the sides.
 """
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +14,14 @@ Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 COARSE = 5.0  # [m] from which on a side is long
-ALIKE = 4.0  # times the length of one side that the other may have in a bend
+SIDES = 4.0  # times the length of one side that the other may have in a bend
 SHARPEST = 0.6  # [rad] of turn at a corner that is part of a wide bend
 AWAY = 0.4  # [m] by which a curve may lead away from a side
 SPACING = 1.0  # [m] between points on a curve
+CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
+WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
+JOG, ALIKE = 1.2, 0.15  # [m] to the side, and [rad] that a road may go on aside as it came
+SWERVE = 2.0 * math.pi  # curvature of a sine that leads aside, times length^2 / way aside
 
 
 def eased(points: Array) -> tuple[Array, Ints]:
@@ -48,10 +55,40 @@ def _slopes(long: Array, heading: Array) -> tuple[Array, Array]:
     """The slopes of the curves against each side at its begin and its end [N - 1]."""
     turn = np.diff(heading)
     less, more = np.minimum(long[:-1], long[1:]), np.maximum(long[:-1], long[1:])
-    wide = (np.abs(turn) <= SHARPEST) & (less >= COARSE) & (more <= ALIKE * less)
+    wide = (np.abs(turn) <= SHARPEST) & (less >= COARSE) & (more <= SIDES * less)
     turn = np.where(wide, turn, 0.0)
     share = long[:-1] / np.maximum(long[:-1] + long[1:], 1e-9)
     most = 4.0 * AWAY / np.maximum(long, 1e-9)
     begin, end = np.zeros(len(long)), np.zeros(len(long))
     begin[1:], end[:-1] = -turn * (1.0 - share), turn * share
     return np.clip(begin, -most, most), np.clip(end, -most, most)
+
+
+def curvature_of(heading: Array, arc: Array) -> Array:
+    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
+
+    Curvature is averaged over the widest window in which turning evenly instead of at the
+    corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
+    Where a lane goes on a little to the side of where it came from, a vehicle swerves.
+    """
+    n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
+    total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
+    result: Array = np.zeros(n)
+    open_ = np.ones(n, dtype=np.bool_)
+    for window in WINDOWS:
+        low = np.maximum(np.arange(n) - window, 0)
+        high = np.minimum(np.arange(n) + window, n - 1)
+        width = np.maximum(arc[high] - arc[low], 1e-6)
+        turn = heading[high] - heading[low]
+        bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
+        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
+        wider = turn / width
+        gentler = open_ & (np.abs(wider) < np.abs(result))
+        result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
+        swerve = np.abs(turn) / width + SWERVE * np.abs(bulge) / width**2
+        for k in np.flatnonzero((np.abs(turn) <= ALIKE) & (swerve < np.abs(result))):
+            within = slice(low[k], high[k] + 1)
+            aside = total[within] - total[low[k]] - heading[low[k]] * (arc[within] - arc[low[k]])
+            if np.max(np.abs(aside)) <= JOG:
+                result[k] = math.copysign(swerve[k], result[k])
+    return result

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.easing import eased
+from planner.easing import curvature_of, eased
 from sim.network import Network, angle_between
 from sim.scene import Point
 
@@ -19,8 +19,6 @@ Array = NDArray[np.float64]
 
 SPACING = 1.0  # [m] between path points
 LATERAL_ACCELERATION = 3.5  # [m/s2] in bends, as people drive in town
-CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
-WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
 TIGHTEST = 0.3  # [1/m] of curvature, from which on a line is made wider
 ROUNDS = 20  # of widening at most
@@ -229,7 +227,7 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
     heading = np.unwrap(np.arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
     cap = np.array(caps)[np.searchsorted(begins, arc + 1e-9, side="right") - 1]
     row = tuple(zip(lanes, begins.tolist(), strict=True))
-    return Path(even, arc, heading, _curvature(heading, arc), cap, row)
+    return Path(even, arc, heading, curvature_of(heading, arc), cap, row)
 
 
 def _along(points: Array) -> Array:
@@ -276,29 +274,6 @@ def _hairpins(points: Array) -> NDArray[np.bool_]:
     low, high = np.maximum(inner - HAIRPIN[0], 0), inner + 1 + HAIRPIN[0]
     turned = heading[np.minimum(high, len(heading) - 1)] - heading[low]
     result: NDArray[np.bool_] = np.abs(turned) > HAIRPIN[1]
-    return result
-
-
-def _curvature(heading: Array, arc: Array) -> Array:
-    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
-
-    Curvature is averaged over the widest window in which turning evenly instead of at the
-    corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
-    """
-    n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
-    total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
-    result: Array = np.zeros(n)
-    open_ = np.ones(n, dtype=np.bool_)
-    for window in WINDOWS:
-        low = np.maximum(np.arange(n) - window, 0)
-        high = np.minimum(np.arange(n) + window, n - 1)
-        width = np.maximum(arc[high] - arc[low], 1e-6)
-        turn = heading[high] - heading[low]
-        bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
-        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
-        wider = turn / width
-        gentler = open_ & (np.abs(wider) < np.abs(result))
-        result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
     return result
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planner.easing import AWAY, eased
+from planner.easing import AWAY, curvature_of, eased
 
 RADIUS = 65.0  # [m]
 
@@ -56,3 +56,30 @@ def test_what_is_no_polygon_of_a_bend_stays_as_it_is(corners: list[tuple[float, 
     points, index = eased(np.array(corners))
     assert points.tolist() == [list(x) for x in corners]
     assert index.tolist() == list(range(len(corners)))
+
+
+def sharpest(corners: list[tuple[float, float]]) -> float:
+    """The greatest curvature [1/m] of a line with these corners."""
+    raw = np.array(corners)
+    at = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(raw, axis=0).T))))
+    arc = np.linspace(0.0, at[-1], math.ceil(at[-1]) + 1)
+    x, y = (np.interp(arc, at, raw[:, k]) for k in (0, 1))
+    heading = np.unwrap(np.arctan2(np.gradient(y), np.gradient(x)))
+    return float(np.max(np.abs(curvature_of(heading, arc))))
+
+
+@pytest.mark.parametrize(("aside", "length", "low", "high"), [
+    (0.9, 3.0, 0.0, 0.012),  # a jog between two lanes: swerved about
+    (3.5, 3.0, 0.05, 1.0),  # too far aside for that
+    (0.5, 60.0, 0.0, 0.002),  # a road that narrows
+])  # fmt: skip
+def test_a_small_jog_of_a_straight_road_is_no_bend(
+    aside: float, length: float, low: float, high: float
+) -> None:
+    before, beyond = 60.0, 60.0 + length
+    corners = [(0.0, 0.0), (before, 0.0), (beyond, aside), (beyond + 60.0, aside)]
+    assert low <= sharpest(corners) <= high
+
+
+def test_a_road_that_goes_aside_and_comes_back_is_bent() -> None:
+    assert sharpest([(0.0, 0.0), (60.0, 0.0), (64.0, 3.0), (68.0, 0.0), (128.0, 0.0)]) > 0.05

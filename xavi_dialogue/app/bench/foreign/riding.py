@@ -20,7 +20,7 @@ from xavi_dialogue.app.bench.watch import Drive
 from xavi_dialogue.app.ride import network_of
 
 LONGEST = 240.0  # [s] of a ride
-PATIENCE = (2.0, 30.0)  # times what SUMO's driver takes, and [s] beyond, that we are watched for
+PATIENCE = (2.0, 90.0)  # times what SUMO's driver takes, and [s] beyond, that we are watched for
 
 
 class Task(msgspec.Struct, frozen=True):
