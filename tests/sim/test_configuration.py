@@ -41,7 +41,7 @@ def configured(folder: Path, routes: str = ROUTES, time: str = "") -> Path:
     """A configuration in a folder: gzipped net and routes, types in an additional file."""
     signalled(folder)
     net = folder / "cross.net.xml"
-    (folder / "cross.net.xml.gz").write_bytes(gzip.compress(net.read_bytes()))
+    (folder / "cross.net.xml.gz").write_bytes(gzip.compress(net.read_bytes(), mtime=0))
     net.unlink()
     (folder / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode()))
     (folder / "b.rou.xml").write_text(MORE)
