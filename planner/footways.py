@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +12,8 @@ from planner.trajectory import Roads
 from sim.network import Crossing, Link, cumulative, point_at, project
 
 BEFORE = 1.0  # [m] before a crossing at which to wait for people on it
+ROOM = 5.5  # [m] between two crossings that a car needs to wait there
+PASSED = 0.5  # [m] beyond a line from which on a vehicle has set out over the crossing
 SAMPLING = 0.25  # [m] at which places along a way are tried
 BEYOND = 1.0  # [m] beyond the ends of a crossing's line that still belongs to it
 
@@ -40,13 +42,22 @@ def lines_over(roads: Roads, link: Link, begin: float) -> Iterator[LetCross]:
     """Where to let people cross on a path that follows a link from an arc [m] on.
 
     The arc is negative where the path begins inside the junction. Crossings passed are left out.
+    Where there is no room to wait between two crossings, one waits for people on both before the
+    first.
     """
+    before: Over | None = None
     for one in over(roads, link):
         if begin + one.end > 0.0:
             key = (link.junction, one.crossing.index)
             first = one.crossing.index in link.other_yields_to
             stop, clear = begin + one.begin - BEFORE, begin + one.end
-            yield LetCross(stop, clear, frozenset((key,)), one.crossing, first)
+            line = LetCross(stop, clear, frozenset((key,)), one.crossing, first)
+            if before is not None and one.begin - BEFORE - before.end < ROOM:
+                early = begin + before.begin - BEFORE
+                if early > -PASSED:
+                    yield replace(line, stop=early, clear=early + PASSED)
+            yield line
+        before = one
 
 
 def crossings_along(

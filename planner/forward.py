@@ -185,7 +185,7 @@ def accelerate(
         (float(motion.arc), float(motion.speed), float(motion.acceleration)),
         0,
         seen.stretches,
-        seen.behind(motion.arc - 0.5 * length),
+        seen.behind(motion.arc, length),
         crossing.stretches,
         crossing.firsts(plan.lines),
         foreseen.stretches,

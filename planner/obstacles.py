@@ -121,9 +121,18 @@ class Occupancy:
     traffic: Traffic
     stretches: Stretches
 
-    def behind(self, centre: float) -> Bools:
-        """Who is on the path behind a centre at an arc [m], at step 0 [M]."""
-        found: Bools = 0.5 * (self.stretches.low[:, 0] + self.stretches.high[:, 0]) < centre
+    def behind(self, front: float, length: float) -> Bools:
+        """Whom driving on does not come to, at step 0 [M].
+
+        These are vehicles behind the middle of the own body, and people behind its front.
+
+        Args:
+            front: [m] arc of the own front.
+            length: [m] of the own body.
+        """
+        low, high = self.stretches.low[:, 0], self.stretches.high[:, 0]
+        found: Bools = 0.5 * (low + high) < front - 0.5 * length
+        found |= self.traffic.on_foot & (high < front)
         return found
 
     def manner(self, who: Ints, step: Ints, how: Ints) -> Ints:

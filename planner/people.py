@@ -134,10 +134,13 @@ def recognise_people(
 
 
 def ways_of(
-    scenery: Scenery, person: Observed, vehicles: Sequence[Observed], coasting: Sequence[Obstacle],
+    scenery: Scenery,
+    person: Observed,
+    vehicles: Sequence[Observed],
+    coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> tuple[Belief, ...]:
-    """All that somebody may do, however improbable; the probabilities are 1."""
+    """All that somebody may do, however improbable; each as if it were certain."""
     aims = _aims(scenery, person, vehicles, settings)
     busy: dict[str, Bools] = {}
     return tuple(
@@ -191,9 +194,7 @@ def _beliefs(
     weights = [aim.goal.prior * one for aim, one in zip(aims, like, strict=True)]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Belief(
-            aim.goal, one, w / sum(weights), _trajectories(scenery, person, aim, coasting, busy)
-        )
+        Belief(aim.goal, one, w / sum(weights), _trajectories(scenery, person, aim, coasting, busy))
         for aim, one, w in zip(aims, like, weights, strict=True)
         if w > 0.0
     )
@@ -210,10 +211,12 @@ def _trajectories(
     kind, route, steps = aim.goal.kind, aim.route, scenery.steps + 1
     if route is None:
         return (Trajectory(1.0, (kind,), Motions(stand(person, steps))),)
-    on_it = np.zeros(steps, np.bool_)
-    waits = route.crossing is not None and not _goes_first(scenery.roads, route.crossing)
-    if route.crossing is not None and waits:
-        on_it = busy.setdefault(route.crossing.id, _busy(route.crossing, coasting, steps))
+    on_it, one = np.zeros(steps, np.bool_), route.crossing
+    waits = one is not None and not _goes_first(scenery.roads, one)
+    if one is not None and waits:
+        if one.id not in busy:
+            busy[one.id] = _busy(one, coasting, steps)
+        on_it = busy[one.id]
 
     def under(courses: tuple[int, ...], pace: float) -> Obstacle:
         lights = scenery.lights(courses)

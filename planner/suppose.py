@@ -16,11 +16,12 @@ from planner.decide import Frame, Moment, observed
 from planner.forward import DT, Motion
 from planner.goals import PLACES, Goal, goals_in_view
 from planner.obstacles import NOBODY, Obstacle, Traffic
+from planner.people import ways_of
 from planner.recognise import Belief, Trajectory, motion_along, trajectories_to
 from planner.rollout import Leg, Task, held_by_lights, held_up, take
 from planner.routes import Refusal
 from planner.scenery import Others, Scenery
-from planner.trace import Action, EgoGoal
+from planner.trace import ON_FOOT, Action, EgoGoal
 from planner.tracks import Observed
 
 STRAIGHT = ("continue", "exit-straight")  # one word to people
@@ -58,6 +59,8 @@ def suppose(
         goal: the kind of a goal, or its edge where several are of one kind; None leaves it open.
         actions: what it does first, in order; () leaves it open.
     """
+    if moment.scene[vehicle].kind in ON_FOOT:
+        return _on_foot(frame, moment, known, vehicle, goal, actions)
     prospect = _prospect(frame, moment, vehicle)
     goals = _goals(prospect, known)
     wanted = None if goal is None else _named(goals, goal)
@@ -73,6 +76,33 @@ def suppose(
         prospect.task, prospect.starts, wanted, prospect.observed, prospect.others, frame.settings
     )
     return Belief(wanted, 0.0, 1.0, ways) if ways else Refusal(f"no way leads to {wanted.place}")
+
+
+def _on_foot(
+    frame: Frame,
+    moment: Moment,
+    known: Sequence[Belief],
+    vehicle: int,
+    goal: str | None,
+    actions: Sequence[Action],
+) -> Belief | Refusal:
+    """The same of somebody on foot, whose goals are what he may do."""
+    named = {*actions, *(() if goal is None else (goal,))}
+    if len(named) != 1:
+        return Refusal("people on foot are supposed to do one thing: cross, continue or stop")
+    seen = {
+        name: observed(name, moment.history[name], state) for name, state in moment.scene.items()
+    }
+    vehicles = [track for track in seen.values() if track.kind not in ON_FOOT]
+    scenery = Scenery(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
+    going_on = [scenery.on(track.kind).coast(track).usual for track in vehicles]
+    beliefs = ways_of(scenery, seen[vehicle], vehicles, going_on, frame.settings)
+    wanted = _named([belief.goal for belief in beliefs], named.pop())
+    if isinstance(wanted, Refusal):
+        return wanted
+    kept = _belief_in(known, wanted)
+    found = next(belief for belief in beliefs if belief.goal == wanted)
+    return replace(found, likelihood=0.0 if kept is None else kept.likelihood)
 
 
 def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:

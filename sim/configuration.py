@@ -28,7 +28,7 @@ CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] of the last edge, where the goal lies
 KEYS = ("ego", "from", "to", "begin")
-UNFORESEEN = {"tram": "trams", "rail_urban": "trams", "rail": "trains", "ship": "ships"}
+UNFORESEEN = {"rail": "trains", "ship": "ships"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,8 +264,6 @@ class _Inspection:
             yield f"the stops of {ego!r} are not made: the car drives to the end of its route"
         for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):
             yield f"{what} are seen, and where they go is not foreseen"
-        if network.crossings or self.engine.call(self.engine.api.person.getIDCount):
-            yield "people on foot are seen, and where they go is not foreseen"
         limits, closed = self._changed(network)
         if limits:
             yield f"{_many(limits)} have another limit now; the car keeps to that of the net"
