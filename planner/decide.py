@@ -12,6 +12,7 @@ from planner.footways import crossings_along
 from planner.forward import DT
 from planner.people import concerned
 from planner.recognise import Belief, Trajectory, recognise
+from planner.relevance import relevant
 from planner.reward import COSTS
 from planner.road_facts import road_facts
 from planner.rollout import Task
@@ -94,9 +95,10 @@ def decide(frame: Frame, moment: Moment) -> Decision:
 
 
 def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
-    """Recognise the goals of the others in view; in a crowd, of those nearest to the ego.
+    """Recognise the goals of the others in view; in a crowd, of those that may meet the ego.
 
-    Of people on foot, those matter that may get in the way.
+    Of these, the nearest count; the rest are in the way of others at most. Of people on foot,
+    those matter that may get in the way.
     """
     ego, view = moment.scene[EGO], frame.settings.view_radius
     nearest = sorted(
@@ -104,14 +106,19 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
         key=lambda vehicle: math.dist(moment.scene[vehicle].position, ego.position),
     )
     people = concerned(frame.roads, moment.scene, _crossings_ahead(frame, moment), view)
+    others = {vehicle: moment.scene[vehicle] for vehicle in nearest if vehicle != EGO}
+    here = moment.root.here.location
+    may_meet = relevant(frame.roads, others, here, frame.goal, frame.settings)
+    planned = [vehicle for vehicle in nearest if vehicle in may_meet][:CROWD]
     tracks = [
         replace(
             observed(vehicle, moment.history[vehicle], moment.scene[vehicle]),
             paced=vehicle not in moment.unpaced,
         )
-        for vehicle in sorted([*nearest[: 1 + CROWD], *people])
+        for vehicle in sorted({*nearest[: 1 + CROWD], *planned, *people})
     ]
-    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO, moment.outlook)
+    apart = frozenset(others).difference(planned)
+    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO, moment.outlook, apart)
 
 
 def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:

@@ -5,7 +5,7 @@ far tells `planner.likelihood`.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -71,6 +71,7 @@ def recognise(
     time: float,
     ego: int,
     outlook: Outlook = DARK,
+    apart: Collection[int] = (),
 ) -> dict[int, tuple[Belief, ...]]:
     """What everybody but the ego may be up to.
 
@@ -85,6 +86,7 @@ def recognise(
         time: [s] now.
         ego: name of the ego.
         outlook: the lights.
+        apart: vehicles that are not planned for: they are in the way of others at most.
     """
     steps = round(settings.horizon / DT)
     scenery = Scenery(roads, outlook, steps)
@@ -108,14 +110,14 @@ def recognise(
         coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
     held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
     for observed in queued(vehicles, held):
-        if observed.vehicle != ego:
+        if observed.vehicle != ego and observed.vehicle not in apart:
             own = scenery.on(observed.kind)
             found[observed.vehicle] = _beliefs(own, observed, coasting, settings, time)
             if observed.standing or observed.vehicle in held:
                 mine = coasting[observed.vehicle]
                 moving_off = likeliest(found[observed.vehicle])
                 coasting[observed.vehicle] = replace(mine, now=moving_off)
-    return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle != ego}
+    return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle in found}
 
 
 def _beliefs(
