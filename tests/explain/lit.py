@@ -49,6 +49,7 @@ class Story:
     turns: float = GREEN  # [s] to green
     obeys: bool = True  # else it drives on at 10 m/s
     first: str = "r"
+    to: str = "G"
 
 
 OBEYS = Story()
@@ -118,8 +119,8 @@ def prediction(story: Story, time: float) -> LightPrediction:
     """What was seen of the light, and how it may go on."""
     seen = [Showing(VIEW, story.first)]
     if time >= story.turns:
-        seen.append(Showing(story.turns, "G"))
-        ways = [LightCourse(1.0, (Showing(time, "G"), Showing(time + 20.0, "y")))]
+        seen.append(Showing(story.turns, story.to))
+        ways = [LightCourse(1.0, (Showing(time, story.to), Showing(time + 20.0, "r")))]
     else:
         first = Showing(time, story.first)
         ways = [

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.trace import COMPONENTS
-from tests.nlg import causal_cases, rare_cases, supposed_cases
+from tests.nlg import causal_cases, light_cases, rare_cases, supposed_cases
 from tests.nlg.causal_cases import AHEAD, CHANGED, LATER, RISKY, effect
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import (
@@ -64,7 +64,9 @@ def test_simpler_words_have_no_figures(answer):
 
 
 def test_every_kind_has_a_case():
-    every = (*causal_cases.CASES, *rare_cases.CASES, *supposed_cases.CASES)
+    every = (
+        *causal_cases.CASES, *rare_cases.CASES, *supposed_cases.CASES, *light_cases.CASES,
+    )  # fmt: skip
     cases = {type(case) for case in every}
     assert set(CAUSES) | set(REFUSALS) <= cases
 

@@ -5,9 +5,10 @@ from typing import get_args
 
 import pytest
 
-from tests.nlg import answer_cases, dialogue_cases, journey_cases, measure_cases
+from tests.nlg import answer_cases, dialogue_cases, journey_cases, light_cases, measure_cases
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Answer, Measures
+from xavi_dialogue.domain.traffic_lights import LightAnswer
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.nlg.content.tables import FACTS
 from xavi_dialogue.nlg.say import say
@@ -46,7 +47,13 @@ def test_every_attribute_has_a_case():
 
 def test_every_kind_of_factual_answer_has_a_case():
     cases = {
-        type(case) for case in (*answer_cases.CASES, *dialogue_cases.CASES, *journey_cases.CASES)
+        type(case)
+        for case in (
+            *answer_cases.CASES,
+            *dialogue_cases.CASES,
+            *journey_cases.CASES,
+            *light_cases.CASES,
+        )
     }
     assert set(FACTS) - cases == {Measures}
-    assert set(FACTS) <= set(get_args(Answer))
+    assert set(FACTS) <= {*get_args(Answer), *get_args(LightAnswer)}

@@ -18,13 +18,24 @@ from typing import Any, get_args
 from xavi_dialogue.domain import vocabulary
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.meaning import Ask, Claim
-from xavi_dialogue.domain.terms import Described, Ego, Event, Happens, Has, Is, Measured, Related
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Related,
+)
 from xavi_dialogue.nlu.grammar.inflect import verb_forms
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.nlu.text.tables import load, phrases
 
-Subject = str  # "us" or "car"
+Subject = str  # "us", "car" or "light"
 CAR = Described("car", "red")
+LIGHT = Feature("light")
 OBJECTS = {"v": "the bus", "*": "the bus", "l": "the left lane", "j": "the junction",
            "d": "this road", "x": "the exit", "p": "the destination"}  # fmt: skip
 # Where the shortest pattern of the lexicon is not how people say it: verb, and what follows.
@@ -38,7 +49,9 @@ SAID = {
     "block": "block the bus", "collide": "hit the bus", "keep-lane": "stay in lane",
     "keep-distance": "keep your distance", "enter": "enter the roundabout",
     "leave": "leave the roundabout", "arrive": "arrive", "continue-next-exit": "miss the exit",
+    "turn-colour": "turn green", "show": "stay red",
 }  # fmt: skip
+OF_LIGHTS = {"turn-colour", "show"}
 ONLY_OTHERS = {"appear", "disappear", "come"}  # nobody says so of their own car
 UNSAID = {"do", "happen"}
 OTHER_FORMS = {"heading", "probability"}  # "where is it going" and "how sure" ask for these
@@ -223,6 +236,8 @@ def cells() -> Iterator[Cell]:
             subjects = ("us", "car")
             if predicate.name in ONLY_OTHERS or predicate.sort == "relation":
                 subjects = ("car",)
+            if predicate.name in OF_LIGHTS:
+                subjects = ("light",)
             if "{s}" not in frame and "{S}" not in frame and "{of}" not in frame.lower():
                 subjects = subjects[:1]
             for subject in subjects:
@@ -233,6 +248,8 @@ def _text(frame: str, predicate: Predicate, subject: Subject) -> str:
     who, of, verb, was = ("you", "our", "are", "were")
     if subject == "car":
         who, of, verb, was = ("the red car", "the red car's", "is", "was")
+    elif subject == "light":
+        who, of, verb, was = ("the traffic light", "the traffic light's", "is", "was")
     elif predicate.sort != "deed":
         who = "we"
     words = [f"{word} {predicate.rest}".strip() for word in predicate.words]
@@ -272,7 +289,7 @@ def holds(cell: Cell) -> bool:
 def _is(term: Any, cell: Cell) -> bool:
     """Say whether a term is the predicate of a cell, of the road user of the cell."""
     name = cell.predicate.name
-    who: Value = Ego() if cell.subject == "us" else CAR
+    who: Value = {"us": Ego(), "light": LIGHT}.get(cell.subject, CAR)
     match term:
         case Happens(event=event) if _is(event, cell):
             return True
@@ -312,8 +329,8 @@ you continue?"). So the tables show what the parser can compose, and not how wel
 what passengers say; [language.md](language.md) has the figures for that.
 
 In the overviews `●` means that all texts of a cell are covered (one about us and one about another
-car, where both make sense), `◐` that some are, and `·` that none is. Of {all} texts {good} are
-covered ({share} %). Those that are not have `no` in the tables below.
+car, where both make sense; or one about a traffic light), `◐` that some are, and `·` that none is.
+Of {all} texts {good} are covered ({share} %). Those that are not have `no` in the tables below.
 """
 
 

@@ -38,6 +38,7 @@ class Crossed(Value, frozen=True):
     speed: float  # [m/s]
     shown: Shown | None  # what it showed then; None: that was not seen
     since: float | None = None  # [s] for which it had shown that then
+    late: bool = False  # when it came to show that, we were too close to stop comfortably
 
 
 class Foreseen(Value, frozen=True):

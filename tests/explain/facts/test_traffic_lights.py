@@ -4,9 +4,10 @@ import pytest
 
 from tests.explain.lit import GREEN, OBEYS, SIGNAL, STANDS, Story, record
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
-from xavi_dialogue.explain.facts.traffic_lights import foreseen, meant, shown_at
+from xavi_dialogue.explain.facts.traffic_lights import crossed, foreseen, meant, shown_at
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride
+from xavi_dialogue.explain.history.traffic_lights import passings
 
 LIGHT = Feature("light")
 
@@ -88,3 +89,15 @@ def test_stopping_for_a_light_is_one_only_while_it_holds():
     stops = known.holds(Event("stop", Ego(), LIGHT), 0.0, 40.0)
     assert [round(e.begin) for e in stops] == [round(STANDS)]
     assert known.holds(Event("speed-up", Ego(), LIGHT), 0.0, 40.0) == ()
+
+
+def test_amber_is_passed_where_it_came_too_late_to_stop():
+    late = crossed(*last_passed(Story(turns=9.0, to="y", obeys=False)))
+    assert (late.shown.colour, late.late) == ("amber", True)
+    early = crossed(*last_passed(Story(turns=5.0, to="y", obeys=False)))
+    assert (early.shown.colour, early.late) == ("amber", False)
+
+
+def last_passed(story):
+    ride = Ride(record(14.0, story))
+    return ride, passings(ride)[-1]

@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import Believed, Feature, Has, Measured
 from xavi_dialogue.explain.answers import lights_ahead, lights_seen, lights_supposed
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.lights_read import (
+    may_pass,
     of_another,
     of_showing,
     passing,
@@ -58,6 +59,10 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_ahead.coming)
         case Whether(that) if stated(that) is not None:
             return _asked(lights_seen.whether)
+        case Whether(that) if may_pass(that):
+            return _asked(lights_seen.ours)
+        case Whether(that) if lights_supposed.turns_on_red(unwrapped(that)[0]) is not None:
+            return _asked(lights_supposed.whether_turn)
         case Whether(that) if of_another(that):
             return _asked(lights_seen.unseen)
         case HowSure(of) if of is not None and lights_ahead.concerns(of):

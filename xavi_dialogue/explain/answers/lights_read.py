@@ -20,6 +20,7 @@ from xavi_dialogue.explain.facts.light_events import PASSING, SHOWING, light_of
 from xavi_dialogue.explain.facts.traffic_lights import SAID, light_in, meant
 from xavi_dialogue.explain.history.traffic_lights import Passing, ahead, passings
 
+POSSIBLE = ("can", "could", "should", "would", "must")
 GOING = frozenset(("go", "move", "continue", "exit-straight"))
 
 
@@ -51,9 +52,18 @@ def passing(of: Proposition | None) -> Event | None:
         return None
     event = inner.event
     found = light_in(event.object, None if event.where is None else event.where.to)
-    possible = event.modal in ("can", "could", "should", "would", "must")
     said = found is not None and event.action in PASSING | GOING
-    return event if said and not possible else None
+    return event if said and event.modal not in POSSIBLE else None
+
+
+def may_pass(of: Proposition | None) -> bool:
+    """Tell whether it is asked if we could or should pass a light."""
+    inner, _ = unwrapped(of)
+    if not isinstance(inner, Happens) or not is_own(inner.event.actor):
+        return False
+    event = inner.event
+    passes = event.action in PASSING and light_in(event.object) is not None
+    return passes and event.modal in POSSIBLE
 
 
 def of_another(that: Proposition | None) -> bool:

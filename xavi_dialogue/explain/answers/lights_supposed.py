@@ -176,18 +176,30 @@ def _signal(light: Any) -> Signal:
 def turn_on_red(of: Proposition | None) -> Event | None:
     """Find the turn of ours of which it is asked why it is not made on red."""
     inner, negated = unwrapped(of)
-    if not isinstance(inner, Happens) or not negated or not is_own(inner.event.actor):
+    return turns_on_red(inner) if negated else None
+
+
+def turns_on_red(of: Proposition | None) -> Event | None:
+    """Find a turn of ours on red."""
+    if not isinstance(of, Happens) or not is_own(of.event.actor):
         return None
-    event = inner.event
-    where = None if event.where is None else event.where.to
-    light = light_in(event.object, where)
+    event = of.event
+    light = light_in(event.object, None if event.where is None else event.where.to)
     on_red = light is not None and light.colour == "red"
     return event if on_red and event.action in TURNS else None
 
 
 def why_not_turn(question: Why, scene: Asked) -> Answer:
     """Tell why we do not turn on red: what the light on our way shows, and which way that is."""
-    event = turn_on_red(question.of)
+    return _turning(turn_on_red(question.of), scene)
+
+
+def whether_turn(question: Whether, scene: Asked) -> Answer:
+    """Tell whether we may turn on red, likewise."""
+    return _turning(turns_on_red(unwrapped(question.that)[0]), scene)
+
+
+def _turning(event: Event | None, scene: Asked) -> Answer:
     assert event is not None
     one = shown_at(scene.ride, Feature("light"), scene.now)
     road = scene.world.road(scene.now)

@@ -26,9 +26,8 @@ from xavi_dialogue.explain.causes.actions import YIELDS
 from xavi_dialogue.explain.causes.announced import announced, meeting
 from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
 from xavi_dialogue.explain.causes.grounds import grounds
-from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, slowed, stood
+from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, lit_too, slowed, stood
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
-from xavi_dialogue.explain.causes.traffic_lights import light_of_other
 from xavi_dialogue.explain.causes.when import RECENT
 from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import ROUNDING
@@ -148,9 +147,7 @@ def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
             hindered = slowed(scene.ride, vehicle, found.begin, end)
             if not hindered.causes and scene.moment <= end:
                 hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
-        lit = light_of_other(scene.ride, vehicle, max(found.begin, scene.moment - RECENT), end)
-        if lit is not None:
-            hindered = Hindrance((lit, *hindered.causes), hindered.traces)
+        hindered = lit_too(scene.ride, vehicle, hindered, (found.begin, scene.moment, end))
         if not hindered.causes and _owes_us(scene, vehicle, found.begin, end):
             hindered = Hindrance((MotionCause("right-of-way", EGO),))
         said = rank == 0 or _hardly_moves(scene, vehicle)

@@ -13,6 +13,7 @@ from sim.scene import EGO
 from xavi_dialogue.causal.model import Choice
 from xavi_dialogue.domain.answers import Evidence, MotionCause
 from xavi_dialogue.explain.causes.involved import LIKELY, expected_actions
+from xavi_dialogue.explain.causes.traffic_lights import light_of_other
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned, prediction
 
 LEEWAY = 1.0  # [s] by which a hold-up may lie beside the braking that it explains
@@ -87,6 +88,22 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
     if ride.motion(vehicle).until(time).trend not in ("slowing", "standing"):
         return Hindrance()
     return _explained(ride, [trace], vehicle, _within(trace.sim_time, time), least)
+
+
+def lit_too(
+    ride: Ride, vehicle: int, found: Hindrance, when: tuple[float, float, float]
+) -> Hindrance:
+    """Add the traffic light that holds a vehicle, where one does, before who is in its way.
+
+    Args:
+        ride: the record.
+        vehicle: that slows or stands.
+        found: who is in its way.
+        when: [s] it began to, is asked about, and has been seen to.
+    """
+    begin, moment, end = when
+    lit = light_of_other(ride, vehicle, max(begin, moment - FRESH), end)
+    return found if lit is None else Hindrance((lit, *found.causes), found.traces)
 
 
 def _within(start: float, end: float) -> Callable[[HeldUp], bool]:

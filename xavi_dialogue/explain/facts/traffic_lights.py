@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from planner.cycles import BRAKING, REACTION
 from planner.trace import PlanTrace
 from planner.traffic_lights import LightPrediction
 from sim.scene import EGO, Signal
@@ -16,6 +17,7 @@ from xavi_dialogue.domain.traffic_lights import (
     Shown,
 )
 from xavi_dialogue.explain.facts.light_waits import facing
+from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.thresholds import STALE
 from xavi_dialogue.explain.history.traffic_lights import (
@@ -111,7 +113,15 @@ def crossed(ride: Ride, one: Passing) -> Crossed:
     light = Feature("light")
     seen = None if one.shown is None else told(ride, one.signal, one.shown, light)
     since = None if one.shown is None else one.time - one.shown.begin
-    return Crossed(one.time, one.speed, seen, since)
+    late = one.shown is not None and one.shown.begun and _too_late(ride, one.shown.begin, one.time)
+    return Crossed(one.time, one.speed, seen, since, late)
+
+
+def _too_late(ride: Ride, begin: float, time: float) -> bool:
+    """Whether at one time [s] the ego was too close to the line passed at another to stop there."""
+    speed = speed_at(ride, begin)
+    far = driven(ride.motion(EGO), begin, time)
+    return speed is not None and far < speed * REACTION + speed * speed / (2.0 * BRAKING)
 
 
 def foreseen(

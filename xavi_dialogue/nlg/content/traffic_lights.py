@@ -160,7 +160,7 @@ def plan_passed(answer: LightPassed, context: SpeechContext) -> Plan:
         return Plan((message("LIGHT_PASSED", none=True, colour=colour, **slots),))
     core = message("LIGHT_PASSED", **slots, **crossed_slots(answer.crossed))
     amber = answer.crossed.shown is not None and answer.crossed.shown.colour == "amber"
-    details = (message("PASSED_AMBER"),) if amber else ()
+    details = (message("PASSED_AMBER"),) if amber and answer.crossed.late else ()
     return Plan((core,), details)
 
 

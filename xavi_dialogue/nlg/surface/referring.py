@@ -38,7 +38,8 @@ RECENT = 2.0  # [s] what was so long ago counts as now
 FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the crossing",
             "curb": "the kerb", "parking": "the parking place", "building": "the building",
             "line": "the line", "bend": "the bend", "queue": "the queue", "space": "the space",
-            "way": "the way", "obstacle": "the obstacle"}  # fmt: skip
+            "way": "the way", "obstacle": "the obstacle",
+            "headlight": "the headlights"}  # fmt: skip
 
 
 @dataclass(slots=True)
@@ -113,6 +114,8 @@ class Speaker:
                 return _lane(thing, self)
             case Road():
                 return _ROADS[thing.which]
+            case Feature(kind="light", colour=str(colour)):
+                return f"the {colour} light"
             case Feature():
                 return FEATURES[thing.kind]
         return _named_thing(thing, form)

@@ -27,7 +27,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 #: What a traffic light may show, as it is said.
 LIT: Final = frozenset({"red", "green", "amber", "yellow", "orange"})
 #: By what a light is passed or waited at: "through red", "at red", "on amber".
-BY: Final = frozenset({"on", "at", "over", "for", "into", "in", "during", "past"})
+BY: Final = frozenset({"on", "at", "over", "for", "in", "during", "past"})
 _OURS: Final = (Ego, Passenger, Wanted)
 
 

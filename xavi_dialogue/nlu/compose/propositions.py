@@ -11,7 +11,6 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
-    Has,
     Is,
     Not,
     Passenger,
@@ -255,13 +254,11 @@ class Propositions:
                 return Event("go", thing, manner=(manner,), time=found.time, tense=found.tense)
             case Related(relation="can-see", thing=thing, to=to):
                 return Event("see", thing, to, tense=found.tense)
-            case Has() if (shown := shining(found)) is not None:
-                return shown
             case None:
                 return None
             case _:
                 named = getattr(found, "thing", None) or getattr(found, "to", None)
-                return cast("Sem | None", named)
+                return shining(found) or cast("Sem | None", named)
 
     def ended(self, clause: Clause) -> Event | None:
         """Give the event that a clause says is over: "when you finished the lane change"."""

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Exists,
     Feature,
+    Happens,
     Has,
     Measured,
     Pronoun,
@@ -54,14 +55,13 @@ def _meant(part: Any, g: Grounder) -> Any:
             return _event(part, g)
         case Has(attribute="colour", value=value, thing=thing) if value in LIT:
             time: Any = rewrite(part.time, lambda inner: _meant(inner, g))
-            shown = _shown(thing, g)
-            return replace(part, thing=shown, time=_passing(time) if _light(shown) else time)
+            return _lit_then(replace(part, thing=_shown(thing, g), time=time), g)
         case Related(relation="can-see", thing=Ego(), to=to):
             return replace(part, to=_spoken(to, g))
         case Doing(actor=None, time=Relative(anchor=Event(action=action) as anchor)) if (
             action in SHOWING and anchor.tense in ("present", "future")
         ):  # "what happens when it turns green?"
-            return Doing(Ego(), _meant(part.time, g), "future")
+            return Doing(Ego(), rewrite(part.time, lambda inner: _meant(inner, g)), "future")
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
@@ -89,6 +89,17 @@ def _event(event: Event, g: Grounder) -> Event:
     if event.action in GOING and (light.colour is not None or event.action != "go"):
         return replace(event, action="pass", object=light, where=None)
     return event
+
+
+def _lit_then(of: Has, g: Grounder) -> Has | Happens:
+    """A colour at the time at which we passed the light; where we have passed none, that we did."""
+    time = _passing(of.time) if _light(of.thing) else of.time
+    if time is of.time:
+        return of
+    passed = Event("pass", Ego(), Feature("light", colour=of.value))
+    if not g.context.holds(replace(passed, object=LIGHT), g.context.begin, g.context.now):
+        return Happens(passed)
+    return replace(of, time=time)
 
 
 def _passing(time: Any) -> Any:
