@@ -25,6 +25,7 @@ from xavi_dialogue.app.bench.plan import (
     VEHICLES,
     Growth,
     PlanReport,
+    crowded,
     growth,
     timed_yardstick,
 )
@@ -46,7 +47,7 @@ def goal() -> EgoGoal:
     return EgoGoal(wanted.edge, wanted.position, wanted.lane)
 
 
-@pytest.mark.parametrize("others", [0, 1, 12])
+@pytest.mark.parametrize("others", [0, 1, 12, 40])
 def test_a_crowd_has_as_many_as_wanted_and_nobody_touches(motorway: Network, others: int) -> None:
     _, moment = crowd(motorway, goal(), SMALL, others)
     assert list(moment.scene) == list(range(others + 1))
@@ -66,7 +67,7 @@ def test_a_smaller_crowd_is_part_of_a_larger_one(motorway: Network) -> None:
 
 
 def test_a_crowd_needs_room(motorway: Network) -> None:
-    with pytest.raises(ValueError, match="at most 12"):
+    with pytest.raises(ValueError, match="at most 42"):
         crowd(motorway, goal(), SMALL, len(SPOTS) + 1)
     with pytest.raises(ValueError, match="three lanes"):
         crowd(network_of(scenario.load("s2")), goal(), SMALL, 1)
@@ -78,6 +79,35 @@ def test_a_decision_can_be_taken_in_a_crowd(motorway: Network) -> None:
     assert [known.vehicle for known in trace.predictions] == [1, 2, 3, 4]
     assert trace.plan
     assert trace.scene[EGO].speed > 0.0
+
+
+@pytest.mark.slow
+def test_decisions_in_crowds_are_timed_by_the_processor(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[int] = []
+    monkeypatch.setattr(plan, "decide", lambda _, moment: seen.append(len(moment.scene) - 1))
+    found = crowded((3, 40), (0.0, 1.0))
+    assert [(one.name, one.unit, one.n) for one in found] == [
+        ("3 others, processor time", "ms", 2),
+        ("40 others, processor time", "ms", 2),
+    ]
+    assert seen == [3, 3, 40, 40]
+
+
+def test_a_crowd_may_be_farther_ahead(motorway: Network) -> None:
+    _, here = crowd(motorway, goal(), SMALL, 2)
+    _, there = crowd(motorway, goal(), SMALL, 2, 5.0)
+    assert there.scene[EGO] == here.scene[EGO]
+    for name in (1, 2):
+        moved = math.dist(here.scene[name].position, there.scene[name].position)
+        assert moved == pytest.approx(5.0, abs=0.02)
+
+
+def test_a_watch_takes_the_time_of_its_clock() -> None:
+    ticks = iter((1.0, 3.5))
+    watch = Watch(lambda: next(ticks))
+    with watch.time("it"):
+        pass
+    assert watch.taken == {"it": [2.5]}
 
 
 @pytest.mark.slow

@@ -29,17 +29,26 @@ SPOTS = (
     *(Spot(0, 30.0, -6.0), Spot(1, 12.0, 2.0), Spot(-1, -16.0, -2.0), Spot(0, -28.0, -3.0)),
     *(Spot(1, -22.0, 3.0), Spot(-1, 26.0, -7.0), Spot(0, 62.0, -6.0), Spot(1, 48.0, 2.0)),
     *(Spot(-1, -48.0, -2.0), Spot(0, -60.0, -3.0), Spot(1, -64.0, 3.0), Spot(-1, 66.0, -7.0)),
+    *(
+        Spot(lane, side * ahead, faster)
+        for ahead in (80.0, 94.0, 108.0, 122.0, 136.0)
+        for side in (1.0, -1.0)
+        for lane, faster in ((0, -3.0), (1, 2.0), (-1, -6.0))
+    ),
 )
 
 
-def crowd(network: Network, goal: EgoGoal, settings: Settings, others: int) -> tuple[Frame, Moment]:
+def crowd(
+    network: Network, goal: EgoGoal, settings: Settings, others: int, shift: float = 0.0
+) -> tuple[Frame, Moment]:
     """A decision on the middle lane of the longest road of three lanes.
 
     Args:
         network: has such a road, at least 300 m long.
         goal: of the ego, beyond it.
         settings: of the planner.
-        others: how many, up to 12.
+        others: how many, up to 42.
+        shift: [m] by which all of them are farther ahead.
 
     Raises:
         ValueError: there is no such road, or there are not so many spots.
@@ -50,7 +59,7 @@ def crowd(network: Network, goal: EgoGoal, settings: Settings, others: int) -> t
     middle = lanes[1].length / 2.0
     tracks = {EGO: _track(lanes[1], middle, PACE)}
     for name, spot in enumerate(SPOTS[:others], 1):
-        tracks[name] = _track(lanes[1 + spot.lane], middle + spot.ahead, PACE + spot.faster)
+        tracks[name] = _track(lanes[1 + spot.lane], middle + spot.ahead + shift, PACE + spot.faster)
     scene = _scene(tracks)
     frame = Frame(Roads(network), goal, settings, 0, "car")
     here = root_at(frame.roads, scene[EGO], 0.0)

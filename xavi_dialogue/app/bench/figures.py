@@ -1,7 +1,7 @@
 """Figures: what benchmarks find, as one JSON object or as a table."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from statistics import quantiles
 from typing import Literal, Protocol, TypeVar
@@ -62,15 +62,16 @@ class Figures(msgspec.Struct, frozen=True):
 class Watch:
     """Collects durations [s] by name."""
 
-    def __init__(self) -> None:
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
         self.taken: dict[str, list[float]] = {}
+        self._clock = clock  # [s]
 
     @contextmanager
     def time(self, name: str) -> Iterator[None]:
         """Take the time of what happens within."""
-        began = time.perf_counter()
+        began = self._clock()
         yield
-        self.taken.setdefault(name, []).append(time.perf_counter() - began)
+        self.taken.setdefault(name, []).append(self._clock() - began)
 
     def figures(self) -> tuple[Figure, ...]:
         """The durations [ms], in the order in which they were first taken."""

@@ -11,7 +11,7 @@ from statistics import median
 
 import msgspec
 
-from planner.decide import Frame, Moment, predict, prepare, record, root_at
+from planner.decide import Frame, Moment, decide, predict, prepare, record, root_at
 from planner.search import Root, Search
 from planner.trace import EgoGoal, PlanTrace, Settings
 from planner.trajectory import Roads
@@ -31,6 +31,8 @@ DEPTHS = (1, 2, 3, 4, 5)
 ROLLOUTS = (25, 50, 100, 200, 400)
 USUAL = 3  # vehicles, where something else grows
 REPEATS = 3
+CROWDS = (3, 12, 40)  # others in view, for which decisions have a bound
+SHIFTS = tuple(-6.0 + 0.5 * k for k in range(25))  # [m]
 YARDSTICK = 200_000  # turns of the plain loop
 PARTS = ("decision", "recognition", "search", "record")
 
@@ -94,7 +96,7 @@ def measure(hours: float) -> PlanReport:
     return PlanReport(
         bench="plan",
         yardstick=round(1000.0 * yardstick, 3),
-        figures=(*watch.figures(), starts),
+        figures=(*watch.figures(), starts, *crowded(CROWDS, SHIFTS)),
         growth=growth(yardstick, VEHICLES, DEPTHS, ROLLOUTS, REPEATS),
         memory=memory(hours) if hours > 0.0 else (),
     )
@@ -109,6 +111,26 @@ def timed_yardstick() -> float:
             total += math.sqrt(k)
         taken.append(time.perf_counter() - began)
     return min(taken)
+
+
+def crowded(sizes: Sequence[int], shifts: Sequence[float]) -> tuple[Figure, ...]:
+    """Time decisions with so many others in view, in processor time of one core.
+
+    Args:
+        sizes: how many others.
+        shifts: [m] by which all of them are farther ahead, a decision for each.
+    """
+    scenario = load(ROAD)
+    network = network_of(scenario)
+    warm_up(network)
+    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
+    watch = Watch(time.process_time)
+    for others in sizes:
+        for shift in shifts:
+            frame, moment = crowd(network, goal, settings_of(scenario), others, shift)
+            with watch.time(f"{others} others, processor time"):
+                decide(frame, moment)
+    return watch.figures()
 
 
 def growth(
