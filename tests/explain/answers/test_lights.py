@@ -194,3 +194,13 @@ def test_no_light_is_known_of_one_that_was_never_in_view():
         assert isinstance(found, LightTold)
         assert found.shown is None
     assert STANDS < 20.0
+
+
+def test_the_last_light_is_the_one_that_we_passed():
+    last = Has("colour", "green", Feature("light", rank=-1), tense="past")
+    found = answer(Ask(Whether(last)), 45.0)
+    assert found.holds
+    assert found.time == pytest.approx(PASSED, abs=0.15)
+    none = answer(Ask(Whether(last)), 20.0)
+    assert isinstance(none, LightPassed)
+    assert none.crossed is None

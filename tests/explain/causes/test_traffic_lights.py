@@ -2,12 +2,16 @@
 
 import pytest
 
+from planner.events import Event as RideEvent
 from tests.explain.lit import STANDS, answer, record
 from xavi_dialogue.domain.answers import MotionReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Why
-from xavi_dialogue.domain.terms import Event, Happens, Not
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Not
 from xavi_dialogue.explain.answers.engine import explain
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
 
 STOPPED = Ask(Why(Happens(Event("stop", tense="past"))))
 
@@ -56,3 +60,11 @@ def test_what_is_over_is_told_by_what_it_showed_then():
 def test_nobody_is_held_once_it_is_green():
     found = answer(Ask(Why(Happens(Event("speed-up", tense="past")))), 34.0)
     assert all(cause.kind != "light" for cause in getattr(found, "causes", ()))
+
+
+def test_who_goes_while_a_light_holds_us_is_not_given_way_to():
+    known = record(25.0)
+    gave = tuple(RideEvent("gave-way", time, vehicle=7) for time in (17.0, 20.0))
+    found = World(Ride(Record(25.0, known.traces, gave)))
+    assert found.episodes(Ego(), "give-way") == found.episodes(Ego(), "wait")
+    assert all(e.object == Feature("light") for e in found.episodes(Ego(), "wait"))

@@ -108,6 +108,8 @@ def moment(of: object, scene: Asked, light: Feature) -> tuple[float, bool]:
     if light.time is not None:
         return light.time, light.time < scene.now - 1.0
     done = passings(scene.ride)
+    if light.rank == -1 and done:
+        return done[-1].time, True
     if tense == "past" and done and isinstance(getattr(of, "time", Unsaid()), Unsaid):
         return done[-1].time, True
     return scene.now, False

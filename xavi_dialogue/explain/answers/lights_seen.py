@@ -74,7 +74,8 @@ def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
     if found is None:
         return _seen(of, scene, negated=negated)
     light, wanted = found
-    if isinstance(getattr(of, "time", None), Relative) and not passings(scene.ride):
+    before = light.rank == -1 or isinstance(getattr(of, "time", None), Relative)
+    if before and not passings(scene.ride):
         return _passed(Event("pass", object=Feature("light", colour=wanted)), scene, claim=claim)
     turned = isinstance(of, Happens) and of.event.action == "turn-colour"
     time, past = moment(of, scene, light)

@@ -29,6 +29,7 @@ from xavi_dialogue.explain.causes.ready import given_up, next_move, ready_for
 from xavi_dialogue.explain.causes.roadside import road_causes
 from xavi_dialogue.explain.causes.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.yielding import close_leader, goes_first, kept, leads
+from xavi_dialogue.explain.facts.light_waits import held_then
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
@@ -198,6 +199,7 @@ def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | 
     if deed.action == "speed-up":
         return None
     waits = [event for event in ride.events if event.kind == "gave-way"]
+    waits = [event for event in waits if not held_then(ride, event.sim_time)]
     near = [e for e in waits if deed.begin - BEFORE <= e.sim_time <= end]
     near = [e for e in near if e.sim_time >= deed.begin or not leads(world, e.vehicle, deed.begin)]
     if isinstance(deed.object, Vehicle):

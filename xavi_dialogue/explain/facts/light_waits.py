@@ -96,6 +96,11 @@ def holding(ride: Ride, vehicle: int, begin: float, end: float, slack: float = 1
     return found[-1] if found else None
 
 
+def held_then(ride: Ride, time: float) -> bool:
+    """Tell whether a light held the ego at a time [s]."""
+    return holding(ride, EGO, time, time, slack=0.0) is not None
+
+
 def facing(ride: Ride, vehicle: int, time: float) -> Signal | None:
     """Find the light that holds another vehicle at a time [s]; None where none is known to."""
     trace = ride.at(time, vehicle)

@@ -13,7 +13,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.facts.actions import named
-from xavi_dialogue.explain.facts.light_waits import waits_at_lights
+from xavi_dialogue.explain.facts.light_waits import held_then, waits_at_lights
 from xavi_dialogue.explain.facts.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.ride import prediction
@@ -97,6 +97,8 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
         if event.kind != "gave-way" or event.vehicle is None:
             continue
         time = event.sim_time
+        if held_then(states.ride, time):
+            continue  # whoever goes meanwhile, it is the light that holds us
         slowing = [e for e in slowed if e.begin <= time and _end(states, e) >= time - 1.0]
         still = [e for e in stood if e.begin <= time + YIELDING and _end(states, e) >= time]
         still = [e for e in still if not any(time < s.begin < e.begin for s in slowed)]
