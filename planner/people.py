@@ -6,7 +6,7 @@ way, is never held against a goal; who stands though he might go has probably no
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -15,7 +15,8 @@ import numpy as np
 from planner.beliefs import NEGLIGIBLE, Belief, Trajectory
 from planner.forward import DT
 from planner.goals import Goal
-from planner.kernels.course import Bools, Ints
+from planner.kerbs import came_over, crossing_under, crossings_near, is_by, people_first, walks_back
+from planner.kernels.course import Bools
 from planner.kernels.driving import GAP_HORIZON, OPEN
 from planner.obstacles import Motions, Obstacle
 from planner.scenery import Scenery
@@ -38,9 +39,8 @@ from planner.walking import (
     walk,
 )
 from sim.network import Crossing, angle_between, cumulative, project
-from sim.scene import EGO, Point, Signal, VehicleState
+from sim.scene import EGO, Signal, VehicleState
 
-REACH = 12.0  # [m] from a crossing within which one may be about to use it
 MOST = 8  # people of whom goals are recognised at most
 BEHIND = 10.0  # [m] behind the ego from which on people do not matter to it
 LOOK = 25  # samples of a track that are looked at
@@ -52,8 +52,6 @@ BEFORE_IT = 0.5  # [m] to the side up to which one is right before where one wou
 AT_KERB = 3.0  # [m] from a crossing within which one waits for it
 FARTHER = 20.0  # [m] ahead that who walks on is on the way to
 COMING = 6.0  # [s] within which a vehicle comes to a crossing that people wait at
-LONGEST = 20.0  # [m] of half a crossing at most
-KERB, ASIDE = 0.2, 0.5  # [m] within the ends of a crossing, and beside it, where one is on it
 CREEPING = 1.0  # [m/s] up to which a vehicle makes way
 ASLANT = math.pi / 4  # [rad] against the road from which who walks on it crosses it
 
@@ -93,20 +91,10 @@ def concerned(
         away = math.hypot(dx, dy)
         if away > view or dx * cos + dy * sin < -BEHIND:
             continue
-        near = any(_by(crossing, state.position) for crossing in crossings)
+        near = any(is_by(crossing, state.position) for crossing in crossings)
         if near or (away < ROADSIDE and on_road(roads.network, state.position)):
             found.append((away, name))
     return [name for _, name in sorted(found)[:MOST]]
-
-
-def _by(crossing: Crossing, here: Point) -> bool:
-    """Whether a place is near an end of a crossing, or on it."""
-    start, end = crossing.line[0], crossing.line[-1]
-    if min(math.dist(here, start), math.dist(here, end)) <= REACH:
-        return True
-    offset, aside, _ = project(crossing.line, here)
-    inside = 0.0 <= offset <= cumulative(crossing.line)[-1]
-    return inside and abs(aside) <= 0.5 * crossing.width + ASIDE
 
 
 def recognise_people(
@@ -154,13 +142,13 @@ def _aims(
 ) -> list[_Aim]:
     """The goals that somebody may have, staying last."""
     network, here = scenery.roads.network, place_of(person)
-    on = _crossing_under(scenery.roads, here)
+    on = crossing_under(scenery.roads, here)
     routes: list[tuple[Crossing, Route]] = []
     if on is not None:
-        routes = [(on, across(person, on, back=_walks_back(person, on), on=True))]
+        routes = [(on, across(person, on, back=walks_back(person, on), on=True))]
     else:
-        for crossing, back in _crossings_near(scenery.roads, here):
-            if not _came_over(person, crossing):
+        for crossing, back in crossings_near(scenery.roads, here):
+            if not came_over(person, crossing):
                 routes.append((crossing, across(person, crossing, back=back, on=False)))
     ahead = None if on is not None else onward(network, person, settings.horizon * MEAN)
     share = (1.0 - STAY) / (len(routes) + (ahead is not None))
@@ -212,7 +200,7 @@ def _trajectories(
     if route is None:
         return (Trajectory(1.0, (kind,), Motions(stand(person, steps))),)
     on_it, one = np.zeros(steps, np.bool_), route.crossing
-    waits = one is not None and not _goes_first(scenery.roads, one)
+    waits = one is not None and not people_first(scenery.roads, one)
     if one is not None and waits:
         if one.id not in busy:
             busy[one.id] = _busy(one, coasting, steps)
@@ -312,69 +300,6 @@ def _busy(crossing: Crossing, coasting: Sequence[Obstacle], steps: int) -> Bools
         along, aside = x * cos + y * sin, np.abs(y * cos - x * sin)
         found[:n] |= (along > 0.0) & (along < length) & (aside < back + 0.5 * crossing.width)
     return found
-
-
-def _goes_first(roads: Roads, crossing: Crossing) -> bool:
-    """Whether people have priority on a crossing before who would drive over it."""
-    links = roads.network.junction_links(crossing.junction).values()
-    over = [link for link in links if crossing.index in link.other_foes]
-    return bool(over) and all(crossing.index in link.other_yields_to for link in over)
-
-
-def _crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]:
-    """The crossings that begin near a place, and whether their lines end there."""
-    for k in _around(roads, here, REACH).tolist():
-        crossing = roads.network.crossings[k // 2]
-        near, far = crossing.line[0], crossing.line[-1]
-        if (math.dist(here, far) < math.dist(here, near)) == bool(k % 2):
-            yield crossing, bool(k % 2)
-
-
-def _crossing_under(roads: Roads, here: Point) -> Crossing | None:
-    """The crossing that somebody is on, beyond its kerb."""
-    for k in _around(roads, here, LONGEST).tolist():
-        crossing: Crossing = roads.network.crossings[k // 2]
-        offset, aside, _ = project(crossing.line, here)
-        inside = KERB < offset < cumulative(crossing.line)[-1] - KERB
-        if inside and abs(aside) <= 0.5 * crossing.width + ASIDE:
-            return crossing
-    return None
-
-
-def on_crossing(roads: Roads, here: Point) -> bool:
-    """Whether a place is on a crossing, beyond its kerb."""
-    return _crossing_under(roads, here) is not None
-
-
-def _around(roads: Roads, here: Point, reach: float) -> Ints:
-    """Which ends of crossings are within reach [m] of a place, as indices into `_ends`."""
-    ends = _ends(roads)
-    found: Ints = np.flatnonzero(np.hypot(ends[:, 0] - here[0], ends[:, 1] - here[1]) <= reach)
-    return found
-
-
-def _ends(roads: Roads) -> Array:
-    """Where crossings begin and end [m] [2 C, 2]."""
-    if roads.kerbs is None:
-        ends = [point for x in roads.network.crossings for point in (x.line[0], x.line[-1])]
-        roads.kerbs = np.array(ends, np.float64).reshape(-1, 2)
-    return roads.kerbs
-
-
-def _walks_back(person: Observed, crossing: Crossing) -> bool:
-    """Whether somebody on a crossing walks against the direction of its line."""
-    _, _, heading = project(crossing.line, place_of(person))
-    return math.cos(angle_between(direction_of(person), heading)) < 0.0
-
-
-def _came_over(person: Observed, crossing: Crossing) -> bool:
-    """Whether somebody has just walked over a crossing."""
-    length = cumulative(crossing.line)[-1]
-    for x, y in person.position[max(person.elapsed - LOOK, 0) :: 5].tolist():
-        offset, aside, _ = project(crossing.line, (x, y))
-        if 1.0 < offset < length - 1.0 and abs(aside) < 0.5 * crossing.width:
-            return True
-    return False
 
 
 def _aslant(roads: Roads, person: Observed) -> bool:

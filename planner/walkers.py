@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from planner.forward import Motion
+from planner.kerbs import on_crossing
 from planner.kernels.driving import COMFORT
 from planner.manoeuvres import ActionPlan, LetCross
 from planner.obstacles import Obstacle, Traffic, occupancy
-from planner.people import on_crossing
 from planner.signals import STEP
 from planner.trace import ON_FOOT
 from planner.trajectory import Roads

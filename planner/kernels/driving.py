@@ -95,10 +95,9 @@ def accelerate(
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
-    stops = course.halting > 0.0
     free = min(_cap(caps, arc + speed * RELAXATION), _ready(arc, lines, crossing, firsts, step))
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free)
-    if stops:
+    if course.halting > 0.0:
         free, wanted, who = 0.0, 0.0, -1
         hardest = EMERGENCY if hardest == EMERGENCY else course.halting
     how = LEADER if who < 0 else _manner(others, who, step)
