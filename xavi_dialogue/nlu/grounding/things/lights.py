@@ -67,8 +67,8 @@ def _meant(part: Any, g: Grounder) -> Any:
         case Identify(thing=thing) | Exists(thing=thing):
             return replace(part, thing=_spoken(thing, g))
         case Measured(attribute=attribute) if attribute in _MEASURED:
-            to = None if part.to is None else _spoken(part.to, g)
-            return replace(part, thing=_spoken(part.thing, g), to=to)
+            beside = None if part.to is None else _spoken(part.to, g)
+            return replace(part, thing=_spoken(part.thing, g), to=beside)
     return part
 
 
