@@ -53,11 +53,12 @@ def _network(network: Network, kind: str) -> Network:
     links = [*network.links, *network.other_links]
     own = [x for x in links if all(y in lanes for y in (x.from_lane, *x.via, x.to_lane))]
     known = {(x.junction, x.index) for x in own}
+    served = _served(lanes, own)
     return replace(
         network,
-        lanes=_served(lanes, own),
+        lanes=served,
         links=tuple(_ruled(x, known) for x in own),
-        other_lanes={name: lane for name, lane in every.items() if name not in lanes},
+        other_lanes={name: lane for name, lane in every.items() if name not in served},
         other_links=tuple(_ruled(x, known) for x in links if (x.junction, x.index) not in known),
     )
 
