@@ -34,6 +34,7 @@ from planner.trace import EgoGoal
 from planner.trajectory import Roads
 from sim.network import Link
 
+MERGING_TIME = 4.0  # [s] at the limit before the end of a lane in which to move over
 MERGING = 35.0  # [m] before the end of a lane at which to look for a gap beside it
 SETTLING = 0.5  # [s] in which braking sets in and eases off
 MARGIN = 5.0  # [m] of path beyond where a vehicle comes to rest
@@ -70,10 +71,11 @@ def follow_on(
         seen += sum(network.lanes[name].length for name in lanes[-1 - len(link.via) :])
         begun = begun if joint else seen - network.lanes[link.to_lane].length
     end = min(seen, FAR)
+    room = _room_to_choose(roads, lanes[-1], view)
     if halt is not None and begun is not None:
-        end = max(seen - view / 2.0, min(begun + CLEAR, 0.5 * (begun + seen)))
-    elif halt is not None and seen >= view:
-        end = seen - view / 2.0
+        end = max(seen - room, min(begun + CLEAR, 0.5 * (begun + seen)))
+    elif halt is not None and seen >= max(view, room + MARGIN):
+        end = seen - room
     elif halt is not None:
         end = seen - MERGING
         if end < MARGIN or not lane_end(roads, lanes[-1]).merges:
@@ -82,6 +84,13 @@ def follow_on(
     waits = tuple(m for m in way.manoeuvres() if isinstance(m, WAITS))
     end = max(min(end, FAR, way.path.length), 0.1)
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
+
+
+def _room_to_choose(roads: Roads, lane: str, view: float) -> float:
+    """How far [m] before the end of a lane to choose; where it merges, there must be room to."""
+    ends = lane_end(roads, lane).merges
+    change = MERGING_TIME * roads.network.lanes[lane].speed_limit if ends else 0.0
+    return max(view / 2.0, change)
 
 
 def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Refusal:
