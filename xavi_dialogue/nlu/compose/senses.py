@@ -130,6 +130,8 @@ def _fill(
     if role.kind == "s":
         if clause.subject is None:
             return None
+        if isinstance(clause.subject, Wanted) and found.sense.head == "turn-colour":
+            return None  # "what would change?" is not asked of lights
         cost = fits(clause.subject, role.types)
         vague = isinstance(clause.subject, Pronoun | Wanted)
         return cost if cost is None or not vague else cost + VAGUE
