@@ -111,12 +111,12 @@ def _add(engine: Engine, file: Path, rider: Added) -> str:
         step(engine)
     taken = {*engine.call(api.vehicle.getIDList), *engine.call(api.simulation.getLoadedIDList)}
     name = _free(taken)
-    way = engine.call(api.simulation.findRoute, rider.origin, rider.destination).edges
+    kind, when, lane, place, speed = "DEFAULT_VEHTYPE", "now", "best", "base", "max"
+    way = engine.call(api.simulation.findRoute, rider.origin, rider.destination, kind).edges
     if not way:
         problem = f"no way for cars leads from {rider.origin!r} to {rider.destination!r}"
         raise NeverDeparts(file, problem, "choose other edges")
     engine.call(api.route.add, f"route of {name}", way)
-    kind, when, lane, place, speed = "DEFAULT_VEHTYPE", "now", "best", "base", "max"
     engine.call(api.vehicle.add, name, f"route of {name}", kind, when, lane, place, speed)
     engine.call(api.vehicle.setSpeedFactor, name, 1.0)  # SUMO would draw how it keeps limits
     for _ in range(round(PATIENCE / engine.call(api.simulation.getDeltaT))):

@@ -7,6 +7,7 @@ all such ways one is drawn among those that lead through the most company.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from random import Random
 
@@ -16,6 +17,7 @@ from sim.engine import SimulationError
 from sim.netconvert import NetconvertError, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
+from sim.scenario import ScenarioError, load
 from sim.source import Added
 from sim.survey import Stay, Trail, survey
 from xavi_dialogue.app.bench.foreign.sites import MAPS, Site, net_of
@@ -26,6 +28,7 @@ LASTING = (25.0, 100.0)  # [s] that the vehicle took for the way
 ROOM = 15.0  # [m] the shortest edge to begin or to end on
 CROWDED = 0.25  # share of the ways, those with the most company, among which one is drawn
 ENOUGH = 4  # ways at least that are drawn from
+TRIED = 5  # of them, where SUMO has no way for the ego
 
 
 class NoRide(Exception):
@@ -70,10 +73,14 @@ def ride(site: Site, seed: int, folder: Path) -> Chosen:
             reasons.append(str(error))
             continue
         ways = [way for trail in trails for way in _along(trail, network)]
-        way = _drawn(ways, network, Random(f"{site.name}/{seed}"))
-        if way is not None:
-            rider = Added(way.edges[0], way.edges[-1], way.begin)
-            return Chosen(place_of(file, rider), tuple(reasons))
+        for way in _drawn(ways, network, Random(f"{site.name}/{seed}")):
+            place = place_of(file, Added(way.edges[0], way.edges[-1], way.begin))
+            try:
+                load(place)
+            except ScenarioError as error:
+                reasons.append(str(error))
+            else:
+                return Chosen(place, tuple(reasons))
         reasons.append(f"{file.name}: nobody drives for {LASTING[0]:g} s where cars may")
     raise NoRide("; ".join(dict.fromkeys(reasons)))
 
@@ -123,10 +130,10 @@ def _length(network: Network, edge: str) -> float:
     return min(lane.length for lane in network.edge_lanes(edge))
 
 
-def _drawn(ways: Sequence[Way], network: Network, draw: Random) -> Way | None:
-    """One of the ways with the most company whose end a car can get to."""
+def _drawn(ways: Sequence[Way], network: Network, draw: Random) -> list[Way]:
+    """Some of the ways with the most company whose end a car can get to, in the order drawn."""
     ranked = sorted(ways, key=lambda way: (-way.company, way.begin, way.edges))
     pool = ranked[: max(ENOUGH, round(CROWDED * len(ranked)))]
     draw.shuffle(pool)
     reached = (way for way in pool if way.edges[0] in network.distance_to(way.edges[-1]))
-    return next(reached, None)
+    return list(islice(reached, TRIED))
