@@ -41,9 +41,9 @@ def configured(folder: Path, routes: str = ROUTES, time: str = "") -> Path:
     """A configuration in a folder: gzipped net and routes, types in an additional file."""
     signalled(folder)
     net = folder / "cross.net.xml"
-    (folder / "cross.net.xml.gz").write_bytes(gzip.compress(net.read_bytes()))
+    (folder / "cross.net.xml.gz").write_bytes(gzip.compress(net.read_bytes(), mtime=0))
     net.unlink()
-    (folder / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode()))
+    (folder / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode(), mtime=0))
     (folder / "b.rou.xml").write_text(MORE)
     (folder / "types.add.xml").write_text(ADDITIONAL)
     file = folder / "cross.sumocfg"
@@ -188,7 +188,7 @@ def test_what_is_not_modelled_is_named(tmp_path: Path) -> None:
     routes = ROUTES.replace("</vehicle>", stops, 1).replace("</routes>", walker)
     tram = '<vType id="line" vClass="tram"/><vType id="cab"'
     (tmp_path / "types.add.xml").write_text(ADDITIONAL.replace('<vType id="cab"', tram))
-    (tmp_path / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode()))
+    (tmp_path / "a.rou.xml.gz").write_bytes(gzip.compress(routes.encode(), mtime=0))
     scenario = load(f"{file}?ego=late")
     told = scenario.warnings
     with Simulation(scenario, 0) as world:
