@@ -309,9 +309,10 @@ def decode(data: bytes) -> PlanTrace:
 
 def fault_of(trace: PlanTrace) -> str | None:
     """What in a trace does not fit together, if anything."""
-    numbers = (value for one in trace.rollouts for value in one.components.values())
-    if any(value is not None and abs(value) > LARGEST for value in numbers):
-        return f"a component beyond {LARGEST:g}"
+    for one in trace.rollouts:
+        parts = (value for value in one.components.values() if value is not None)
+        if not all(abs(value) <= LARGEST for value in (*parts, *one.terms.values(), one.reward)):
+            return f"rollout {one.index} has a figure that is none, or beyond {LARGEST:g}"
     for vehicle, track in trace.history.items():
         if not len(track.position) == len(track.heading) == len(track.speed) > 0:
             return f"the history of vehicle {vehicle} has lists of different lengths, or is empty"

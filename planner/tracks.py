@@ -108,8 +108,8 @@ def berth_of(roads: Roads, observed: Observed) -> float:
 def queued(tracks: Sequence[Observed], held: Collection[int] = ()) -> list[Observed]:
     """Those who stand, or are held, first, in a queue from its head on; then the others."""
     waiting = [track for track in tracks if track.standing or track.vehicle in held]
-    waiting.sort(key=lambda track: sum(leads(track, other) for other in waiting))
-    return waiting + [track for track in tracks if track not in waiting]
+    queue = sorted(waiting, key=lambda track: sum(leads(track, other) for other in waiting))
+    return queue + [track for track in tracks if track not in waiting]
 
 
 def leads(track: Observed, other: Observed) -> bool:

@@ -160,7 +160,13 @@ def _word(node: ast.AST) -> str:
 
 
 def test_a_scene_shows_only_what_can_be_seen() -> None:
-    assert {field.name for field in fields(Scene)} == {"time", "vehicles", "lights", "people", "unseen"}
+    assert {field.name for field in fields(Scene)} == {
+        "time",
+        "vehicles",
+        "lights",
+        "people",
+        "unseen",
+    }
     assert {field.name for field in fields(VehicleState)} == {
         *("position", "heading", "speed", "acceleration", "length", "width"),
         *("kind", "colour", "signals"),

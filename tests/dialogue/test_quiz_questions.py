@@ -29,6 +29,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import WhatIf, Why
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import At, Ego, Event, Exists, Happens, Not, Unsaid, Vehicle
 from xavi_dialogue.explain.history.record import Record
 
@@ -250,7 +251,8 @@ def test_some_questions_have_no_solution() -> None:
     asked = sooner_with("continue")
     assert solved(asked, SupposedOfUs(contrast(effects=clear, outcome="collision")), 9.0) is None
     assert solved(asked, SupposedOfUs(replace(contrast(effects=clear), outcome=None)), 9.0) is None
-    assert solved(asked, SupposedOfUs(contrast(effects=clear), done=True), 9.0) is None
+    done = Performed("change-left", "did")
+    assert solved(asked, SupposedOfUs(contrast(effects=clear), done=done), 9.0) is None
     assert solved(without(3), SupposedOfOther(3, None, None, (), ("stop",), False), 9.0) is None
     assert solved(who("stop"), Helpful(), 9.0) is None
     same = SupposedOfOther(3, None, None, ("stop", "continue"), ("stop",), True)

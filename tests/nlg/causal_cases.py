@@ -37,6 +37,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.evidence import TimeRange
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, OptionValue
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import (
     At,
     Described,
@@ -181,7 +182,7 @@ CHOICES: tuple[Answer, ...] = (
     ChoiceReason("worth-it", CHANGED, CLOSE),
     SupposedOfUs(replace(LATER, foil=("stop",), continued=("exit-right",))),
     SupposedOfUs(LATER, past=False),
-    SupposedOfUs(LATER, done=True),
+    SupposedOfUs(LATER, done=Performed("change-left", "did")),
     SupposedOfUs(ends("collision", 0.8, 2), past=False),
     SupposedOfUs(replace(LATER, collision=0.1, collided_with=2)),
     SupposedOfUs(RISKY),
@@ -286,6 +287,7 @@ GREW = Grounds(
     ("exit-straight",),
     3.02,
 )
+MANY, SINGLE = Evidence("tree", 64, 32, ("a",)), Evidence("tree", 40, 1, ("a",))
 INSIGHTS: tuple[Answer, ...] = (
     GREW,
     replace(GREW, deed=None, fit=None),
@@ -293,11 +295,19 @@ INSIGHTS: tuple[Answer, ...] = (
     Grounds(2, ("exit-right",), False, ((7.0, 0.4),)),
     Grounds(2, ("exit-right",), False, ((7.0, 0.01),)),
     Grounds(2, ("slow-down",), False, ((7.0, 0.01),)),
-    Certainty("plan", 0.97, 0.91, 32, 32, 19.5, Evidence(), ALONE),
-    Certainty("plan", 0.3, 0.2, 9, 32, 19.5, Evidence(), ALONE),
-    Certainty("choice", 0.81, 0.65, 26, 32, 10.0, Evidence(), LATER),
-    Certainty("choice", 0.3, 0.2, 10, 32, 10.0, Evidence(), LATER),
-    Certainty("choice", 1.0, 0.6, 1, 1, 10.0, Evidence(), LATER),
+    Certainty("plan", 0.97, 0.91, 32, 32, 19.5, MANY, ALONE),
+    Certainty("plan", 0.3, 0.2, 9, 32, 19.5, MANY, ALONE),
+    Certainty("choice", 0.81, 0.65, 26, 32, 10.0, MANY, LATER),
+    Certainty("choice", 0.3, 0.2, 10, 32, 10.0, MANY, LATER),
+    Certainty("choice", 0.95, 0.9, 32, 32, 10.0, MANY, LATER),
+    Certainty("choice", 0.95, 0.9, 32, 32, 10.0, MANY, CLOSE),
+    Certainty("choice", 0.5, 0.4, 17, 32, 10.0, MANY, CLOSE),
+    Certainty("choice", 0.3, 0.2, 10, 32, 10.0, MANY, WORSE),
+    Certainty("choice", None, None, 1, 1, 10.0, MANY, LATER),
+    Certainty("choice", None, None, 1, 1, 10.0, SINGLE, LATER, others=2),
+    Certainty("choice", None, None, 1, 1, 10.0, SINGLE, LATER),
+    Certainty("plan", None, None, 1, 1, 19.5, SINGLE, ALONE, others=2),
+    Certainty("plan", None, None, 0, 1, 10.0, SINGLE, ALONE, others=2),
     Method(10.0, OPTIONS, LATER.evidence, 4),
     Method(None),
     Pivot("conduct", LATER, 2, ("exit-right",), 0.12),

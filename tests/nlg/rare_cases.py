@@ -14,6 +14,7 @@ from tests.nlg.causal_cases import (
     RISKY,
     SLOW_BUS,
     SLOWED,
+    ends,
 )
 from tests.nlg.scenery import BLUE, LORRY, NOW, OTHER_BLUE, look
 from xavi_dialogue.domain.answers import (
@@ -37,6 +38,7 @@ from xavi_dialogue.domain.answers import (
     MotionReason,
     Options,
     OtherReason,
+    OutcomeEstimate,
     OwnSignal,
     PlaceReason,
     Priority,
@@ -78,6 +80,22 @@ TURNERS = Described("vehicle", doing=Event("turn", Wanted(), side="right", tense
 STANDERS = Described("car", such=Is("stationary", Wanted()))
 FASTER = Compares(Measured("speed", E), "more", Measured("speed", E, time=At(5.0)))
 HOPELESS = replace(RISKY, collision=0.9)
+LONG = ends("termination", 0.99, effects=(), causes=(), horizon=30.0, exceeds=9.6)
+QUICK = replace(
+    LONG,
+    outcome=OutcomeEstimate("done", 0.99),
+    fact_outcome=OutcomeEstimate("termination", 0.99),
+    verdict="worse",
+    terms=(Share("late", -9.0, 0.01, 0.99),),
+    told=(Share("late", -9.0, 0.01, 0.99),),
+)
+LONG_BOTH = replace(
+    LONG,
+    fact_outcome=OutcomeEstimate("termination", 0.99),
+    terms=(Share("late", 9.0, 0.99, 0.99),),
+    told=(Share("late", 9.0, 0.99, 0.99),),
+    exceeds=None,
+)
 WAY = replace(LATER, foil=("exit-left",), way=True)
 
 TROUBLE = (Share("time", 4.0), Share("effort", 1.0))
@@ -109,6 +127,24 @@ CASES: tuple[Answer, ...] = (
     OtherReason(1, Episode(V, "brake", 15.0, 17.0), causes=(replace(SLOW_BUS, vehicle=2), LEADER)),
     ChoiceReason(
         "why", CHANGED, replace(LATER, causation=Causation("both", (1, 2))), of_causes=True
+    ),
+    ChoiceReason("why", CHANGED, replace(LATER, causation=Causation("several", (1, 2, 3)))),
+    MotionReason(
+        SLOWED,
+        (LEADER,),
+        suspect=2,
+        suspected="beside",
+        besides=(3,),
+        causation=Causation("either", (2, 3)),
+        of_causes=True,
+    ),
+    MotionReason(SLOWED, (LEADER,), suspect=2, suspected="alone", causation=Causation("one", (2,))),
+    ChoiceReason("why", CHANGED, LONG),
+    SupposedOfUs(LONG),
+    SupposedOfUs(QUICK, form="quicker"),
+    ChoiceReason("why-not", None, LONG_BOTH),
+    SupposedOfOther(
+        1, None, 0.8, ("change-left",), ("continue",), same=False, contrast=LONG, form="quicker"
     ),
     MotionReason(SLOWED, (MotionCause("given-up", actions=("exit-right",)),)),
     ChoiceReason("why", CHANGED, WAY),

@@ -17,7 +17,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.evidence import Effect, OutcomeEstimate
 from xavi_dialogue.domain.meaning import Request
-from xavi_dialogue.domain.reasons import MotionCause
+from xavi_dialogue.domain.reasons import MotionCause, Performed
 from xavi_dialogue.domain.terms import Event, Vehicle
 
 STOPS = Event("stop", Vehicle(2))
@@ -132,4 +132,12 @@ CASES: tuple[Answer, ...] = (
     Declined(Request(Event("do"), negated=True), cause=LETS),
     Declined(Request(Event("do"), negated=True), already=True),
     Declined(Request(Event("brake", manner=("hard",)), negated=True), already=True),
+    SupposedOfUs(GAIN, later=Performed("change-left", "did", 4.0)),
+    SupposedOfUs(GAIN, later=Performed("change-left", "doing", 4.0)),
+    SupposedOfUs(GAIN, past=False, later=Performed("change-left", "will")),
+    SupposedOfUs(SAME, done=Performed("exit-right", "did", 4.0)),
+    SupposedOfUs(SAME, past=False, done=Performed("exit-right", "doing", 4.0)),
+    SupposedOfUs(SAME, past=False, done=Performed("exit-right", "will")),
+    SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, others=(1,)),
+    SupposedOfOther(2, STOPS, None, LATER.fact, LATER.fact, True, left_out=(1,)),
 )

@@ -46,29 +46,91 @@ def test_where_no_vehicle_made_the_difference_none_is_given_as_the_reason(detail
     nobody = Causation("none", (), (2,))
     text = told(causation=nobody, detail=detail)
     assert text.startswith("I slowed down")
-    assert "no single vehicle made the difference to that" in text
+    assert "no other vehicle made the difference to that, not even all of them together" in text
     assert "because" not in text
     turn = told(MotionCause("turn"), causation=nobody, detail=detail)
     assert "because I had to take the turn" in turn
-    assert "o single vehicle made the difference" in turn
+    assert "o other vehicle made the difference" in turn
 
 
-@pytest.mark.parametrize("kind", ["both", "either", "pre-empted"])
-def test_where_causes_are_not_asked_about_only_more_detail_tells_it(kind: str) -> None:
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("both", "Both it and "),
+        ("either", "Either of them would have been enough, it or "),
+    ],
+)
+@pytest.mark.parametrize("detail", ["less", "simpler", "usual", "more"])
+def test_a_reason_with_two_causes_is_never_told_with_one(
+    kind: str, words: str, detail: str
+) -> None:
     found = Causation(kind, (2, 3))
+    text = told(LEADER, causation=found, detail=detail, of_causes=False)
+    assert text.split(". ")[1].startswith(words)
+    assert told(LEADER, causation=found, detail=detail).count("without one of them") == (
+        kind == "both"
+    )
+
+
+@pytest.mark.parametrize("decides", [True, False])
+@pytest.mark.parametrize("asked", [True, False])
+def test_several_that_no_one_of_them_accounts_for_are_told_together(
+    asked: bool, decides: bool
+) -> None:
+    found = Causation("several", (1, 2, 3), decides=decides)
+    text = told(LEADER, causation=found, of_causes=asked)
+    assert "No single vehicle made the difference to that, only several together: without" in text
+    assert ("I would have done otherwise" in text) is decides
+    assert ("done the same, but for less of a reason" in text) is not decides
+    crowd = told(LEADER, causation=Causation("several", (1, 2, 3, 4, 5)), of_causes=asked)
+    assert "only several together: without all 5 of them, I would" in crowd
+
+
+def test_where_causes_are_not_asked_about_only_more_detail_tells_what_would_take_their_place() -> (
+    None
+):
+    found = Causation("pre-empted", (2, 3))
     first = told(LEADER, causation=found, of_causes=False)
     more = told(LEADER, causation=found, detail="more", of_causes=False)
     asked = told(LEADER, causation=found)
-    for words in ("had to be there", "have been enough", "just as well"):
-        assert words not in first
-    assert any(w in more for w in ("had to be there", "have been enough", "just as well"))
-    assert len(asked) > len(first)
+    assert "just as well" not in first
+    assert "just as well" in more
+    assert "just as well" in asked
+
+
+def only(*causes: MotionCause, causation: Causation, part: str, besides: tuple[int, ...]) -> str:
+    reason = MotionReason(
+        SLOWED, causes, causation=causation, of_causes=True,
+        suspect=2, suspected=part, besides=besides,  # type: ignore[arg-type]
+    )  # fmt: skip
+    return say(reason, CONTEXT).text
+
+
+def test_one_that_is_taken_for_the_only_cause_is_told_with_the_others() -> None:
+    both = only(LEADER, causation=Causation("both", (2, 3)), part="beside", besides=(3,))
+    assert both.startswith("No, also because of ")
+    assert "had to be there" in both
+    either = only(LEADER, causation=Causation("either", (2, 3)), part="beside", besides=(3,))
+    assert either.startswith("No, also because of ")
+    assert "would have been enough" in either
+    several = only(LEADER, causation=Causation("several", (2, 3, 4)), part="beside", besides=(3, 4))
+    assert several.startswith("No, also because of ")
+    assert "only several together" in several
+    one = only(LEADER, causation=Causation("one", (2,)), part="alone", besides=())
+    assert one.startswith("Yes, only because of ")
+
+
+def test_a_turn_beside_the_one_taken_for_the_only_cause_is_told() -> None:
+    turn = MotionCause("turn")
+    text = only(LEADER, turn, causation=Causation("one", (2,)), part="beside", besides=())
+    assert text.startswith("No, not only: ")
+    assert "I had to take the turn" in text
 
 
 def test_nobody_is_spoken_of_only_where_it_is_asked_about() -> None:
     nobody = Causation("none", (), (2,))
     turn = told(MotionCause("turn"), causation=nobody, of_causes=False)
-    assert "single vehicle" not in turn
+    assert "other vehicle made the difference" not in turn
     assert "because I had to take the turn" in turn
 
 
@@ -76,7 +138,8 @@ def test_one_cause_needs_no_such_sentence() -> None:
     text = told(LEADER, causation=Causation("one", (2,)))
     assert "enough" not in text
     assert "just as well" not in text
-    assert "no single vehicle" not in text
+    assert "single vehicle" not in text
+    assert "other vehicle" not in text
 
 
 def test_where_the_same_would_be_done_that_is_said() -> None:

@@ -4,12 +4,12 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-import msgspec
 import pytest
 
 from tests.nlg.causal_cases import CHANGED, ends
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import ChoiceReason, SupposedOfUs
+from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.nlg.content.facts import option_message
 from xavi_dialogue.nlg.say import say
@@ -41,13 +41,10 @@ def test_what_came_of_every_sample_is_said_to_be_almost_certain(name, detail, pa
 @pytest.mark.parametrize("name", ["collision", "termination"])
 def test_what_came_of_every_sample_is_as_likely_as_the_model_is_right(name):
     """Of an error of 0.2 each outcome has a quarter: 0.8 + 0.05 is "very likely"."""
-    ending = ends(name, 1.0, 2 if name == "collision" else None)
-    ending = msgspec.structs.replace(
-        ending, outcome=msgspec.structs.replace(ending.outcome, model_error=0.2)
-    )
+    ending = ends(name, calibrated(1.0, 0.2), 2 if name == "collision" else None)
     for answer in (ChoiceReason("why", CHANGED, ending), SupposedOfUs(ending)):
         assert "very likely" in say(answer, CONTEXT).text
-    option = OptionValue("continue", False, name, 1.0, None, None, -5.0, model_error=0.4)
+    option = OptionValue("continue", False, name, calibrated(1.0, 0.4), None, None, -5.0)
     assert "probably" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
 
 

@@ -9,7 +9,9 @@ from tests.nlg import supposed_cases
 from tests.nlg.causal_cases import LATER, effect
 from tests.nlg.scenery import CONTEXT
 from tests.nlg.test_nlg_properties import check
-from xavi_dialogue.domain.answers import Share, SupposedOfUs
+from xavi_dialogue.domain.answers import ChoiceReason, Share, SupposedOfOther, SupposedOfUs
+from xavi_dialogue.domain.reasons import Performed
+from xavi_dialogue.domain.terms import Event, Vehicle
 from xavi_dialogue.nlg.say import say
 
 GOLDEN = Path(__file__).parent / "golden" / "supposed.txt"
@@ -39,3 +41,60 @@ def test_what_decided_against_a_gain_is_told_with_it():
     assert text.endswith("sooner, but it would have taken one more lane change.")
     free = replace(gain, told=(Share("jerk", 2.0),))
     assert "lane change" not in say(SupposedOfUs(free), CONTEXT).text
+
+
+@pytest.mark.parametrize(
+    ("done", "told"),
+    [
+        (Performed("exit-right", "did", 4.0), "That is just what I did: I turned right at 0:04."),
+        (Performed("exit-right", "doing", 4.0), "That is just what I am doing."),
+        (Performed("exit-right", "will"), "That is just what I plan to do: to turn right."),
+    ],
+)
+def test_what_is_done_is_told_alone_and_in_its_tense(done, told):
+    """The whole plan is not told as done: only what is asked about."""
+    plan = replace(LATER, fact=("continue", "exit-right"), foil=(), effects=(), verdict="close")
+    said = say(SupposedOfUs(plan, done=done, past=done.when == "did"), CONTEXT).text
+    assert said.startswith(told)
+    check(said)
+
+
+@pytest.mark.parametrize(
+    ("later", "told"),
+    [
+        (Performed("change-left", "did", 4.0), "I moved to the left lane later at 0:04."),
+        (Performed("change-left", "doing", 4.0), "I am doing so now."),
+        (Performed("change-left", "will"), "I plan to move to the left lane later on."),
+    ],
+)
+def test_what_was_compared_and_done_later_is_told(later, told):
+    for answer in (
+        SupposedOfUs(LATER, later=later),
+        ChoiceReason("why-not", None, LATER, later=later),
+    ):
+        said = say(answer, CONTEXT).text
+        assert told in said
+        check(said)
+        assert told not in say(replace(answer, later=None), CONTEXT).text
+
+
+def test_all_of_whom_it_is_supposed_are_named():
+    one = SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, None, False)
+    alone = say(one, CONTEXT).text
+    both = say(replace(one, others=(1,)), CONTEXT).text
+    assert "vehicle 2" in alone
+    assert "vehicle 1" not in alone
+    assert "vehicle 1" in both
+    assert "vehicle 2" in both
+    brakes = replace(one, supposed=Event("brake", Vehicle(2)), others=(1,))
+    assert "vehicle 1" in say(brakes, CONTEXT).text
+    nobody = say(replace(one, others=(1,), everybody=True), CONTEXT).text
+    assert nobody.startswith("Even if nobody else was around, I would still")
+
+
+def test_who_is_left_out_is_named():
+    one = SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, None, False)
+    said = say(replace(one, left_out=(1,)), CONTEXT).text
+    assert "one vehicle at a time only" in said
+    assert "vehicle 1" in said
+    check(said)

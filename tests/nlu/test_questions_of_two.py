@@ -2,8 +2,19 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, Request, Whether
-from xavi_dialogue.domain.terms import Both, Compares, Described, Exists, Happens, Measured
+from xavi_dialogue.domain.meaning import Ask, Request, WhatIf, Whether
+from xavi_dialogue.domain.terms import (
+    Both,
+    Compares,
+    Described,
+    Exists,
+    Happens,
+    Measured,
+    Not,
+    Pronoun,
+    Vehicle,
+)
+from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.parse import Parser
 
 
@@ -71,3 +82,48 @@ def test_what_a_request_is_for_is_not_asked(parser: Parser) -> None:
     for reading in parser.read("Could you flash your lights so he moves on?"):
         kept = [act for act in reading.acts if not isinstance(act, Request)]
         assert not any(isinstance(act, Ask) for act in kept)
+
+
+def supposed(parser: Parser, text: str) -> object:
+    act = parser.read(text)[0].acts[0]
+    assert isinstance(act, Ask)
+    assert isinstance(act.question, WhatIf)
+    return act.question.supposed
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "What if vehicles 1 and 5 were not there?",
+        "What if vehicle 1 or vehicle 5 was not there?",
+        "What would you do without 1 and 5?",
+        "Without vehicle 1 and vehicle 5?",
+    ],
+)
+def test_all_that_are_supposed_away_are_read(parser: Parser, text: str) -> None:
+    away = Both(tuple(Not(Exists(Vehicle(number))) for number in (1, 5)))
+    assert supposed(parser, text) == away
+
+
+def test_the_conduct_of_each_is_supposed(parser: Parser) -> None:
+    both = supposed(parser, "What if 1 and 5 had driven slower?")
+    assert isinstance(both, Both)
+    events = [part.event for part in both.contents if isinstance(part, Happens)]
+    assert [event.actor for event in events] == [Vehicle(1), Vehicle(5)]
+    assert {event.action for event in events} == {"slow-down"}
+    either = supposed(parser, "What if 1 or 5 had braked?")
+    assert isinstance(either, Both)
+    assert either.join == "or"
+
+
+@pytest.mark.parametrize("who", ["neither of the two", "neither of them", "none of them"])
+def test_none_of_them_is_denied_of_all_of_them(parser: Parser, who: str) -> None:
+    assert supposed(parser, f"And if {who} were there?") == Not(Exists(Pronoun("them-all")))
+
+
+def test_a_plain_question_stands_in_for_no_supposition_of_several() -> None:
+    reading = interpret("what if 1 and 3 had changed lanes")[0]
+    act = reading.acts[0]
+    assert isinstance(act, Ask)
+    assert isinstance(act.question, WhatIf)
+    assert isinstance(act.question.supposed, Both)

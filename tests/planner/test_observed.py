@@ -109,7 +109,7 @@ def test_the_width_of_either_counts() -> None:
 
 
 def test_those_who_stand_come_before_those_who_drive() -> None:
-    speeds = {2: 8.0, 3: 0.0, 4: 1.0, 1: 0.0, 5: 7.0}
+    speeds = {1: 0.0, 2: 8.0, 4: 1.0, 3: 0.0, 5: 7.0}
     places = {2: 90.0, 3: 40.0, 4: 30.0, 1: 20.0, 5: 5.0}
     tracks = [eastward(places[v], [speed], vehicle=v) for v, speed in speeds.items()]
     assert [track.vehicle for track in queued(tracks)] == [3, 4, 1, 2, 5]

@@ -202,8 +202,6 @@ def test_nobody_waits_for_who_comes_later() -> None:
     assert driven.motion[-1, 0] == pytest.approx(alone.motion[-1, 0], abs=0.1)
 
 
-
-
 def test_nobody_changes_lanes_where_people_cross() -> None:
     """Overtaking is for elsewhere."""
     roads = zebra(lanes=2)

@@ -169,7 +169,7 @@ def test_in_a_great_crowd_the_past_of_who_is_not_predicted_goes_first(trace: Pla
     line = tuple((100.0 + k, 200.0) for k in range(n))
     track = Track(2.0, line, (0.0,) * n, tuple(float(k) for k in range(n)), shown)
     far = dict.fromkeys(range(2, 60), track)
-    scene = trace.scene | {name: trace.scene[1] for name in far}
+    scene = trace.scene | dict.fromkeys(far, trace.scene[1])
     crowd = msgspec.structs.replace(trace, scene=scene, history=trace.history | far)
     large = crowded(crowd, 100)
     assert len(encode(large)) > MAX_BYTES

@@ -72,9 +72,7 @@ def walker(
     position = np.array(points)
     steps = np.hypot(*np.diff(position, axis=0).T) / 0.2
     speed = np.concatenate((steps[:1], steps)) if len(points) > 1 else np.zeros(1)
-    return Observed(
-        vehicle, 0.2, 0.5, position, np.full(len(points), heading), speed, kind=kind
-    )
+    return Observed(vehicle, 0.2, 0.5, position, np.full(len(points), heading), speed, kind=kind)
 
 
 def walking(

@@ -20,8 +20,7 @@ edge = "mb"
 position = 80.0
 """
 EGO = (
-    '<vehicle id="ego" depart="0" departPos="10" departSpeed="10">'
-    '<route edges="am mb"/></vehicle>'
+    '<vehicle id="ego" depart="0" departPos="10" departSpeed="10"><route edges="am mb"/></vehicle>'
 )
 
 

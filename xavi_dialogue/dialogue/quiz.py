@@ -81,7 +81,7 @@ def solved(posed: Posed, found: Answer | Refusal, at: float) -> Quiz | None:
             sooner = None if found.contrast is None else _sooner(found.contrast)
             actions = (plan if same else then)[:1]
             return Quiz(posed=posed, at=at, actions=actions, same=same, sooner=sooner)
-        case "sooner", SupposedOfUs(contrast=contrast, done=False):
+        case "sooner", SupposedOfUs(contrast=contrast, done=None):
             sooner = _sooner(contrast)
             arrives = contrast.outcome is not None and contrast.outcome.name == "done"
             return (

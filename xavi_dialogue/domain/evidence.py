@@ -29,14 +29,8 @@ class OutcomeEstimate(Value, frozen=True):
     """The likeliest outcome of a plan."""
 
     name: Outcome
-    probability: float  # among the rollouts
+    probability: float  # as far as the rollouts are to be trusted
     collided_with: int | None = None
-    model_error: float = 0.0  # probability that the rollouts tell nothing of the outcome
-
-    @property
-    def calibrated(self) -> float:
-        """How probable it is, where each outcome is as likely if the rollouts tell nothing."""
-        return calibrated(self.probability, self.model_error)
 
 
 class Effect(Value, frozen=True):
@@ -75,19 +69,25 @@ class Cause(Value, frozen=True):
 
 
 class Causation(Value, frozen=True):
-    """Which vehicles a deed hangs on, tried by planning again without one and without two."""
+    """Which vehicles a deed hangs on, tried by planning again without one, two, and all."""
 
     kind: Literal[
         "one",  # without it the deed would not have come about
         "both",  # each of them had to be there
         "either",  # one of them would have been enough
         "pre-empted",  # the first; had it not been there, the second
-        "none",  # no vehicle and no two of those at work made the difference
+        "several",  # none of them alone, but all of them together
+        "none",  # no vehicle, and not all of them together
         "open",  # that could not be planned
     ]
     vehicles: tuple[int, ...] = ()
     cleared: tuple[int, ...] = ()  # tried, and of no matter
     decides: bool = True  # without them something else is done; else the same, for less of a reason
+
+    @property
+    def jointly(self) -> tuple[int, ...]:
+        """The vehicles that are causes together, or of which each would have been enough."""
+        return self.vehicles if self.kind in ("both", "either", "several") else ()
 
 
 #: What the planner reckons with, in seconds: the components of the reward, what other outcomes cost
@@ -159,6 +159,8 @@ class Contrast(Value, frozen=True):
     error: float = 0.0  # [s] standard error of the difference
     likely: TimeRange | None = None  # None: what was calibrated does not reach this
     route: MacroAction | None = None  # what comes next on our way, where the foil misses it
+    horizon: float | None = None  # [s] that is looked ahead: what takes longer is late
+    exceeds: float | None = None  # [s] by which the one that is surely late takes longer, at least
 
     def __post_init__(self) -> None:
         """Refuse reasons that speak for the other side."""
@@ -172,6 +174,18 @@ class Contrast(Value, frozen=True):
     def value(self) -> float | None:
         """By how much [s] the expected reward of the fact is higher; None: nothing is beside it."""
         return None if self.verdict == "alone" else sum(share.cost for share in self.terms)
+
+    @property
+    def late(self) -> bool:
+        """Whether the foil probably does not arrive within the time that is looked ahead."""
+        return self.outcome is not None and self.outcome.name == "termination"
+
+    @property
+    def spares_delay(self) -> bool:
+        """Whether the foil probably arrives within the time that is looked ahead, the fact not."""
+        arrives = self.outcome is not None and self.outcome.name == "done"
+        late = self.fact_outcome is not None and self.fact_outcome.name == "termination"
+        return arrives and late
 
     @property
     def close(self) -> bool:

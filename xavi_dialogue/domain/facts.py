@@ -111,13 +111,12 @@ class OptionValue(Value, frozen=True):
     action: MacroAction
     chosen: bool
     outcome: Outcome
-    probability: float  # of that outcome, among the rollouts
+    probability: float  # of that outcome, as far as the rollouts are to be trusted
     time: float | None  # [s] expected until the goal, where it gets there
     delta: float | None  # [s] by which it takes longer than what was chosen
     value: float | None  # mean reward
     collision: float = 0.0  # probability of one
     collided_with: int | None = None
-    model_error: float = 0.0  # as of an outcome
 
 
 class Relating(Value, frozen=True):

@@ -28,16 +28,22 @@ class Grounds(Value, frozen=True):
 
 
 class Certainty(Value, frozen=True):
-    """How sure we are of a plan, or that a choice was better than the best alternative."""
+    """How sure we are of a plan, or that a choice was better than what it is compared with.
+
+    Whether the choice was better on the whole is the verdict of its contrast.
+    """
 
     about: Literal["plan", "choice"]
-    share: float  # probability that the plan goes well, or that the choice does better
-    low: float  # that probability is at least this, at 95 %
+    #: Probability that the plan goes well, or that the choice does better; None where only one
+    #: situation came of all guesses, or too few were tried both ways: these show no chance.
+    share: float | None
+    low: float | None  # that probability is at least this, at 95 %
     good: int  # situations in which it does
-    situations: int  # that were tried
+    situations: int  # that were tried, of a choice both ways
     decided: float  # [s]
     evidence: Evidence
     contrast: Contrast | None = None
+    others: int = 0  # vehicles whose conduct was guessed
 
 
 class Method(Value, frozen=True):

@@ -26,6 +26,7 @@ class Why(Value, frozen=True):
     instead: Proposition | None = None  # the contrast: "instead of", "rather than", "and not"
     suspect: Thing | None = None  # "is it the truck?", "because of him?"
     rival: Thing | None = None  # "... or because of the bus?"
+    alone: bool = False  # "only because of him?", "because of him alone?"
 
 
 class WhatIf(Value, frozen=True):

@@ -10,8 +10,17 @@ from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
 
-#: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither.
-Suspected: TypeAlias = Literal["main", "part", "none", "either", "neither"]
+#: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither;
+#: where it is taken for the only one, whether it is ("alone"), or there is more ("beside").
+Suspected: TypeAlias = Literal["main", "part", "none", "either", "neither", "alone", "beside"]
+
+
+class Performed(Value, frozen=True):
+    """That we did something that is asked about, are doing it or plan to do it."""
+
+    action: ActionName
+    when: Literal["did", "doing", "will"]
+    time: float | None = None  # [s] when it was done; None where it is only planned
 
 
 class ChoiceReason(Value, frozen=True):
@@ -25,6 +34,8 @@ class ChoiceReason(Value, frozen=True):
     past: bool = True
     ahead: "MotionCause | None" = None  # who was in the way in the lane that we left, or left alone
     of_causes: bool = False  # it was asked who or what causes it
+    later: Performed | None = None  # "why-not": it was done after that decision, or is planned
+    besides: tuple[int, ...] = ()  # who else is the cause, where the suspect was taken for all
 
 
 class MotionCause(Value, frozen=True):
@@ -82,6 +93,7 @@ class MotionReason(Value, frozen=True):
     halted: float | None = None  # [s] when, while slowing down already, it was decided to stop
     causation: Causation | None = None  # None: nobody was suspected
     of_causes: bool = False  # it was asked who or what causes it
+    besides: tuple[int, ...] = ()  # who else is the cause, where the suspect was taken for all
 
 
 class Bystander(Value, frozen=True):
@@ -171,13 +183,14 @@ class SupposedOfUs(Value, frozen=True):
     """What would have come of another action of the ego."""
 
     contrast: Contrast
-    done: bool = False  # it is just what was done
+    done: Performed | None = None  # it is just what was done, or is planned
     past: bool = True
     asked: ActionName | None = None  # where the foil is only the nearest to it: "brake" for a stop
     form: Asking = "what-if"
     arrival: float | None = None  # [s] when we would be there
     claimed: float | None = None  # [s] what the question takes it to gain or cost
     ahead: MotionCause | None = None  # who stood in the lane that we would have stayed in
+    later: Performed | None = None  # it was done after that decision, or is planned
 
 
 class SupposedOfOther(Value, frozen=True):
@@ -197,6 +210,9 @@ class SupposedOfOther(Value, frozen=True):
     slows: bool | None = None  # we would have to slow down for it, as we do not otherwise
     form: Asking = "what-if"
     arrival: float | None = None  # [s] when we would be there
+    others: tuple[int, ...] = ()  # further vehicles of which the same is supposed
+    left_out: tuple[int, ...] = ()  # vehicles of which something is supposed that could not be
+    everybody: bool = False  # nobody else is supposed to be there
 
 
 class Reaction(Value, frozen=True):

@@ -255,3 +255,12 @@ def test_what_goes_wrong_in_a_world_is_told(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(causes, "draw", broken)
     found = examine((3, "straight", None))
     assert found.error == "ValueError: no such road"
+
+
+def test_where_one_alone_matters_it_is_right_to_tell_of_one_in_any_world() -> None:
+    interactive = KINDS.index("interactive")
+    assert case(interactive, (1,), (1,), told="one").kind_right
+    assert not case(interactive, (1,), (1,), told="both").kind_right
+    assert case(interactive, (1, 2), (1, 2), told="both").kind_right
+    assert not case(interactive, (1, 2), (1, 2), told="one").kind_right
+    assert not case(interactive, (1,), (1,), told="one", refused="trace-gap").kind_right

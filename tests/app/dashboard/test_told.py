@@ -20,6 +20,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Feel, WhatIf, Why
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import Event, Exists, Happens, Not, Vehicle, Vehicles
 
 RESTS = Evidence("tree", 12, 6, ("abc",))
@@ -76,7 +77,11 @@ def test_a_refusal_tells_nothing() -> None:
         (ChoiceReason("why", None, CONTRAST), Ask(Why(CHANGED, instead=STRAIGHT)), "asked"),
         (ChoiceReason("why-not", None, CONTRAST), Ask(Why(Not(STRAIGHT))), "asked"),
         (SupposedOfUs(CONTRAST), Ask(WhatIf(STRAIGHT)), "asked"),
-        (SupposedOfUs(CONTRAST, done=True), Ask(WhatIf(CHANGED)), "instead"),
+        (
+            SupposedOfUs(CONTRAST, done=Performed("change-left", "did")),
+            Ask(WhatIf(CHANGED)),
+            "instead",
+        ),
         (
             SupposedOfOther(1, None, None, (), ("continue",), False, CONTRAST),
             Ask(WhatIf(Not(Exists(Vehicle(1))))),

@@ -51,7 +51,6 @@ class Given:
     relations: Mapping[tuple[Any, ...], Any] = field(default_factory=dict)  # name, thing, to
     beliefs: Mapping[int, Any] = field(default_factory=dict)
     road: Any = None
-    options: tuple[OptionValue, ...] = ()
     traces: tuple[PlanTrace, ...] = ()
     events: tuple[Recorded, ...] = ()
     ended: bool = False
@@ -143,9 +142,6 @@ class Facts(World):
     def belief(self, vehicle: int, at: float) -> Belief | None:
         found: Belief | None = _at(self.given.beliefs.get(vehicle), at)
         return found
-
-    def options(self, at: float) -> tuple[OptionValue, ...]:
-        return self.given.options
 
 
 def _at(found: Any, time: float) -> Any:

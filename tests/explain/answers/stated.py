@@ -14,7 +14,7 @@ from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
 from planner.trace import PlanTrace
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.domain.discourse import GroundedAct, Span
-from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Look, Measure, OptionValue
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Look, Measure
 from xavi_dialogue.domain.meaning import Ask, Doing
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Wanted
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -39,7 +39,6 @@ class Said:
     values: Mapping[tuple[Any, ...], Any] = None  # type: ignore[assignment]  # see `_value`
     beliefs: tuple[Belief, ...] = ()
     road: Any = None  # RoadFacts, or RoadFacts by time
-    options: Any = ()  # of a decision, or by time
     delays: Mapping[str, float] = None  # type: ignore[assignment]  # [s] by action
     motions: Mapping[int, Motion] = None  # type: ignore[assignment]
     begin: float = 0.0
@@ -150,11 +149,6 @@ class StatedWorld(Facts):
         return tuple(
             b for b in self.said.beliefs if b.vehicle == vehicle and begin <= b.time <= end
         )
-
-    def options(self, at: float) -> tuple[OptionValue, ...]:
-        known: Any = self.said.options
-        found: tuple[OptionValue, ...] = known(at) if callable(known) else known
-        return found
 
 
 class Everything(tuple[Any, ...]):

@@ -3,7 +3,6 @@
 from typing import Any
 
 import pytest
-from msgspec.structs import replace
 
 from tests.explain.answers.chosen import chosen
 from tests.explain.answers.stated import (
@@ -47,8 +46,8 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
 )
+from xavi_dialogue.explain.answers import attributes
 from xavi_dialogue.explain.answers.attributes import SPECIAL
-from xavi_dialogue.explain.causes.ranges import table
 
 ONE, TWO = Vehicle(1), Vehicle(2)
 LOOKS = {1: look(1), 2: look(2)}
@@ -83,25 +82,25 @@ def test_of_a_wait_to_come_it_is_told_how_long_we_still_stand() -> None:
     assert values(told(of, motions=DRIVING, traces=traces, episodes=stood)) == [3.0]
 
 
-def test_values_are_those_of_the_decision() -> None:
+def test_values_are_those_of_the_decision(monkeypatch: pytest.MonkeyPatch) -> None:
     def options(t: float) -> Any:
         return (OptionValue("continue", True, "done", 1.0, t, None, -t),)
 
-    def trusted(t: float) -> Any:
-        return tuple(replace(o, model_error=table().model_error) for o in options(t))
-
+    monkeypatch.setattr(attributes, "options_at", lambda _, t: options(t))
     traces = [decision(3.0), decision(15.0)]
     for attribute in ("value", "cost"):
-        found = told(Measured(attribute), traces=traces, options=options)
+        found = told(Measured(attribute), traces=traces)
         assert isinstance(found, Options)
-        assert (found.decided, found.options) == (15.0, trusted(20.0))
+        assert (found.decided, found.options) == (15.0, options(20.0))
         assert found.evidence.method == "tree"
         assert found.evidence.traces == (traces[1].trace_id,)
-        found = told(Measured(attribute, time=At(4.0)), traces=traces, options=options)
-        assert (found.decided, found.options) == (3.0, trusted(4.0))
+        found = told(Measured(attribute, time=At(4.0)), traces=traces)
+        assert (found.decided, found.options) == (3.0, options(4.0))
         lacking = NotRecorded("not-recorded", about=attribute, since=20.0)
-        assert told(Measured(attribute), traces=traces) == lacking
-        assert told(Measured(attribute), options=options) == lacking
+        assert told(Measured(attribute)) == lacking
+        with monkeypatch.context() as nothing:
+            nothing.setattr(attributes, "options_at", lambda *_: ())
+            assert told(Measured(attribute), traces=traces) == lacking
 
 
 def test_comfort_is_that_of_the_ride_or_of_an_event() -> None:

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from tests.explain.answers.stated import aim, decision, look, scene
+from tests.explain.trust import trusted
 from tests.traces import End
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.explain.answers.closeness import closeness, nearest_vehicle, shortest_time
@@ -109,5 +110,5 @@ def test_the_risk_is_that_of_the_plan_at_that_time() -> None:
         (1, Window(6.0, 19.0), False, 0.0),
     ):
         found = closeness(asked, vehicle, about, "safe", past=past)
-        assert found.risk == pytest.approx(risk)
+        assert found.risk == pytest.approx(trusted(risk))
     assert found.vehicle == Vehicle(1).number

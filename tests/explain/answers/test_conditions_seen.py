@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
+from xavi_dialogue.explain.answers import conditions
 from xavi_dialogue.explain.answers.conditions import condition
 
 # --- what is possible ---------------------------------------------------------------------------
@@ -46,11 +47,11 @@ def option(action: Any, time: float = 3.0) -> OptionValue:
     return OptionValue(action, False, "done", 1.0, time, None, -time)
 
 
-def test_what_was_among_the_options_was_possible() -> None:
-    facts: dict[str, Any] = {
-        "traces": [decision(5.0), decision(15.0)],
-        "options": lambda t: (option("continue"), option("change-left", t)),
-    }
+def test_what_was_among_the_options_was_possible(monkeypatch: pytest.MonkeyPatch) -> None:
+    facts: dict[str, Any] = {"traces": [decision(5.0), decision(15.0)]}
+    monkeypatch.setattr(
+        conditions, "options_at", lambda _, t: (option("continue"), option("change-left", t))
+    )
     change = Event("change-lane", side="left", tense="present")
     found = held("possible", of={"event": change}, **facts)
     assert (found.holds, found.facts) == (True, (option("change-left", 20.0),))
@@ -72,7 +73,7 @@ def test_what_was_not_says_why_where_that_is_known() -> None:
     busy = [decision(15.0, under_way="change-left")]
     assert held("possible", of={"event": change}, traces=busy).holds is False
     for of, traces in (({}, busy), ({"event": change}, []), ({"event": Event("brake")}, busy)):
-        found = held("possible", of=of, traces=traces, options=(option("stop"),))
+        found = held("possible", of=of, traces=traces)
         assert (found.holds, found.gap) == (None, "not-recorded")
 
 

@@ -9,6 +9,7 @@ from planner.road import LightChange, PriorityFact, RoadFacts, RoadPlace, RouteS
 from planner.trace import HeldUp
 from tests.explain.answers.asked_facts import told
 from tests.explain.facts.scenes import Actor, made, recorded, shifted, speeds, straight
+from tests.explain.trust import trusted
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.answers import (
     Closeness,
@@ -274,7 +275,7 @@ def test_how_close_it_was_and_whether_it_was_safe() -> None:
     assert close.measures[0].extreme == "lowest"
     safe = told(ride, Whether(Is("safe", Ego(), tense="future")))
     assert isinstance(safe, Closeness)
-    assert (safe.risk, safe.past, safe.asked) == (0.0, False, "safe")
+    assert (safe.risk, safe.past, safe.asked) == (trusted(0.0), False, "safe")
     hit = told(ride, Whether(Happens(Event("collide", Vehicle(1), Ego(), tense="future"))))
     assert (hit.asked, hit.vehicle) == ("hit", 1)
 

@@ -214,7 +214,8 @@ def decided(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """Which premise certainty is asked of; it is of a choice unless a test says otherwise."""
     known: dict[str, Any] = {"choice": True}
 
-    def of_choice(_: Any, found: Premise) -> Any:
+    def of_choice(_: Any, found: Premise, foil: Any = ()) -> Any:
+        known["against"] = foil
         return ("choice", found.trace.sim_time) if known["choice"] else None
 
     monkeypatch.setattr(room.certainty, "of_choice", of_choice)  # type: ignore[attr-defined]
@@ -267,6 +268,7 @@ def test_what_was_not_done_is_asked_of_its_foil(decided: Any) -> None:
     about, foil = decided["foil"]
     assert (about.event, about.names, about.is_past, about.span) == (None, (), True, SAID)
     assert foil == ("change-left",)
+    assert decided["against"] == ("change-left",)  # and not whatever else was best
     room.certain(scene(traces=GROWS), Event("change-left", tense="present"), negated=True)
     assert decided["foil"][0].is_past is False
 

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
 )
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
@@ -31,9 +32,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers import choices
 from xavi_dialogue.explain.answers import own_suppositions as own
+from xavi_dialogue.explain.answers.against import Against
 from xavi_dialogue.explain.answers.asked import Unanswered
+from xavi_dialogue.explain.answers.foils import Did
 from xavi_dialogue.explain.answers.moments import Window
-from xavi_dialogue.explain.causes.contrast import SameAsPlan
 from xavi_dialogue.explain.causes.natural import STAYING
 from xavi_dialogue.explain.causes.premise import Premise
 
@@ -54,18 +56,20 @@ class Setting:
         self.reasons: Any = {}
         for name in ("hastened", "closeness"):
             patch.setattr(own, name, lambda *args, _by=name, **more: Told(_by, args, more))
-        patch.setattr(own, "_against", self._against)
-        patch.setattr(own, "against_best", lambda ride, trace, *node: replace(NOTHING, decided=9.0))
+        patch.setattr(own, "against", self._against)
+        patch.setattr(own, "natural", lambda ride, trace, *node: replace(NOTHING, decided=9.0))
+        self.later: Any = None
+        self.earlier = False
         patch.setattr(choices, "why", self._why)
         self.blocking: Any = None
         patch.setattr(own, "blocking", lambda *args: self.blocking)
 
-    def _against(self, event: Event, scene: Any) -> Contrast:
+    def _against(self, event: Event, scene: Any) -> Against:
         self.events.append(event)
         if isinstance(self.against, Exception):
             raise self.against
-        found: Contrast = self.against
-        return found
+        found = Premise(plan(NOW), None)
+        return Against(found, ("stop",), self.against, self.earlier, self.later)
 
     def _why(self, event: Event, scene: Any) -> Any:
         self.events.append(event)
@@ -160,34 +164,61 @@ def test_a_collision_that_is_supposed_is_told_by_how_close_it_is(setting: Settin
         assert found.more == {"past": False}
 
 
-def test_what_was_planned_anyway_is_told_as_done(setting: Setting) -> None:
-    setting.against = SameAsPlan(scene().ride, plan(9.0), ("exit-right",))
-    found = of_us(TURN, form="safer")
-    assert found == SupposedOfUs(replace(NOTHING, decided=9.0), done=True, past=False, form="safer")
+PLANNED = Performed("exit-right", "will")
+DONE = Performed("exit-right", "did", 9.0)
+
+
+def test_what_was_planned_anyway_is_told_as_planned(setting: Setting) -> None:
+    setting.against = Did(TURN, PLANNED, Premise(plan(9.0), None))
+    found = of_us(replace(TURN, tense="perfect"), form="safer")
+    beside = replace(NOTHING, decided=9.0)
+    assert found == SupposedOfUs(beside, done=PLANNED, past=False, form="safer")
     crash = of_us(TURN, form="crash")
     assert (crash.by, crash.args[1:], crash.more) == (
         "closeness", (1, Window(NOW, NOW), "hit"), {"past": False},
     )  # fmt: skip
 
 
-def test_what_was_done_in_fact_is_told_so(
-    setting: Setting, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    subjects: list[Any] = []
-
-    def premise(ride: Any, subject: Any) -> Premise:
-        subjects.append(subject)
-        return Premise(plan(9.0), None)
-
-    monkeypatch.setattr(own, "premise", premise)
+def test_what_was_done_in_fact_is_told_so(setting: Setting) -> None:
     turned = deed("exit-right", 9.0, 11.0)
-    setting.against = Unanswered(DidNotHappen(TURN, (turned,)))
-    found = of_us(TURN)
-    assert found == SupposedOfUs(replace(NOTHING, decided=9.0), done=True, past=False)
-    assert (subjects[0].event, subjects[0].is_past) == (TURN, True)
+    setting.against = Did(TURN, DONE, Premise(plan(9.0), None), (turned,))
+    assert of_us(TURN) == SupposedOfUs(replace(NOTHING, decided=9.0), done=DONE, past=True)
+    setting.against = Did(TURN, DONE, None, (turned,))  # its decision is not recorded
+    assert refused(of_us, TURN) == DidNotHappen(TURN, (turned,))
     for refusal in (DidNotHappen(TURN), NotApplicable((), "no road")):
         setting.against = Unanswered(refusal)
         assert refused(of_us, TURN) == refusal
+
+
+def test_stopping_is_not_told_beside_what_was_done(
+    setting: Setting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stops = replace(NOTHING, foil=("stop",))
+    monkeypatch.setattr(own, "natural", lambda *args: stops)
+    monkeypatch.setattr(own, "factual", lambda model, trace: "fact")
+    monkeypatch.setattr(own, "alone", lambda ride, model, here: replace(NOTHING, decided=4.0))
+    setting.against = Did(TURN, DONE, Premise(plan(9.0), None))
+    assert of_us(TURN).contrast == replace(NOTHING, decided=4.0)
+    halt = Performed("stop", "did", 9.0)
+    setting.against = Did(Event("stop"), halt, Premise(plan(9.0), None))
+    assert of_us(Event("stop")).contrast == stops
+
+
+def test_when_it_was_compared_and_done_later_is_told(setting: Setting) -> None:
+    setting.later = DONE
+    assert of_us(TURN).later == DONE
+    setting.earlier = True
+    assert of_us(TURN).past is True  # it is too late by now
+
+
+def test_braking_that_was_done_just_then_is_no_foil(setting: Setting) -> None:
+    braked = deed("brake", 15.0, 16.0)
+    found = refused(of_us, Event("brake", tense="perfect"), deeds=(braked,))
+    assert found == DidNotHappen(Event("brake", tense="perfect"), (braked,))
+    harder = Event("brake", tense="perfect", manner=("hard",))
+    for event in (harder, Event("brake", tense="present")):
+        assert isinstance(of_us(event, deeds=(braked,)), SupposedOfUs)
+    assert isinstance(of_us(Event("brake"), deeds=(deed("brake", 2.0, 3.0),)), SupposedOfUs)
 
 
 # --- staying behind -----------------------------------------------------------------------------

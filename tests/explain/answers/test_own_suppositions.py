@@ -4,13 +4,11 @@ from typing import Any
 
 import pytest
 
-from tests.explain.answers.given import NOW, Given, plan, refused
+from tests.explain.answers.given import NOW
 from xavi_dialogue.domain.answers import (
     Contrast,
     Evidence,
     Measures,
-    NeedRollout,
-    NotApplicable,
     SupposedOfUs,
 )
 from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether
@@ -25,8 +23,6 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.explain.answers import own_suppositions as own
-from xavi_dialogue.explain.answers.asked import Unanswered
-from xavi_dialogue.explain.causes.premise import Premise
 
 ONE = Vehicle(1)
 SPEED = Measured("speed")
@@ -113,57 +109,3 @@ def test_a_gain_that_is_claimed_is_held_against_what_it_would_be() -> None:
 )
 def test_being_faster_is_read_as_driving_so(of: Any, event: Any) -> None:
     assert own.paced(of) == event
-
-
-# --- where it could have been begun -------------------------------------------------------------
-
-TURN = Event("exit-right", tense="present")
-
-
-class Tries:
-    """A foil that is compared at the decisions of some times [s] alone."""
-
-    def __init__(self, patch: pytest.MonkeyPatch, at: Any, node: Any = (), why: Any = None) -> None:
-        self.at, self.why = at, why or NotApplicable(("exit-right",), "it is too late")
-        last = plan(18.0)
-        patch.setattr(own, "foil_at", lambda *_: (Premise(last, None, node), ("exit-right",)))
-        patch.setattr(own, "contrast", self.contrast)
-        patch.setattr(own, "is_open", lambda ride, trace, foil: trace.sim_time != 16.0)
-        patch.setattr(own, "on_way", lambda trace, found, node: (trace.sim_time, found, node))
-
-    def contrast(self, ride: Any, trace: Any, foil: Any, node: Any = ()) -> Any:
-        assert foil == ("exit-right",)
-        if trace.sim_time not in self.at:
-            raise Unanswered(self.why)
-        return "compared", trace.sim_time, node
-
-
-TIMES = (9.0, 10.0, 14.0, 15.0, 16.0, 18.0)
-
-
-def against(*turning: float) -> Any:
-    plans = (plan(t, *(("exit-right",) if t in turning else ("continue",))) for t in TIMES)
-    return own._against(TURN, Given(traces=tuple(plans)).asked())
-
-
-def test_a_foil_is_tried_at_its_decision(monkeypatch: pytest.MonkeyPatch) -> None:
-    Tries(monkeypatch, at=(18.0,), node=("stop",))
-    assert against() == (18.0, ("compared", 18.0, ("stop",)), ("stop",))
-
-
-def test_what_came_too_late_is_tried_where_it_could_be_begun_last(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    Tries(monkeypatch, at=TIMES[:-1])
-    assert against() == (15.0, ("compared", 15.0, ()), ())  # at 16 s it was not open
-    assert against(15.0) == (14.0, ("compared", 14.0, ()), ())  # there it was planned
-    assert against(14.0, 15.0) == (10.0, ("compared", 10.0, ()), ())  # 8 s before
-    nothing = refused(against, 10.0, 14.0, 15.0)
-    assert nothing == NotApplicable(("exit-right",), "it is too late")
-
-
-def test_only_what_did_not_apply_is_tried_earlier(monkeypatch: pytest.MonkeyPatch) -> None:
-    Tries(monkeypatch, at=TIMES[:-1], node=("stop",))
-    assert isinstance(refused(against), NotApplicable)
-    Tries(monkeypatch, at=TIMES[:-1], why=NeedRollout("trace"))
-    assert refused(against) == NeedRollout("trace")

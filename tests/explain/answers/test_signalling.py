@@ -23,7 +23,6 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.explain.answers import reasons, risks, signalling, supposing, wavering
-from xavi_dialogue.explain.causes.ranges import table
 
 LEFT, RIGHT = (
     deed("signal", 5.0, 9.0, side="left"),
@@ -212,7 +211,7 @@ def test_whom_an_option_would_have_struck_is_counted_in_its_drives(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found = what_if(monkeypatch)
-    wanted = option(TURN, collided_with=2, model_error=table().model_error)
+    wanted = option(TURN, collided_with=2)
     assert found == Options((wanted,), NOW, Evidence(rollouts=7), risk=True, hits=3, drives=4)
     assert what_if(monkeypatch, known=3).options[0].collided_with == 3
     none = what_if(monkeypatch, struck=(None,))

@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Related,
 )
 from xavi_dialogue.explain.answers import reacting, supposing
+from xavi_dialogue.explain.answers.jointly import is_absence
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.reading import unwrapped
 
@@ -34,7 +35,7 @@ def setting(monkeypatch: pytest.MonkeyPatch) -> Setting:
 
 def test_without_a_vehicle_it_is_planned_again(setting: Setting) -> None:
     found = what_if(GONE)
-    assert (setting.found[0].by, setting.found[0].args) == ("without", (1, NOW))
+    assert (setting.found[0].by, setting.found[0].args) == ("without", ((1,), NOW))
     assert (found.vehicle, found.supposed, found.negated, found.past) == (1, None, False, False)
     assert (found.prior, found.plan, found.then, found.same) == (
         0.3,
@@ -45,7 +46,7 @@ def test_without_a_vehicle_it_is_planned_again(setting: Setting) -> None:
     assert (found.contrast, found.arrival, found.slows, found.still) == (LATER, 54.0, None, None)
     assert found.form == "what-if"
     past = what_if(Not(Exists(ONE, tense="past")), Whether(did("stop", Ego())))
-    assert (past.past, setting.found[1].args) == (True, (1, 12.0))
+    assert (past.past, setting.found[1].args) == (True, ((1,), 12.0))
 
 
 @pytest.mark.parametrize(
@@ -59,6 +60,8 @@ def test_without_a_vehicle_it_is_planned_again(setting: Setting) -> None:
         (Not(Related("near", ONE)), True),
         (Related("near", ONE), False),
         (Not(did("appear")), True),
+        (Is("hidden", ONE), True),
+        (Not(Is("hidden", ONE)), False),
         (did("appear"), False),
         (did("disappear"), True),
         (did("stop"), False),
@@ -67,7 +70,7 @@ def test_without_a_vehicle_it_is_planned_again(setting: Setting) -> None:
 )
 def test_what_means_that_a_vehicle_is_not_there(of: Any, absent: bool) -> None:
     plain, negated = unwrapped(of)
-    assert supposing._is_absence(plain, negated=negated) is absent
+    assert is_absence(plain, negated=negated) is absent
 
 
 def test_what_another_does_is_planned_with_its_conduct(setting: Setting) -> None:

@@ -42,9 +42,11 @@ def test_the_foil_of_ours_is_compared_with_the_plan() -> None:
 
 
 def test_what_was_done_is_told_as_done() -> None:
-    found = told(recorded("s1-0"), WhatIf(Happens(Event("change-lane", side="left"))), 8.0)
+    changed = Event("change-lane", side="left", tense="perfect")
+    found = told(recorded("s1-0"), WhatIf(Happens(changed)), 8.0)
     assert isinstance(found, SupposedOfUs)
-    assert found.done
+    assert found.done is not None
+    assert (found.done.action, found.done.when) == ("change-left", "did")
 
 
 def test_without_another_it_is_planned_again() -> None:

@@ -17,6 +17,7 @@ from tests.explain.answers.stated import (
     thoughts,
 )
 from tests.explain.answers.test_beliefs import ONE, STEADY, TURN, sure
+from tests.explain.trust import trusted
 from tests.traces import End
 from xavi_dialogue.domain.answers import Beliefs, Closeness, NoSuchVehicle, NotRecorded, Priority
 from xavi_dialogue.domain.terms import (
@@ -78,9 +79,9 @@ def test_a_collision_of_ours_is_its_chance_under_the_plan() -> None:
 
     traces = [decision(5.0), decision(15.0, aims=aims, ends={("continue",): crash})]
     found = sure(Happens(Event("collide", tense="future")), traces=traces)
-    assert (found.holds, found.probability) == (None, pytest.approx(0.3))
+    assert (found.holds, found.probability) == (None, pytest.approx(trusted(0.3)))
     found = sure(Happens(Event("collide", time=At(8.0))), traces=traces)
-    assert found.probability == 0.0
+    assert found.probability == trusted(0.0)
 
 
 def test_what_we_mean_to_do_is_as_sure_as_the_plan() -> None:

@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.chosen import (
     LEFT,
@@ -19,13 +20,10 @@ from xavi_dialogue.domain.answers import (
     MotionCause,
     MotionReason,
 )
-from xavi_dialogue.domain.evidence import Share
+from xavi_dialogue.domain.evidence import Causation, Share
 from xavi_dialogue.domain.terms import Event, Exit, Related
-from xavi_dialogue.explain.answers.choices import (
-    is_choice,
-    is_kept_from,
-    with_suspect,
-)
+from xavi_dialogue.explain.answers.choices import is_choice, is_kept_from
+from xavi_dialogue.explain.answers.suspects import with_suspect
 
 # --- names --------------------------------------------------------------------------------------
 
@@ -128,3 +126,46 @@ def test_of_two_suspects_the_one_that_is_more_of_a_cause_is_told() -> None:
 def test_where_a_collision_does_not_decide_whom_it_would_be_with_is_no_cause() -> None:
     found = of_choice(2, hit=None)
     assert with_suspect(found, 1).suspected == "none"  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    ("kind", "vehicles", "part", "besides"),
+    [
+        ("one", (1,), "alone", ()),
+        ("pre-empted", (1, 2), "alone", ()),
+        ("both", (1, 2), "beside", (2,)),
+        ("either", (2, 1), "beside", (2,)),
+        ("several", (1, 2, 5), "beside", (2, 5)),
+        ("open", (), "main", ()),
+        ("one", (3,), "none", ()),
+    ],
+)
+@pytest.mark.parametrize("choice", [True, False])
+def test_who_is_taken_for_the_only_cause_is_held_against_planning_again(
+    choice: bool, kind: Any, vehicles: tuple[int, ...], part: str, besides: tuple[int, ...]
+) -> None:
+    known = vehicles[:1] or (1,)  # the other is told of by planning again alone
+    found: Any = of_choice(*known) if choice else of_motion(*known)
+    causation = Causation(kind, vehicles)
+    if choice:
+        found = replace(found, contrast=replace(found.contrast, causation=causation))
+    else:
+        found = replace(found, causation=causation)
+    told_: Any = with_suspect(found, 1, alone=True)
+    assert (told_.suspect, told_.suspected, told_.besides) == (1, part, besides)
+    plain: Any = with_suspect(found, 1)
+    assert plain.suspected in ("main", "part", "none")
+    assert plain.besides == ()
+
+
+def test_a_turn_is_a_reason_beside_the_vehicle_that_is_taken_for_the_only_one() -> None:
+    turn = replace(of_motion(1), causation=Causation("one", (1,)))
+    turn = replace(turn, causes=(*turn.causes, MotionCause("turn")))
+    told_: Any = with_suspect(turn, 1, alone=True)
+    assert (told_.suspected, told_.besides) == ("beside", ())
+
+
+def test_one_that_matters_by_what_it_makes_another_do_is_part_of_it() -> None:
+    found = replace(of_motion(2), causation=Causation("both", (2, 1)))
+    told_: Any = with_suspect(found, 1)
+    assert told_.suspected == "part"

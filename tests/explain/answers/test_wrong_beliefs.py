@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from tests.explain.answers.stated import aim, belief, decision, look, scene, they
 from tests.explain.answers.test_foreseen import ONE
+from tests.explain.trust import trusted
 from tests.traces import End
 from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.explain.answers.foreseen import (
@@ -33,14 +34,14 @@ def risky(plan: Any = ("continue",)) -> Any:
 
 def test_the_chance_of_a_collision_is_that_under_the_plan() -> None:
     asked = scene(traces=[decision(5.0), risky()])
-    assert collision_chance(asked, 20.0) == pytest.approx(0.3)
-    assert collision_chance(asked, 20.0, 1) == pytest.approx(0.3)
-    assert collision_chance(asked, 20.0, 2) == 0.0
-    assert collision_chance(asked, 7.0) == 0.0
+    assert collision_chance(asked, 20.0) == pytest.approx(trusted(0.3))
+    assert collision_chance(asked, 20.0, 1) == pytest.approx(trusted(0.3))
+    assert collision_chance(asked, 20.0, 2) == trusted(0.0)
+    assert collision_chance(asked, 7.0) == trusted(0.0)
     assert collision_chance(asked, 4.0) is None
     for action in ("collide", "nearly-collide"):
         found = chance(asked, Event(action, ONE), 20.0)
-        assert found == pytest.approx(0.3)
+        assert found == pytest.approx(trusted(0.3))
 
 
 def test_where_the_whole_plan_was_not_tried_its_beginning_tells() -> None:
@@ -48,7 +49,7 @@ def test_where_the_whole_plan_was_not_tried_its_beginning_tells() -> None:
     short = replace(
         trace, rollouts=tuple(replace(r, actions=r.actions[:1]) for r in trace.rollouts)
     )
-    assert collision_chance(scene(traces=[short]), 20.0) == pytest.approx(0.3)
+    assert collision_chance(scene(traces=[short]), 20.0) == pytest.approx(trusted(0.3))
     untried = replace(trace, rollouts=())
     assert collision_chance(scene(traces=[untried]), 20.0) is None
 

@@ -75,6 +75,42 @@ def test_where_nothing_helps_nobody_is_the_cause() -> None:
     assert set(found.cleared) >= {1, 2}
 
 
+def test_where_no_two_are_enough_all_of_them_may_be_together() -> None:
+    trial, tried = trying(lambda without: without >= {1, 2, 3})
+    found = actual_causes((1, 2, 3), (), trial, everybody=(3, 2, 1))
+    assert (found.kind, found.vehicles, found.cleared) == ("several", (1, 2, 3), ())
+    assert tried[-1] == (1, 2, 3)
+
+
+def test_those_at_work_are_named_where_they_are_enough_else_all_that_are_there() -> None:
+    trial, _ = trying(lambda without: without >= {1, 2, 3})
+    found = actual_causes((3, 1, 2), (), trial, everybody=(1, 2, 3, 4, 5))
+    assert (found.kind, found.vehicles) == ("several", (1, 2, 3))
+    trial, _ = trying(lambda without: without >= {1, 2, 3, 4})
+    found = actual_causes((3, 1, 2), (), trial, everybody=(1, 2, 3, 4, 5))
+    assert (found.kind, found.vehicles) == ("several", (1, 2, 3, 4, 5))
+    found = actual_causes((1,), (), trial, everybody=(1, 2, 3, 4, 5))
+    assert (found.kind, found.vehicles, found.cleared) == ("several", (1, 2, 3, 4, 5), ())
+
+
+def test_where_it_is_so_without_all_others_too_it_was_none_of_them() -> None:
+    trial, tried = trying(lambda without: False)
+    found = actual_causes((1,), (), trial, everybody=(1, 2, 3))
+    assert (found.kind, found.vehicles, found.cleared) == ("none", (), (1,))
+    assert tried == [(1,), (1, 2, 3)]
+    trial, _ = trying(lambda without: None if len(without) == 3 else False)
+    assert actual_causes((1,), (), trial, everybody=(1, 2, 3)).kind == "open"
+
+
+def test_where_there_are_but_two_all_of_them_are_a_pair() -> None:
+    trial, _ = trying(lambda without: without >= {1, 2})
+    found = actual_causes((1,), (), trial, everybody=(1, 2))
+    assert (found.kind, found.vehicles) == ("pre-empted", (1, 2))
+    trial, _ = trying(lambda without: 2 in without)
+    found = actual_causes((1,), (), trial, everybody=(1, 2))
+    assert (found.kind, found.vehicles, found.cleared) == ("one", (2,), (1,))
+
+
 def test_what_could_not_be_planned_stays_open() -> None:
     trial, _ = trying(lambda without: None if 1 in without else False)
     found = actual_causes((1, 2), (), trial)
@@ -93,8 +129,8 @@ def test_what_is_named_is_a_smallest_set_and_trials_are_few(
     names = data.draw(st.permutations(range(1, 6)))
     count = data.draw(st.integers(1, 5))
     trial, tried = trying(gone)
-    found = actual_causes(names[:count], names[count:], trial)
-    assert len(tried) == len(set(tried)) <= SINGLES + 2 * PAIRS
+    found = actual_causes(names[:count], names[count:], trial, everybody=names)
+    assert len(tried) == len(set(tried)) <= SINGLES + 2 * PAIRS + 2
     assert not set(found.vehicles) & set(found.cleared)
     assert not any(gone(frozenset((one,))) for one in found.cleared)
     if found.kind in ("one", "both"):
@@ -102,8 +138,12 @@ def test_what_is_named_is_a_smallest_set_and_trials_are_few(
     elif found.kind in ("either", "pre-empted"):
         assert gone(frozenset(found.vehicles))
         assert not any(gone(frozenset((one,))) for one in found.vehicles)
+    elif found.kind == "several":
+        assert gone(frozenset(found.vehicles))
+        assert not any(gone(frozenset((one,))) for one in names[: min(count, SINGLES)])
     else:
         assert found.vehicles == ()
+        assert not gone(frozenset(names))
 
 
 @pytest.mark.parametrize("order", [(1, 2), (2, 1)])

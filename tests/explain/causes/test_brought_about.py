@@ -97,6 +97,15 @@ def test_whom_another_one_has_pulled_out_for(
     assert {v: t.sim_time for v, t in told.items()} == found
     stays = pulling(5.0, lanes, 0.0, who)
     assert holders(ride(before, stays), stays, who) == {}
+    long_ago = pulling(17.0, {**lanes, who: 1}, 0.0, who)
+    assert holders(ride(before, long_ago), long_ago, who) == {}
+
+
+def test_whom_another_one_is_about_to_pull_out_for() -> None:
+    lanes = {1: 0, 2: 0}
+    before, now = pulling(4.0, lanes, 0.9), pulling(5.0, lanes, 0.9)
+    told = holders(ride(before, now), now, 1)
+    assert {v: t.sim_time for v, t in told.items()} == {2: 4.0}
 
 
 # Planning again ----------------------------------------------------------------------------
@@ -110,16 +119,23 @@ def slowed(
     behind: int | None = None,
     at: float = 4.0,
     seconds: float = 20.0,
+    leaving: float = 0.0,
+    lanes: Mapping[int, int] | None = None,
 ) -> PlanTrace:
     """Going on at such a speed in the end, with who is in the way; to the left one is hit.
 
-    The first vehicle may be held up itself, by the one `behind` it all.
+    The first vehicle may be held up itself, by the one `behind` it all, and may be expected to
+    leave its lane with a probability `leaving`.
     """
     wait = () if behind is None else (in_the_way(behind, at, at + 2.0),)
     aims = {
         v: (Aim("continue", 1.0, (Way(("continue",), held_up=wait if v == 1 else ()),)),)
         for v in vehicles
     }
+    if leaving:
+        away = Aim("continue", leaving, (Way(("change-left", "continue")),))
+        aims[1] = (away, Aim("stop", 1.0 - leaving, (Way(("continue",)),)))
+    places = {v: RoadPlace("a", n, 2, 14.0, False, False) for v, n in (lanes or {}).items()}
     plans: list[Actions] = [("continue",)] if hit is None else [("continue",), ("change-left",)]
     ends = {
         "continue": End(
@@ -128,7 +144,8 @@ def slowed(
         "change-left": End("collision", collided_with=hit),
     }
     line = steady(*[10.0] * 5, *[speed] * 60)
-    return decided(ends, aims, plans, lines={"continue": line}, time=at)
+    road = RoadFacts(places) if places else None
+    return decided(ends, aims, plans, lines={"continue": line}, time=at, road=road)
 
 
 def again(trace: PlanTrace, *gone: int) -> PlanTrace:
@@ -190,3 +207,25 @@ def test_who_made_another_one_wait_matters_too(then: float, alone: float, kind: 
     assert found.causation.kind == kind
     assert found.causation.vehicles == ((1, 2) if kind == "both" else (1,))
     assert [c.vehicle for c in found.causes] == [1]  # the other is not in our own way
+
+
+@pytest.mark.parametrize(
+    ("chance", "then", "kind"), [(0.9, 0.0, "both"), (0.9, 0.6, "one"), (0.4, 0.0, "one")]
+)
+def test_for_whom_one_ahead_has_pulled_out_matters_too(
+    chance: float, then: float, kind: str
+) -> None:
+    """It cost little when it was foreseen; without it the one ahead would have kept its lane."""
+    before, now = {1: 0, 2: 0}, {1: 1, 2: 0}
+    found = judged(
+        [
+            slowed(5.0, 1, 2, at=3.0, leaving=chance, lanes=before),
+            slowed(5.0, 1, 2, by=(1,), lanes=now),
+        ],
+        again(slowed(10.0, 2), 1),
+        again(slowed(5.0, 1, at=3.0, leaving=then, lanes={1: 0}), 2),
+        again(slowed(10.0, at=3.0), 1, 2),
+    )
+    assert found.causation is not None
+    assert found.causation.kind == kind
+    assert found.causation.vehicles == ((1, 2) if kind == "both" else (1,))

@@ -8,8 +8,11 @@ from msgspec.structs import replace
 
 from planner.trace import PlanTrace, TimedAction
 from tests.explain.causes.decisions import decided, ride
+from tests.explain.trust import ERROR, trusted
 from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.explain.causes.certainty import at_least, of_choice, of_plan
+from xavi_dialogue.explain.causes.contrast import contrast
+from xavi_dialogue.explain.causes.natural import natural
 from xavi_dialogue.explain.causes.options import free, situations, weighed
 from xavi_dialogue.explain.causes.premise import Premise
 from xavi_dialogue.explain.history.ride import Ride
@@ -43,19 +46,19 @@ def sure(bad: str, mass: float = 0.2) -> Ride:
 
 
 @pytest.mark.parametrize(
-    ("bad", "good", "share", "low"),
+    ("bad", "good", "share"),
     [
-        ("dead", 1, 0.8, 0.8),
-        ("collision", 1, 0.8, 0.8),
-        ("termination", 2, 1.0, 0.99),  # who is late is still on the way; never wholly sure
+        ("dead", 1, 0.8),
+        ("collision", 1, 0.8),
+        ("termination", 2, 1.0),  # who is late is still on the way
     ],
 )
-def test_how_sure_a_plan_goes_well(bad: str, good: int, share: float, low: float) -> None:
+def test_how_sure_a_plan_goes_well(bad: str, good: int, share: float) -> None:
     whole = sure(bad)
     found = of_plan(whole, Premise(whole.latest, None))
     assert (found.about, found.good, found.situations) == ("plan", good, 2)
-    assert found.share == approx(share)
-    assert found.low == approx(low)
+    assert found.share == approx(trusted(share) + trusted(0.0))  # of two outcomes of four
+    assert found.low == approx((1.0 - ERROR) * min(share, 0.99))
     assert found.decided == 4.0
 
 
@@ -84,25 +87,69 @@ def test_how_sure_a_choice_is_the_better_one(
     found = of_choice(ride(trace), Premise(trace, None))
     assert found is not None
     assert (found.about, found.good, found.situations) == ("choice", good, 3)
-    assert found.share == approx(share)
-    assert found.low == approx(min(share, 0.99))
+    assert found.share == approx((1.0 - ERROR) * share + ERROR / 2.0)
+    assert found.low == approx((1.0 - ERROR) * min(share, 0.99))
     assert found.contrast is not None
     assert found.contrast.foil == ("change-left",)
 
 
-def test_choices_that_were_not_tried_alike_are_not_compared() -> None:
+def test_choices_that_were_not_tried_alike_have_no_chance() -> None:
     trace = beating(1.0, 1.0, 1.0)
     left = tuple(r for r in trace.rollouts if r.actions[0].action != "change-left" or r.index == 3)
-    apart = tuple(r for r in left if not (r.actions[0].action == "continue" and r.index == 0))
     part = replace(trace, rollouts=left)
     found = of_choice(ride(part), Premise(part, None))
     assert found is not None
-    assert found.situations == 1  # half of what is possible was tried with both
-    none = replace(trace, rollouts=apart)
-    assert of_choice(ride(none), Premise(none, None)) is None
+    assert (found.situations, found.share, found.low) == (1, None, None)
     only = decided({"continue": End()}, plans=[("continue",)])
     assert of_choice(ride(only), Premise(only, None)) is None
     assert of_choice(ride(trace), Premise(trace, None, ("continue",))) is None
+
+
+def test_one_situation_shows_no_chance() -> None:
+    """Every guess came to the same one, however often it was drawn."""
+    trace = decided({"continue": End(time=10.0), "change-left": End(time=12.0)}, plans=THREE[:2])
+    trace = replace(trace, rollouts=trace.rollouts * 20)
+    chosen = of_choice(ride(trace), Premise(trace, None))
+    assert chosen is not None
+    assert (chosen.good, chosen.situations, chosen.share, chosen.low) == (1, 1, None, None)
+    assert chosen.evidence.distinct_samples == 1
+    plan = of_plan(ride(trace), Premise(trace, None))
+    assert (plan.good, plan.situations, plan.share, plan.low) == (1, 1, None, None)
+
+
+@pytest.mark.parametrize(
+    ("gains", "verdict"),
+    [
+        ((1.0, 1.0, 1.0), "better"),
+        ((0.06, 0.06, 0.06), "close"),  # better in all situations, and hardly so
+        ((-1.0, -1.0, -1.0), "worse"),
+        ((-9.0, 1.0, 1.0), "worse"),
+    ],
+)
+def test_how_sure_a_choice_is_agrees_with_its_reason(
+    gains: tuple[float, ...], verdict: str
+) -> None:
+    trace = beating(*gains)
+    whole, premise = ride(trace), Premise(trace, None)
+    found = of_choice(whole, premise)
+    assert found is not None
+    assert found.contrast == natural(whole, trace)
+    assert found.contrast.verdict == verdict
+    named = of_choice(whole, premise, ("change-left",))
+    assert named is not None
+    assert named.contrast == contrast(whole, trace, ("change-left",))
+
+
+def test_never_more_than_the_model_and_the_situations_bear() -> None:
+    """Two of three situations, of 0.8, were tried both ways; both came out better."""
+    trace = beating(1.0, 1.0, 1.0)
+    part = replace(trace, rollouts=tuple(r for r in trace.rollouts if r.samples[0].trajectory < 2))
+    found = of_choice(ride(part), Premise(part, None))
+    assert found is not None
+    assert (found.good, found.situations) == (2, 2)
+    rest = 2.5 / 3.0  # of what was not tried, by Jeffreys' prior
+    assert found.share == approx((1.0 - ERROR) * (0.8 + 0.2 * rest) + ERROR / 2.0)
+    assert found.low == approx((1.0 - ERROR) * 0.8)
 
 
 def test_options_are_weighed_as_the_planner_does() -> None:
@@ -119,7 +166,7 @@ def test_options_are_weighed_as_the_planner_does() -> None:
     assert left.value == approx(-9.0)  # two seconds less
     assert (left.time, left.delta) == (approx(10.0), approx(-2.0))
     assert (going.time, going.delta) == (approx(12.0), None)
-    assert (stop.outcome, stop.collision, stop.collided_with) == ("done", 0.0, None)
+    assert (stop.outcome, stop.collision, stop.collided_with) == ("done", trusted(0.0), None)
     assert weighed(ride(chosen), Premise(chosen, None, ("continue",))) == ()
     deep = weighed(ride(trace), Premise(plain(("change-left", "continue")), None, ("change-left",)))
     assert [r.action for r in deep] == ["continue"]
@@ -134,7 +181,8 @@ def test_an_option_that_crashes() -> None:
     }
     trace = decided(ends)
     rows = {r.action: r for r in weighed(ride(trace), Premise(trace, None))}
-    assert (rows["change-left"].collision, rows["change-left"].collided_with) == (1.0, 1)
+    left = rows["change-left"]
+    assert (left.collision, left.collided_with) == (approx(trusted(1.0)), 1)
     assert (rows["change-left"].time, rows["change-left"].delta) == (None, None)
     assert (rows["stop"].outcome, rows["stop"].probability) == ("dead", 1.0)
 

@@ -10,6 +10,7 @@ from planner.events import Event as Told
 from planner.road import RoadFacts, RoadPlace, RouteStep
 from planner.trace import NotApplicable, Outcome, PlanTrace, TimedAction
 from tests.explain.causes.decisions import decided, ride
+from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way
 from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.domain import answers
@@ -149,8 +150,8 @@ def test_a_contrast_tells_both_sides() -> None:
         ("change-left",),
         ("continue",),
     )
-    assert found.collision == approx(0.3)
-    assert (found.fact_collision, found.collided_with) == (0.0, 1)
+    assert found.collision == approx(trusted(0.3))
+    assert (found.fact_collision, found.collided_with) == (trusted(0.0), 1)
     assert [c.vehicle for c in found.causes] == [1]
     assert (found.verdict, found.decided) == ("better", 4.0)
     assert found.aim is not None

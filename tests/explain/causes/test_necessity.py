@@ -39,6 +39,17 @@ def without_vehicle_1(best: str, *, others_are_slow: bool) -> PlanTrace:
     return replace(trace_of(alone, draws=24), what_if=WhatIf(removed=1))
 
 
+def cleared() -> tuple[PlanTrace, ...]:
+    """The decision taken again without each of the two, and without both: always the same."""
+    alone = without_vehicle_1("change-left", others_are_slow=True)
+    gone = (WhatIf(removed=1), WhatIf(removed=2), WhatIf(removed=(1, 2)))
+    scenes = ({0, 2}, {0, 1}, {0})
+    return tuple(
+        replace(alone, what_if=one, scene={v: DECISION.scene[v] for v in sorted(scene)})
+        for one, scene in zip(gone, scenes, strict=True)
+    )
+
+
 def test_the_planner_is_asked_first_and_only_for_the_vehicle_that_is_blamed() -> None:
     assert asked(WHY) == NEED
 
@@ -51,15 +62,17 @@ def test_what_makes_the_choice_is_necessary() -> None:
 
 
 def test_what_another_would_do_as_well_is_no_cause_and_is_cleared() -> None:
-    found = asked(WHY, without_vehicle_1("change-left", others_are_slow=True))
+    found = asked(WHY, *cleared())
     assert isinstance(found, ChoiceReason)
     assert found.contrast.causes == ()
-    assert found.contrast.cleared == (1,)
+    assert found.contrast.cleared == (1, 2)
+    assert found.contrast.causation is not None
+    assert found.contrast.causation.kind == "none"
 
 
 def test_a_suspect_that_is_cleared_is_no_part_of_it() -> None:
     question = replace(WHY, suspect=Vehicle(1))
-    found = asked(question, without_vehicle_1("change-left", others_are_slow=True))
+    found = asked(question, *cleared())
     assert isinstance(found, ChoiceReason)
     assert (found.suspect, found.suspected) == (1, "none")
     found = asked(question, without_vehicle_1("continue", others_are_slow=False))

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from planner.road import RoadFacts, RoadPlace, RouteStep
 from planner.trace import HeldUp, NotApplicable, PlanTrace, WhatIf
 from tests.explain.causes.decisions import decided, ride, steady
+from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way
 from xavi_dialogue.domain import answers
 from xavi_dialogue.domain.answers import NeedRollout
@@ -124,9 +125,9 @@ def test_who_is_hit_most_often_is_named() -> None:
     trace = decided(ends, aims, THREE[:2])
     needs = tuple(NeedRollout(trace_id=trace.trace_id, removed=gone) for gone in (1, 2, (1, 2)))
     found = contrast(ride(trace, refused=needs), trace, ("change-left",))
-    assert (found.collision, found.collided_with) == (approx(1.0), 2)
+    assert (found.collision, found.collided_with) == (approx(trusted(1.0)), 2)
     assert found.outcome is not None
-    assert (found.outcome.name, found.outcome.probability) == ("collision", approx(1.0))
+    assert (found.outcome.name, found.outcome.probability) == ("collision", approx(trusted(1.0)))
     assert found.outcome.collided_with == 2
     rows = {r.action: r for r in weighed(ride(trace), Premise(trace, None))}
     assert rows["change-left"].collided_with == 2

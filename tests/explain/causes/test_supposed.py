@@ -19,6 +19,7 @@ from xavi_dialogue.explain.causes.suppositions import (
     decision_for,
     known_to,
     otherwise,
+    together,
     without,
 )
 from xavi_dialogue.explain.history.ride import Unanswered
@@ -71,7 +72,7 @@ def test_a_decision_that_reckons_with_somebody() -> None:
 def test_without_somebody_it_would_do_so() -> None:
     trace = choice(10.0, 14.0, 1, by=(1,))
     alone = again(choice(10.0, 9.0, plan=("change-left",)), 1)
-    found = without(ride(trace, extra=(alone,)), 1, 4.0)
+    found = without(ride(trace, extra=(alone,)), (1,), 4.0)
     assert (found.trace, found.again, found.prior, found.same) == (trace, alone, None, False)
     assert found.here.plan == ("continue",)
     assert found.there.plan == ("change-left",)
@@ -80,8 +81,8 @@ def test_without_somebody_it_would_do_so() -> None:
     assert rests_on.traces == (trace.trace_id, alone.trace_id)
     assert found.contrast.likely is None
     need = NeedRollout(trace_id=trace.trace_id, removed=1)
-    assert needed(lambda: without(ride(trace), 1, 4.0)) == need
-    assert needed(lambda: without(ride(trace, refused=(need,)), 1, 4.0)) == need
+    assert needed(lambda: without(ride(trace), (1,), 4.0)) == need
+    assert needed(lambda: without(ride(trace, refused=(need,)), (1,), 4.0)) == need
     same = compared(ride(trace), trace, trace, 0.4)
     assert (same.prior, same.same) == (0.4, True)
 
@@ -181,3 +182,26 @@ def test_who_is_in_the_way_of_a_foil_is_told_by_what_it_most_probably_does() -> 
     assert (cause.vehicle, cause.actions, cause.probability) == (1, ("continue",), 0.6)
     assert cause.mechanism is not None
     assert (cause.mechanism.how, cause.mechanism.share) == ("collision", 0.0)
+
+
+def test_without_several_it_is_planned_again_without_all_of_them() -> None:
+    trace = choice(10.0, 14.0, 1, 2, by=(1,))
+    alone = again(choice(10.0, 9.0, plan=("change-left",)), 1, 2)
+    found = without(ride(trace, extra=(alone,)), (1, 2), 4.0)
+    assert (found.again, found.there.plan) == (alone, ("change-left",))
+    need = NeedRollout(trace_id=trace.trace_id, removed=(1, 2))
+    assert needed(lambda: without(ride(trace), (2, 1), 4.0)) == need
+    assert needed(lambda: without(ride(trace, refused=(need,)), (2, 1), 4.0)) == need
+    one = again(choice(10.0, 9.0, 2, plan=("change-left",)), 1)
+    known = without(ride(trace, extra=(one,)), (7, 1), 4.0)  # 7 is not there anyway
+    assert known.again is one
+
+
+def test_the_conduct_of_several_is_told_from_samples_that_have_it() -> None:
+    trace = choice(10.0, 14.0, 1, 2)
+    found = together(ride(trace), (1, 2), ("continue",), 4.0, negated=False)
+    assert found is not None
+    assert (found.again, found.same, found.prior) == (trace, True, 1.0)
+    assert together(ride(trace), (1, 2), ("exit-left",), 4.0, negated=False) is None
+    assert together(ride(trace), (1, 2), ("continue",), 4.0, negated=True) is None
+    assert together(ride(trace), (1, 7), ("continue",), 4.0, negated=False) is None

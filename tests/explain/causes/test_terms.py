@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from planner.trace import Action, Component, Costs, Outcome, PlanTrace, RewardTerm
 from tests.explain.causes.decisions import decided
+from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Share, Term
@@ -104,11 +105,11 @@ def test_a_difference_is_taken_apart(
 
 def test_chances_of_bad_ends_stand_beside_their_terms() -> None:
     found = differences(*sides((end("dead"), end()), (end("collision"), end("termination"))))
-    assert found.risks == pytest.approx((0.25, 0.0))
+    assert found.risks == pytest.approx((trusted(0.25), trusted(0.0)))
     assert found.chances["dead"] == pytest.approx((0.0, 0.25))
-    assert found.chances["late"] == pytest.approx((0.75, 0.0))
+    assert found.chances["late"] == pytest.approx((trusted(0.75), trusted(0.0)))
     share = found.share("collision")
-    assert (share.chance, share.fact_chance) == pytest.approx((0.25, 0.0))
+    assert (share.chance, share.fact_chance) == pytest.approx((trusted(0.25), trusted(0.0)))
     assert found.share("jerk") == Share("jerk", 0.0, None, None)
     assert Difference({}, 0.0).risks == (0.0, 0.0)
     shares = Difference({"time": 2.0, "jerk": -1.0}, 0.0).shares
@@ -145,7 +146,7 @@ def test_a_fatal_end_is_never_left_out() -> None:
     model, _, _ = sides((end(), end()), (end("collision"), end()))
     found = differences(*without(model, 0))
     assert found.terms["collision"] == pytest.approx(0.25 * (100.0 - 10.0))
-    assert found.chances["collision"] == pytest.approx((0.25, 0.0))
+    assert found.chances["collision"] == pytest.approx((trusted(0.25), trusted(0.0)))
     model, _, _ = sides((end("dead"), end()), (end(), end()))
     other = differences(*without(model, 2))
     assert other.terms["dead"] == pytest.approx(-0.25 * (50.0 - 13.0))

@@ -139,6 +139,35 @@ def test_two_may_be_causes_together() -> None:
     assert [(c.vehicle, c.necessary) for c in found.causes] == [(1, True), (2, True)]
 
 
+@pytest.mark.parametrize(
+    ("then", "plan", "kind", "decides"),
+    [
+        (10.0, ("continue",), "several", False),
+        (10.0, ("change-left",), "several", True),
+        (14.0, ("continue",), "none", True),
+    ],
+)
+def test_three_may_do_together_what_no_two_do(
+    then: float, plan: Actions, kind: str, decides: bool
+) -> None:
+    """Without one or two of them the third holds us up as long; without all nobody does."""
+    trace = choice(10.0, 14.0, 1, 2, 3, by=(1, 2, 3))
+    some = [
+        again(choice(10.0, 14.0, *(rest := sorted({1, 2, 3} - set(gone))), by=rest), *gone)
+        for gone in ((1,), (2,), (3,), (1, 2), (1, 3), (2, 3))
+    ]
+    found = judged(trace, *some, again(choice(10.0, then, plan=plan), 1, 2, 3))
+    assert found.causation is not None
+    assert (found.causation.kind, found.causation.decides) == (kind, decides)
+    if kind == "several":
+        assert (found.causation.vehicles, found.cleared) == ((1, 2, 3), ())
+        assert [(c.vehicle, c.necessary) for c in found.causes] == [
+            (1, False), (2, False), (3, False),
+        ]  # fmt: skip
+    else:
+        assert (found.causes, found.cleared) == ((), (1, 2, 3))
+
+
 def driving(
     speed: float,
     *vehicles: int,

@@ -213,7 +213,6 @@ def test_the_world_asks_for_parts_of_the_ride() -> None:
     assert belief.time == 3.0
     assert world.probability(Event("continue", ONE), 3.0) == 1.0
     assert world.beginnings() == {"continue": pytest.approx(9.0)}
-    assert world.options(3.0)[0].action == "continue"
 
 
 def test_two_worlds_are_kept() -> None:

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.facts import Gap
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Lane, Vehicle
 from xavi_dialogue.domain.terms import Event as Doing
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
+from xavi_dialogue.explain.causes.options import options_at
 from xavi_dialogue.explain.facts.world import World, world_of
 
 TWO = {0: Actor(straight(0.0, 0.0, 12.0)), 1: Actor(straight(40.0, 3.5, 9.0), colour="red")}
@@ -139,10 +140,10 @@ def test_beliefs_and_options_add_up() -> None:
     assert turn is not None
     assert right is not None
     assert 0.0 <= right <= turn <= 1.0
-    options = world.options(5.0)
+    options = options_at(world.ride, 5.0)
     assert [o.chosen for o in options].count(True) == 1
     assert options[0].chosen
-    assert world.options(-1.0) == ()
+    assert options_at(world.ride, -1.0) == ()
 
 
 def test_one_question_has_one_world() -> None:

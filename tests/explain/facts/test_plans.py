@@ -1,137 +1,102 @@
-"""When a plan is another one."""
+"""What was meant to be done, what that is worth, and when its actions begin."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import Any
 
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import Action, PlannedAction, PlanTrace, TimedAction
+from planner.road import RoadFacts, RouteStep
+from planner.trace import PlanTrace
 from tests.explain.facts.scenes import Actor, made, straight
-from tests.traces import End, trace_of
+from tests.traces import Actions, Aim, Chosen, End, Way, trace_of
 from tests.traces import World as Plain
-from xavi_dialogue.explain.facts.own import changed
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.terms import Ego, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import Attribute
+from xavi_dialogue.explain.facts.measures.measuring import measure
+from xavi_dialogue.explain.facts.plans import beginnings, plan_of
 from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
+
+approx: Any = pytest.approx  # that compares within tuples, too
+
+US, ONE, TWO = Ego(), Vehicle(1), Vehicle(2)
 
 
-def place(edge: str, lane: int | None = 0, ring: bool = False, inside: bool = False) -> RoadPlace:
-    return RoadPlace(edge, lane, 3, 14.0, inside, ring)
+OURS = Actor(straight(0.0, 0.0, 10.0))
 
 
-def ring(begin: float, end: float, numbers: dict[float, int]) -> Callable[[float], RoadFacts]:
-    """On the ring at some decisions; which exit the route has at others."""
-
-    def roads(time: float) -> RoadFacts:
-        number = next((n for since, n in sorted(numbers.items(), reverse=True) if since <= time), 9)
-        step = RouteStep(20.0, "roundabout", "exit-left", number, 4, 4, "give-way")
-        first = RouteStep(10.0, "junction", "exit-left", None, None, 4, "give-way")
-        return RoadFacts({0: place("a", ring=begin <= time <= end)}, (first, step))
-
-    return roads
+def of(
+    found: States, attribute: Attribute, thing: Thing = US, at: float = 8.0, to: Thing | None = None
+) -> Measure:
+    return measure(found, attribute, thing, at, to)
 
 
-def plan(
-    time: float,
-    *actions: Action,
-    road: RoadFacts | None = None,
-    under_way: Action | None = None,
-) -> PlanTrace:
-    trace = trace_of(
-        Plain({}, (("continue",),), lambda plan, _: (End(), 1)), time=time, decision=int(time)
+def weighing(plan: Actions = ("continue",), draws: Sequence[float] = (0.7, 0.3)) -> PlanTrace:
+    """Going on takes 12 s or crashes into 1; moving left takes 11 s; stopping never gets there."""
+    aims = {
+        1: (
+            Aim("continue", draws[0], (Way(("continue",)),)),
+            Aim("stop", draws[1], (Way(("stop",)),)),
+        )
+    }
+
+    def simulate(plan: Actions, chosen: Chosen) -> tuple[End, int]:
+        match plan[0]:
+            case "continue" if chosen[1][0] == "stop":
+                return End("collision", collided_with=1), 1
+            case "continue":
+                return End(time=12.0, jerk=0.0), 1
+            case "change-left":
+                return End(time=11.0, jerk=0.0), 2
+        return End("termination"), 2
+
+    plans: tuple[Actions, ...] = (
+        ("continue",),
+        ("change-left", "continue"),
+        ("stop", "continue"),
     )
-    steps = tuple(PlannedAction(action, 0.0, 1) for action in actions)
-    doing = None if under_way is None else TimedAction(under_way, time)
-    return replace(trace, plan=steps, road=road, under_way=doing)
+    return trace_of(Plain(aims, plans, simulate, plan=plan))
 
 
-def route(*steps: tuple[float, str, int], ring: bool = False, kind: str = "junction") -> RoadFacts:
-    """Junctions ahead of us: how far [m], the turn, how many arms."""
-    return RoadFacts(
-        {0: place("a", ring=ring)},
-        tuple(RouteStep(far, kind, turn, None, None, arms, "equal") for far, turn, arms in steps),  # type: ignore[arg-type]
+def test_a_value_is_that_of_the_last_decision_with_a_choice() -> None:
+    first = replace(weighing(), sim_time=2.0)
+    then = replace(weighing(("stop", "continue")), sim_time=4.0)
+    ride = Ride(Record(6.0, (first, then)))
+    assert of(States(ride), "value", at=4.0).value == approx(-100.0)
+    assert of(States(Ride(Record(6.0, (replace(first, plan=()),)))), "value", at=4.0).gap == (
+        "not-recorded"
     )
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "differs"),
-    [
-        (("continue",), ("continue",), False),
-        (("continue",), ("change-left", "continue"), True),
-        (("continue",), ("exit-left",), False),  # it has come within reach
-        (("change-left",), ("continue",), True),
-        (("change-left",), ("change-right",), True),
-        (("change-left",), ("continue", "change-left"), False),
-        (("exit-left",), ("exit-right",), True),
-        (("exit-left", "stop"), ("exit-left",), False),
-        (("continue",), ("stop",), True),
-    ],
-)
-def test_when_a_plan_is_another_one(
-    before: Sequence[Action], after: Sequence[Action], differs: bool
-) -> None:
-    found = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 5.0))
-    assert changed(found, plan(3.0, *before), plan(4.0, *after)) is differs
+def test_a_plan_is_known_as_far_as_there_is_evidence() -> None:
+    trace = weighing(("change-left", "stop"))
+    found = plan_of(Ride(Record(4.0, (trace,))))
+    assert found is not None
+    assert found[1].plan == ("change-left", "continue")
+    assert found[0].trace is trace
+    assert plan_of(Ride(Record(4.0))) is None
+    assert plan_of(Ride(Record(4.0, (weighing(("exit-left",)),)))) is None
+    assert beginnings(Ride(Record(4.0))) == {}
+    assert beginnings(Ride(Record(4.0, (trace,)))) == {
+        "change-left": approx(4.0),
+        "continue": approx(6.0),
+    }
 
 
-def test_what_was_begun_in_between_is_no_change_of_plan() -> None:
-    for since, differs in ((2.5, True), (3.0, False), (3.6, False), (4.0, False), (4.5, True)):
-        events = (Event("action-started", since, "change-left", 3),)
-        found = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 5.0, events=events))
-        assert changed(found, plan(3.0, "change-left"), plan(4.0, "continue")) is differs
-        assert changed(found, plan(3.0, "change-left"), plan(4.0, "change-left")) is False
-    assert changed(found, plan(3.0, "change-left", "stop"), plan(4.0, "stop")) is True
-    events = (Event("action-started", 3.6, "change-left", 3),)
-    found = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 5.0, events=events))
-    assert changed(found, plan(3.0, "change-left", "stop"), plan(4.0, "stop")) is False
-    assert changed(found, plan(3.0, "stop"), plan(4.0, "continue")) is True
+def test_beginnings_are_means_of_the_drives_imagined() -> None:
+    trace = weighing()
+    rows = list(trace.rollouts)
+    for k, since in ((0, 5.0), (1, 9.0)):
+        rows[k] = replace(rows[k], actions=(replace(rows[k].actions[0], start=since),))
+    found = beginnings(Ride(Record(4.0, (replace(trace, rollouts=tuple(rows)),))))
+    assert found == {"continue": approx(0.7 * 5.0 + 0.3 * 9.0)}
 
 
-def test_a_choice_after_what_had_to_be_finished_is_no_change() -> None:
-    found = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 5.0))
-    busy = plan(3.0, "change-left", under_way="change-left")
-    assert changed(found, busy, plan(4.0, "stop")) is False
-    still = plan(4.0, "stop", under_way="change-left")
-    assert changed(found, busy, still) is True
-
-
-@pytest.mark.parametrize(
-    ("before", "after", "differs"),
-    [
-        (route((50.0, "exit-left", 4)), route((40.0, "exit-left", 4)), False),
-        (route((50.0, "exit-left", 4)), route((40.0, "exit-right", 4)), True),
-        (route((50.0, "exit-left", 4)), route((46.0, "exit-right", 4)), True),
-        (route((50.0, "exit-left", 4)), route((46.1, "exit-right", 4)), False),  # another one
-        (route((50.0, "exit-left", 4)), route((34.0, "exit-right", 4)), True),
-        (route((50.0, "exit-left", 4)), route((33.9, "exit-right", 4)), False),
-        (route((50.0, "exit-left", 4)), route((40.0, "exit-right", 3)), False),
-        (
-            route((50.0, "exit-left", 4)),
-            route((40.0, "exit-right", 4), kind="roundabout"),
-            False,
-        ),
-        (
-            route((20.0, "exit-left", 4), (60.0, "exit-left", 4)),
-            route((50.0, "exit-right", 4)),
-            True,
-        ),
-        (
-            route((50.0, "exit-left", 4), (90.0, "exit-left", 4)),
-            route((40.0, "exit-left", 4), (80.0, "exit-right", 4)),
-            False,  # the first that is on both counts
-        ),
-        (route((50.0, "exit-left", 4), ring=True), route((40.0, "exit-right", 4)), False),
-        (route((50.0, "exit-left", 4)), route((40.0, "exit-right", 4), ring=True), False),
-    ],
-)
-def test_another_turn_at_a_junction_is_another_plan(
-    before: RoadFacts, after: RoadFacts, differs: bool
-) -> None:
-    """Ten metres are driven between the two decisions; six more or less are the same place."""
-    found = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 5.0))
-    one, other = plan(3.0, "exit-left", road=before), plan(4.0, "exit-right", road=after)
-    assert changed(found, one, other) is differs
-    unknown = plan(4.0, "exit-right")
-    assert changed(found, one, unknown) is True  # by their actions, where one has no road
-    lane = plan(4.0, "change-left", road=after)
-    assert changed(found, one, lane) is True
+def test_steps_of_a_route_are_counted() -> None:
+    step = RouteStep(9.0, "roundabout", "exit-left", None, None, 4, "equal")
+    found = States(made({0: OURS}, 2.0, roads=lambda _: RoadFacts({}, (step,))))
+    assert of(found, "exit-number", at=2.0).gap == "not-applicable"
+    assert of(found, "route", at=2.0).value == 1.0

@@ -33,7 +33,6 @@ class Task(msgspec.Struct, frozen=True):
     seed: int  # of a random network: its number, too
     every: int = 1  # 2: every other decision that has alternatives
     blind: bool = True  # also what would be said if the others of a rollout did not react
-    timed: bool = False  # only foils that are foreseen to arrive
 
 
 class Case(msgspec.Struct, frozen=True):
@@ -135,19 +134,18 @@ def _foils(task: Task, trace: PlanTrace, roads: Roads) -> Iterator[Case]:
     """Yield the foils of a decision, as they are foreseen."""
     blind = foresee(_blind(trace, roads.network), roads) if task.blind else {}
     for foil, foreseen in foresee(trace, roads).items():
-        if not task.timed or (foreseen.time is not None and foreseen.likeliest == "done"):
-            yield Case(
-                task.world,
-                task.seed,
-                trace.sim_time,
-                trace.plan[0].action,
-                foil,
-                foreseen,
-                Happened("termination"),
-                blind=blind.get(foil),
-                road=road_kind(trace),
-                waypoint=trace.waypoint is not None,
-            )
+        yield Case(
+            task.world,
+            task.seed,
+            trace.sim_time,
+            trace.plan[0].action,
+            foil,
+            foreseen,
+            Happened("termination"),
+            blind=blind.get(foil),
+            road=road_kind(trace),
+            waypoint=trace.waypoint is not None,
+        )
 
 
 def _blind(trace: PlanTrace, network: Network) -> PlanTrace:

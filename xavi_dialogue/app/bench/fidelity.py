@@ -135,7 +135,7 @@ def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str],
     Raises:
         ValueError: there are too few rides.
     """
-    asked = [Task(LEARNING, number, every, blind=False, timed=True) for number in networks]
+    asked = [Task(LEARNING, number, every, blind=False) for number in networks]
     found = _driven(asked, jobs, note)
     first = f"--seed {networks[0]} --networks {len(networks)}" if networks else "--networks 0"
     command = f"xavi bench fidelity --learn FILE {first} --every {every}"

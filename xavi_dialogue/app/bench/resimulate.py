@@ -7,8 +7,8 @@ import msgspec
 
 from planner.driver import Driver, DriverError, DriveStep
 from planner.trace import Action, EgoGoal, Outcome, PlanTrace
+from sim.goal import Goal
 from sim.network import Network
-from sim.scenario import Goal
 from sim.scene import Scene
 from sim.sumo import EgoGone, Simulation
 from xavi_dialogue.app.bench.forking import in_fork

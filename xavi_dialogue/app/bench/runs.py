@@ -79,9 +79,7 @@ def warm() -> None:
     warm_up(network_of(load(WARMING)))
 
 
-def by_sumo(
-    world: Simulation, scenario: Scenario, network: Network, see: See = _overlook
-) -> Drive:
+def by_sumo(world: Simulation, scenario: Scenario, network: Network, see: See = _overlook) -> Drive:
     """The scenario with SUMO as driver of the ego; each scene is shown to `see`."""
     return _driven(world, scenario, network, lambda _: None, see)
 

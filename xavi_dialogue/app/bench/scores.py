@@ -49,6 +49,13 @@ class Case(msgspec.Struct, frozen=True):
         return self.error is None and self.refused is None and self.claims[OURS] == self.causes
 
     @property
+    def kind_right(self) -> bool:
+        """Whether the answer says rightly how it hangs on them: on one alone as on one."""
+        if self.refused is not None:
+            return False
+        return self.told in TOLD["one" if len(self.causes) == 1 else self.kind]
+
+    @property
     def reproduce(self) -> str:
         """The command that does it again."""
         return f"xavi bench causes --worlds 1 --seed {self.seed} --roads {self.family}"
@@ -152,7 +159,7 @@ def score(cases: Sequence[Case], name: str) -> Score:
 
 def _row(kind: str, cases: Sequence[Case], names: Sequence[str]) -> Row:
     done = [case for case in cases if case.error is None]
-    kinds = sum(case.told in TOLD[case.kind] and case.refused is None for case in done)
+    kinds = sum(case.kind_right for case in done)
     return Row(
         kind=kind,
         worlds=len(cases),

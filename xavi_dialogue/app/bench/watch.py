@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from sim.boxes import overlap
+from sim.goal import Goal
 from sim.network import Network
-from sim.scenario import Goal
 from sim.scene import EGO, Scene
 from xavi_dialogue.app.bench.blame import KEPT, caused_by_ego, provoked_by_ego
 

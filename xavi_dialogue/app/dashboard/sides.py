@@ -16,6 +16,7 @@ from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.domain.answers import SupposedOfOther
+from xavi_dialogue.explain.causes.chances import chances
 from xavi_dialogue.explain.causes.conduct import conduct_names, matching
 
 SAME = 1e-6  # difference of figures that were computed alike
@@ -67,7 +68,7 @@ def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Found]:
             found = Found(model.trace, plan)
         if found is None:
             continue
-        if outcome is None or _same(outcome.probability, found.plan.outcomes[outcome.name]):
+        if outcome is None or _same(outcome.probability, chances(found.plan).of(outcome.name)):
             yield found
 
 
@@ -126,12 +127,13 @@ def _supposed(
 
 
 def _agrees(said: Contrastive, here: Intervention, there: Intervention) -> bool:
-    """Whether two sides give the figures of an said."""
+    """Whether two sides give the figures of an explanation."""
     outcome = said.outcome
-    if outcome is not None and not _same(outcome.probability, there.outcomes[outcome.name]):
+    if outcome is not None and not _same(outcome.probability, chances(there).of(outcome.name)):
         return False
     known = {effect.component: effect for effect in effects(there, here)}
-    return len(known) == len(said.effects) and all(
+    untold = known.keys() - {effect.component for effect in said.effects}
+    return untold <= {"time"} and all(  # there is no time to tell of who is too late
         effect.component in known
         and _same(effect.delta, known[effect.component].delta)
         and _same(effect.low, known[effect.component].low)

@@ -80,7 +80,7 @@ def title_of(told: Told, reply: Reply) -> str:
     match told.answer:
         case SupposedOfOther():
             return "then"
-        case SupposedOfUs(done=False) | ChoiceReason(form="why-not") | Compared():
+        case SupposedOfUs(done=None) | ChoiceReason(form="why-not") | Compared():
             return "asked"
         case ChoiceReason(form="why"):
             named = any(why.instead is not None for why in parts(acts_of(reply), Why))

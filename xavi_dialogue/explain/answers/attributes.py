@@ -59,7 +59,7 @@ from xavi_dialogue.explain.answers.occasions import did_not_happen, occasion
 from xavi_dialogue.explain.answers.onward import which_way
 from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
-from xavi_dialogue.explain.causes.options import with_model_error
+from xavi_dialogue.explain.causes.options import options_at
 
 #: What is chosen, and whose cost is told by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
@@ -79,7 +79,7 @@ def _options(of: Measured, asked: Asked) -> Answer:
     """Tell how the options of a decision were valued."""
     at = instant(asked, of.time, of.tense)
     trace = asked.ride.at(at)
-    known = with_model_error(asked.world.options(at))
+    known = options_at(asked.ride, at)
     if trace is None or not known:
         raise Unanswered(NotRecorded("not-recorded", about=of.attribute, since=at))
     return Options(known, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))

@@ -5,32 +5,26 @@ from typing import Literal
 
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
-from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
     Contrast,
-    DidNotHappen,
     MotionCause,
-    MotionReason,
     NotApplicable,
     TooLittle,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.reasons import Suspected
 from xavi_dialogue.domain.terms import Ego, Event, Proposition
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.against import against
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.foils import earlier_exit, foil_at, named_foil, settled
+from xavi_dialogue.explain.answers.foils import earlier_exit, foil_at, named_foil
 from xavi_dialogue.explain.answers.reading import check_able, event_of, is_past, subject
 from xavi_dialogue.explain.causes.actions import (
     CHANGES,
     DRIVING,
-    STRAIGHT,
     TURNS,
     names_of,
-    to_macros,
 )
 from xavi_dialogue.explain.causes.blocking import blocking, in_lane_beside
 from xavi_dialogue.explain.causes.contrast import (
@@ -73,14 +67,13 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
         found = free(scene.ride, premise(scene.ride, subject(scene, event)))
         foil = named_foil(scene, other, found) or ()
     if not foil:
-        against = natural(scene.ride, found.trace, found.node)
-        return _reason(scene, event, found, against)
+        return _reason(scene, event, found, natural(scene.ride, found.trace, found.node))
     try:
-        against = contrast(scene.ride, found.trace, foil, found.node)
-        against = on_way(found.trace, against, found.node)
+        compared = contrast(scene.ride, found.trace, foil, found.node)
+        compared = on_way(found.trace, compared, found.node)
     except SameAsPlan:  # the contrast that the question draws is none
-        against = natural(scene.ride, found.trace, found.node)
-    return _reason(scene, event, found, against)
+        compared = natural(scene.ride, found.trace, found.node)
+    return _reason(scene, event, found, compared)
 
 
 def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast) -> ChoiceReason:
@@ -118,45 +111,24 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
     Raises:
         Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
     """
-    found, foil = foil_at(event, scene, deed)
+    later = None
     try:
-        against = contrast(scene.ride, found.trace, foil, found.node)
-        against = on_way(found.trace, against, found.node)
-    except SameAsPlan as done:
-        found = free(scene.ride, Premise(scene.ride.latest, None))
-        turn = None if scene.past is not None else _turn_ahead(event, found.trace)
-        if turn is not None:
-            foil = to_macros(scene.ride.model(found.trace), ("exit-straight",), turn)
-            found = Premise(found.trace, None, turn)
-        elif scene.past is not None or planned(found.trace)[: len(foil)] == foil:
-            going = Episode(Ego(), event.action, found.trace.sim_time)
-            told = () if scene.past is not None else (going,)
-            raise Unanswered(
-                DidNotHappen(event, told if done.deed is None else (done.deed,))
-            ) from None
-        else:
-            foil = to_macros(scene.ride.model(found.trace), settled(scene, event)[:1])
-        against = contrast(scene.ride, found.trace, foil, found.node)
+        tried = against(event, scene, deed, before=is_past(scene, event))
+        found, compared, later = tried.found, tried.contrast, tried.later
     except Unanswered as unanswered:
         thin = unanswered.result
-        if not isinstance(thin, TooLittle) or thin.reason != "too-little-evidence" or found.node:
+        if not isinstance(thin, TooLittle) or thin.reason != "too-little-evidence":
             raise
+        found, foil = foil_at(event, scene, deed)
         model = scene.ride.model(found.trace)
-        against = replace(alone(scene.ride, model, factual(model, found.trace)), foil=foil)
-        if _beside(scene, found, against) is None:  # who is there tells enough
+        compared = replace(alone(scene.ride, model, factual(model, found.trace)), foil=foil)
+        if found.node or _beside(scene, found, compared) is None:  # who is there tells enough
             raise
+    stays = compared.foil == STAYING
     past = _over(scene, event, found) or is_past(scene, event)
-    ahead = _left_for(scene, found, against) if foil == STAYING else _beside(scene, found, against)
-    return ChoiceReason("why-not", deed_of(scene, found), against, past=past, ahead=ahead)
-
-
-def _turn_ahead(event: Event, trace: PlanTrace) -> Actions | None:
-    """What a plan does before it turns, where going straight on there is asked about."""
-    plan = planned(trace)
-    turn = next((k for k, step in enumerate(plan) if step not in STRAIGHT), None)
-    if event.action != "exit-straight" or turn is None or plan[turn] not in TURNS:
-        return None
-    return plan[:turn]
+    ahead = _left_for(scene, found, compared) if stays else _beside(scene, found, compared)
+    done = deed_of(scene, found)
+    return ChoiceReason("why-not", done, compared, past=past, ahead=ahead, later=later)
 
 
 def straight(scene: Asked) -> Answer:
@@ -241,48 +213,6 @@ def is_kept_from(other: Event, event: Event, keeping: Collection[ActionName]) ->
     plain = event.object is None and event.side is None and event.where is None
     going_on = event.action in keeping or (plain and event.action in ("go", "continue"))
     return going_on and (is_choice(other) or other.action == "stop")
-
-
-def with_suspect(found: Answer, suspect: int | None, rival: int | None = None) -> Answer:
-    """Tell of the vehicle that the question takes for the cause whether it is.
-
-    Where it is one of the causes it goes first, so that it is the one that is spoken of. Of two
-    that are asked about, the one that is the cause, or is more of it.
-    """
-    if suspect is None or not isinstance(found, ChoiceReason | MotionReason):
-        return found
-    named = _blamed(found)
-    if rival is not None:
-        asked = [vehicle for vehicle in named if vehicle in (suspect, rival)]
-        suspect = asked[0] if asked else suspect
-        part: Suspected = "either" if asked else "neither"
-    else:
-        part = _part(named, suspect)
-    if isinstance(found, ChoiceReason):
-        ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
-        against = replace(found.contrast, causes=tuple(ranked))
-        return replace(found, contrast=against, suspect=suspect, suspected=part)
-    motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
-    return replace(found, causes=tuple(motive), suspect=suspect, suspected=part)
-
-
-def _blamed(found: ChoiceReason | MotionReason) -> list[int]:
-    """List the vehicles that are causes, most important first."""
-    if isinstance(found, MotionReason):
-        return [cause.vehicle for cause in found.causes if cause.vehicle is not None]
-    against = found.contrast
-    named = [cause.vehicle for cause in against.causes]
-    if against.decisive == "collision" and against.collided_with is not None:
-        named = [against.collided_with, *named]
-    if found.ahead is not None and found.ahead.vehicle is not None:
-        named = [found.ahead.vehicle, *named]
-    return list(dict.fromkeys(named))
-
-
-def _part(named: list[int], suspect: int) -> Suspected:
-    if suspect not in named:
-        return "none"
-    return "main" if named[0] == suspect else "part"
 
 
 def deed_of(scene: Asked, found: Premise) -> Episode | None:

@@ -51,6 +51,7 @@ from xavi_dialogue.explain.answers.room import free
 from xavi_dialogue.explain.answers.sight import busy, minded
 from xavi_dialogue.explain.answers.stages import actor, late, over, still, stuck
 from xavi_dialogue.explain.causes.actions import names_of
+from xavi_dialogue.explain.causes.options import options_at
 
 NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
 NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
@@ -186,7 +187,7 @@ def _possible(of: Is, asked: Asked) -> Finding:
     trace = asked.ride.at(at)
     if trace is None or not names:
         return unknown("not-recorded")
-    options = [o for o in asked.world.options(at) if o.action in names]
+    options = [o for o in options_at(asked.ride, at) if o.action in names]
     if options:
         return Finding(True, tuple(options))
     for entry in trace.not_applicable:

@@ -273,9 +273,10 @@ def _gain(by: str, against: Contrast) -> float | None:
         gain = against.collision - against.fact_collision
         return gain if abs(gain) >= EVEN else 0.0
     if by in ("time", "speed"):
-        ends = against.outcome.name if against.outcome is not None else "done"
-        if ends != "done":
-            return 1.0
+        sides = (against.outcome, against.fact_outcome)
+        arrives, arrived = (side is None or side.name == "done" for side in sides)
+        if not (arrives and arrived):
+            return None if arrives == arrived else -1.0 if arrives else 1.0
         delta = effects.get("time")
         return None if delta is None else delta if abs(delta) >= EQUAL else 0.0
     if by == "comfort":

@@ -1,7 +1,11 @@
 """Foils: what the ego did not do, as a question names it, and where it could have done it."""
 
+from typing import Literal
+
 from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import DidNotHappen
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import Event, Exit
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
@@ -9,6 +13,7 @@ from xavi_dialogue.explain.answers.reading import check_able, is_past, subject
 from xavi_dialogue.explain.causes.actions import (
     CHANGES,
     DRIVING,
+    EXITS,
     STRAIGHT,
     TURNS,
     means,
@@ -26,10 +31,29 @@ from xavi_dialogue.explain.causes.premise import (
     options_known,
     premise,
 )
+from xavi_dialogue.explain.causes.when import pick
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import planned
 
 #: Ways to leave a roundabout at an exit, the usual one first.
 LEAVING: tuple[MacroAction, ...] = ("exit-right", "exit-straight", "exit-left")
 MANOEUVRES = frozenset[ActionName]((*CHANGES, *TURNS, "stop", "overtake", "exit-straight"))
+
+
+class Did(Unanswered):
+    """What is asked about is what we did, are doing or plan to do."""
+
+    def __init__(
+        self,
+        event: Event,
+        performed: Performed,
+        found: Premise | None,
+        told: tuple[Episode, ...] = (),
+    ) -> None:
+        ahead = found is not None and performed.when == "will"
+        planned_at = found.trace.sim_time if found is not None and ahead else None
+        super().__init__(DidNotHappen(event, told, planned=planned_at))
+        self.performed, self.found = performed, found  # None: its decision is not recorded
 
 
 def foil_at(
@@ -38,7 +62,8 @@ def foil_at(
     """Find the decision at which something could have been done, and what that is to the planner.
 
     Raises:
-        Unanswered: it is what was done; or it cannot be done at all.
+        Did: it is what was done, or is being done.
+        Unanswered: it cannot be done at all.
     """
     check_able(event)
     names = settled(scene, event)
@@ -50,7 +75,10 @@ def foil_at(
     if ring is not None:
         return ring
     about = subject(scene, deed) if deed is not None else Subject(None, (), past, scene.span)
-    if len(names) > 1 or deed is None:
+    turn = None if deed is not None else at_turn(scene, names, past=past)
+    if turn is not None:
+        found = turn
+    elif len(names) > 1 or deed is None:
         found = about_foil(scene.ride, about, names[:1])
     else:
         found = premise(scene.ride, about)
@@ -58,6 +86,29 @@ def foil_at(
     later = tuple(name for name in steps if means(name))
     foil = to_macros(scene.ride.model(found.trace), (names[0], *later), found.node)
     return found, foil
+
+
+def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premise | None:
+    """Find the choice of a turn against which another way is asked about.
+
+    About the past that is the last turn made; where none was, and of what is to come, it is the
+    next one planned. None where no other way is asked about, or there is no such turn.
+    """
+    if not set(names) <= set(EXITS):
+        return None
+    if past:
+        made = [deed for deed in scene.ride.deeds if deed.action in TURNS]
+        deed = pick(scene.span, made, lambda deed: deed.span)
+        if deed is not None:
+            return Premise(scene.ride.choice_of(deed), deed)
+        if scene.past is not None:
+            return None
+    trace = scene.ride.latest
+    plan = planned(trace)
+    at = next((k for k, step in enumerate(plan) if step in TURNS), None)
+    if at is None or trace.under_way is not None:
+        return None
+    return Premise(trace, None, plan[:at])
 
 
 def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction, ...]] | None:
@@ -98,15 +149,29 @@ def check_undone(scene: Asked, event: Event, names: tuple[ActionName, ...]) -> N
     """Decline to say why not, where it is what we did; driving on is not held against it.
 
     Raises:
-        Unanswered: we did it.
+        Did: we did it, or are doing it.
     """
-    if event.then is not None or event.object is not None or not set(names) <= MANOEUVRES:
+    apart = event.then, event.object, event.where
+    if any(part is not None for part in apart) or event.manner or not set(names) <= MANOEUVRES:
         return
-    if not is_past(scene, event):
-        return
-    deed = happened(scene.ride, names, scene.span)
+    past = is_past(scene, event)
+    if past:
+        deed = happened(scene.ride, names, scene.span)
+    else:
+        last = scene.ride.deeds[-1:]
+        deed = next((d for d in last if d.action in names and d.ended is None), None)
     if deed is not None and deed.action not in STRAIGHT:
-        raise Unanswered(DidNotHappen(event, (episode_of(deed),), elsewhen=None))
+        when: Literal["did", "doing"] = "doing" if deed.ended is None else "did"
+        performed = Performed(deed.action, when, deed.time)
+        raise Did(event, performed, _chosen(scene, deed), (episode_of(deed),))
+
+
+def _chosen(scene: Asked, deed: Deed) -> Premise | None:
+    """Find the decision for a deed; None where it is not recorded."""
+    try:
+        return Premise(scene.ride.choice_of(deed), deed)
+    except Unanswered:
+        return None
 
 
 def named_foil(

@@ -12,8 +12,10 @@ from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import overlaps
 from xavi_dialogue.explain.answers.precedence import first, into_our_road
+from xavi_dialogue.explain.causes.chances import chances
+from xavi_dialogue.explain.causes.contrast import factual
 from xavi_dialogue.explain.history.motion import branches_off, foresees
-from xavi_dialogue.explain.history.ride import planned, prediction
+from xavi_dialogue.explain.history.ride import Unanswered, prediction
 
 EXPECTED = 0.5  # probability from which something was expected
 MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
@@ -213,18 +215,15 @@ def is_open(asked: Asked, belief: Belief) -> bool:
 
 
 def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> float | None:
-    """Tell how probable a collision was under the plan at a time [s]; None: nothing was tried."""
+    """Tell how probable a collision was under the plan at a time [s]; None: too little is known."""
     trace = asked.ride.at(at)
-    if trace is None:
+    if trace is None or not trace.plan:
         return None
-    model, plan = asked.ride.model(trace), planned(trace)
-    for length in range(len(plan), 0, -1):
-        found = model.intervene(plan[:length])
-        if found is not None:
-            if vehicle is not None:
-                return min(found.collisions().get(vehicle, 0.0), 1.0)
-            return min(found.outcomes["collision"], 1.0)
-    return None
+    try:
+        found = chances(factual(asked.ride.model(trace), trace))
+    except Unanswered:
+        return None
+    return found.collision if vehicle is None else found.collision_with(vehicle)
 
 
 def _yields(stretches: tuple[HeldUp, ...], event: Event) -> bool:

@@ -45,7 +45,7 @@ from xavi_dialogue.explain.answers.reading import (
     vehicle_in,
 )
 from xavi_dialogue.explain.causes import certainty, options
-from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, HALTS, YIELDS
+from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, HALTS, YIELDS, to_macros
 from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
 from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, premise
@@ -137,8 +137,11 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         return chosen or certainty.of_plan(ride, found)
     if event is not None and (negated or event.modal == "would"):  # what was not done
         about = Subject(None, (), is_past(scene, event), scene.span)
-        found = about_foil(ride, about, foils.settled(scene, event)[:1])
-    elif event is not None and not choices.is_choice(event):
+        names = foils.settled(scene, event)[:1]
+        found = about_foil(ride, about, names)
+        foil = to_macros(ride.model(found.trace), names, found.node)
+        return certainty.of_choice(ride, found, foil) or certainty.of_plan(ride, found)
+    if event is not None and not choices.is_choice(event):
         found = Premise(_trace_at(scene), None)
     else:
         found = premise(ride, subject(scene, event))

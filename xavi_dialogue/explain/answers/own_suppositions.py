@@ -10,9 +10,9 @@ from xavi_dialogue.domain.answers import (
     Contrast,
     DidNotHappen,
     MotionCause,
-    NotApplicable,
     SupposedOfUs,
 )
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
@@ -28,9 +28,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, reacting
+from xavi_dialogue.explain.answers.against import against
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.closeness import closeness
-from xavi_dialogue.explain.answers.foils import foil_at
+from xavi_dialogue.explain.answers.foils import Did
 from xavi_dialogue.explain.answers.hastening import hastened
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.reading import (
@@ -38,18 +39,17 @@ from xavi_dialogue.explain.answers.reading import (
     is_own,
     is_past,
     manner_of,
-    subject,
     vehicle_in,
 )
 from xavi_dialogue.explain.causes.actions import CHANGES, DRIVING, names_of
 from xavi_dialogue.explain.causes.blocking import blocking
-from xavi_dialogue.explain.causes.contrast import SameAsPlan, against_best, contrast
-from xavi_dialogue.explain.causes.natural import STAYING, on_way
-from xavi_dialogue.explain.causes.premise import happened, is_open, manoeuvre, premise
+from xavi_dialogue.explain.causes.contrast import alone, factual
+from xavi_dialogue.explain.causes.natural import STAYING, natural
+from xavi_dialogue.explain.causes.premise import happened, manoeuvre
 from xavi_dialogue.explain.history.ride import planned
 
 STANDING = 0.5  # [m/s]
-EARLIER = 8.0  # [s] by which something could have been begun earlier
+LATELY = 12.0  # [s] since when it may be our braking that is meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
@@ -144,21 +144,36 @@ def of_us(
         return hastened(event, scene, form, struck)
     if event.action in GOING and event.side is None and event.object is None:
         return undone(structs.replace(event, action="stop", manner=()), scene, form, struck)
+    if (drove := _drove(event, scene)) is not None:
+        raise Unanswered(DidNotHappen(event, (drove,)))
     try:
-        against = _against(event, scene)
-    except SameAsPlan as same_:
+        tried = against(event, scene)
+    except Did as did:
         if form == "crash":
             return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
-        against = against_best(scene.ride, same_.trace)
-        return SupposedOfUs(against, done=True, past=past, form=form)
-    except Unanswered as unanswered:
-        result = unanswered.result
-        if isinstance(result, DidNotHappen) and result.instead:
-            return _done(event, scene, past=past)
-        raise
+        return _done(did, scene, form)
+    compared = tried.contrast
     nearest = event.action if event.action in ("brake", "slow-down") else None
-    due, ahead = arrival(scene, against), _standing_ahead(scene, against)
-    return SupposedOfUs(against, past=past, asked=nearest, form=form, arrival=due, ahead=ahead)
+    return SupposedOfUs(
+        compared,
+        past=past or tried.earlier,
+        asked=nearest,
+        form=form,
+        arrival=arrival(scene, compared),
+        ahead=_standing_ahead(scene, compared),
+        later=tried.later,
+    )
+
+
+def _drove(event: Event, scene: Asked) -> Episode | None:
+    """Find the braking or slowing that is asked about where we did so lately, or just then."""
+    plain = not event.manner and event.object is None and event.where is None
+    if event.action not in ("brake", "slow-down") or not plain or not is_past(scene, event):
+        return None
+    since = scene.now - LATELY if scene.past is None else scene.past.begin
+    until = scene.now if scene.past is None else scene.past.end
+    found = scene.world.episodes(Ego(), (event.action,), since, until)
+    return found[-1] if found else None
 
 
 def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
@@ -168,28 +183,6 @@ def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
         return None
     found = blocking(scene.ride, scene.world, against.decided, fact[0])
     return found if found is not None and (found.speed or 0.0) < STANDING else None
-
-
-def _against(event: Event, scene: Asked) -> Contrast:
-    """What was decided against something else, where that could be begun last.
-
-    Raises:
-        Unanswered: it could not be done; or rollouts are needed.
-    """
-    found, foil = foil_at(event, scene)
-    try:
-        against = contrast(scene.ride, found.trace, foil, found.node)
-    except Unanswered as unanswered:
-        if found.node or not isinstance(unanswered.result, NotApplicable):
-            raise
-        ride, last = scene.ride, found.trace.sim_time
-        open_ = [t for t in ride.traces if last - EARLIER <= t.sim_time < last]
-        open_ = [t for t in open_ if is_open(ride, t, foil) and planned(t)[: len(foil)] != foil]
-        if not open_:
-            raise
-        against = contrast(ride, open_[-1], foil)
-        return on_way(open_[-1], against, ())
-    return on_way(found.trace, against, found.node)
 
 
 def _staying(event: Event, scene: Asked) -> Event:
@@ -221,10 +214,21 @@ def _stopped(scene: Asked) -> bool:
     return trace is not None and "stop" in planned(trace)[:1]
 
 
-def _done(event: Event, scene: Asked, *, past: bool) -> Answer:
-    """It is just what was done: with what else there was."""
-    found = premise(scene.ride, replace(subject(scene, event), is_past=True))
-    return SupposedOfUs(against_best(scene.ride, found.trace, found.node), done=True, past=past)
+def _done(did: Did, scene: Asked, form: Asking) -> SupposedOfUs:
+    """It is just what we did, do or plan: beside what one would naturally do instead.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    ride, found = scene.ride, did.found
+    if found is None:
+        raise did
+    compared = natural(ride, found.trace, found.node)
+    if compared.foil[len(found.node) :] == ("stop",) and did.performed.action != "stop":
+        model = ride.model(found.trace)  # stopping is nothing that one thinks of
+        compared = alone(ride, model, factual(model, found.trace))
+    past = did.performed.when == "did"
+    return SupposedOfUs(compared, done=did.performed, past=past, form=form)
 
 
 def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answer:

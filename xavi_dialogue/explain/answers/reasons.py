@@ -52,6 +52,7 @@ from xavi_dialogue.explain.answers.reading import (
     unwrapped,
     vehicle_in,
 )
+from xavi_dialogue.explain.answers.suspects import with_suspect
 from xavi_dialogue.explain.history.nearing import speed_at
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
@@ -94,7 +95,7 @@ def why(question: Why, scene: Asked) -> Answer:
     found = _why(of, scene, question, negated=negated)
     if of_causes and isinstance(found, ChoiceReason | MotionReason):
         found = structs.replace(found, of_causes=True)
-    return choices.with_suspect(found, blamed, check_seen(scene, question.rival))
+    return with_suspect(found, blamed, check_seen(scene, question.rival), alone=question.alone)
 
 
 def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:

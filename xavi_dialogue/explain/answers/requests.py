@@ -24,6 +24,7 @@ from xavi_dialogue.explain.answers.naming import number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
 from xavi_dialogue.explain.answers.talk import speed_of
+from xavi_dialogue.explain.causes.options import options_at
 
 #: Requests to be told how fast we are, and those to be told when we are there.
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
@@ -167,7 +168,7 @@ def _cannot(asked: Asked, event: Event) -> str | None:
     """Tell why the plan cannot have it, as the last decision found; None where it can."""
     trace = asked.ride.latest
     names = macros(event)
-    options = {o.action for o in asked.world.options(asked.now)}
+    options = {o.action for o in options_at(asked.ride, asked.now)}
     if not names or any(name in options for name in names):
         return None
     reasons = [n.reason for n in trace.not_applicable if not n.node and n.action in names]

@@ -11,9 +11,8 @@ from xavi_dialogue.domain.terms import Ego, Event, Happens
 from xavi_dialogue.explain.answers import supposing
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.causes.actions import names_of
-from xavi_dialogue.explain.causes.options import situations, with_model_error
+from xavi_dialogue.explain.causes.options import of_trace, situations
 from xavi_dialogue.explain.causes.premise import Premise
-from xavi_dialogue.explain.facts.options import of_trace
 
 ONWARD = frozenset(("continue", "exit-straight"))
 
@@ -41,7 +40,7 @@ def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
     if trace is None:
         return None
     names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
-    known = with_model_error(of_trace(asked.ride, trace))
+    known = of_trace(asked.ride, trace)
     found = [option for option in known if option.action in names]
     if not found:
         return None

@@ -1,15 +1,44 @@
 """Supposed when: at which decision something that is supposed is to be tried."""
 
+import dataclasses
+
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether
 from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.explain.answers import choices, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reading import subject
+from xavi_dialogue.explain.answers.own_suppositions import GOING
+from xavi_dialogue.explain.answers.reading import event_of, subject
 from xavi_dialogue.explain.causes.conduct import conduct_names, probability
 from xavi_dialogue.explain.causes.premise import happened, manoeuvre, premise
 from xavi_dialogue.explain.causes.suppositions import known_to
 
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
+
+
+def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, Asked]:
+    """Read "if you turned left" as of now, unless a time is said or the past is spoken of."""
+    said = scene.past is not None and (scene.past.said or not _of_now(then))
+    open_ = event.tense == "past" and event.modal is None and not said
+    if not open_ or event.action in GOING or not choices.is_choice(event):
+        return event, scene
+    return replace(event, tense="present"), dataclasses.replace(scene, span=None)
+
+
+def _of_now(then: Question | None) -> bool:
+    """Tell whether what is asked of a supposed world is of what would be, not have been."""
+    match then:
+        case Compare():
+            return True
+        case Whether(that=that):
+            asked = event_of(that)
+            tense = getattr(that, "tense", None) if asked is None else asked.tense
+            return tense == "present"
+        case Doing(tense=tense):
+            return tense != "past"
+    return False
 
 
 def driven(scene: Asked, then: Event | None) -> Episode | None:

@@ -26,7 +26,6 @@ from xavi_dialogue.domain.terms import (
     Related,
     Time,
     Vehicle,
-    Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import reacting
@@ -35,6 +34,7 @@ from xavi_dialogue.explain.answers.beliefs import least_sure
 from xavi_dialogue.explain.answers.closeness import closeness
 from xavi_dialogue.explain.answers.freed import asks_pace, freed
 from xavi_dialogue.explain.answers.hastening import hastened
+from xavi_dialogue.explain.answers.jointly import Joint, is_absence, joint
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.own_suppositions import (
     arrival,
@@ -54,20 +54,19 @@ from xavi_dialogue.explain.answers.reading import (
     manner_of,
     unwrapped,
 )
-from xavi_dialogue.explain.answers.supposed_when import driven, moment, open_until
+from xavi_dialogue.explain.answers.supposed_when import driven, imagined, moment, open_until
 from xavi_dialogue.explain.causes.actions import DRIVING, names_of, same
 from xavi_dialogue.explain.causes.conduct import conduct_names
 from xavi_dialogue.explain.causes.suppositions import (
     Supposed,
     otherwise,
     share_of,
+    together,
     without,
 )
 from xavi_dialogue.explain.history.ride import ROUNDING
 
 LIKELY = 0.5  # probability from which the ego is said to do something
-#: States and relations of another vehicle that mean that it were not there, or gone.
-ABSENT = ("present", "visible")
 
 
 def what_if(question: WhatIf, scene: Asked) -> Answer:
@@ -76,8 +75,13 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     Raises:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
-    of, negated = unwrapped(question.supposed)
     form = form_of(question.then)
+    several = joint(question.supposed, scene)
+    if several is not None:
+        if _asks_of_other(question.then):
+            raise Unanswered(CannotSay("unsupported-condition"))
+        return _of_several(question, scene, several)
+    of, negated = unwrapped(question.supposed)
     if _is_free_road(of, negated=negated):
         free = Event("wait", tense="past", modal="would")
         return hastened(free, scene, "arrival" if form == "what-if" else form)
@@ -102,6 +106,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if negated:
         return undone(event, scene, form, struck)
     asked = question.then.that if isinstance(question.then, Whether) else None
+    event, scene = imagined(event, question.then, scene)
     return claimed(of_us(event, scene, form, struck), claimed_in(asked))
 
 
@@ -142,7 +147,7 @@ def _is_free_road(of: Proposition | None, *, negated: bool) -> bool:
     match of:
         case Exists(thing=Nobody()) | Related(thing=Nobody()):
             return not negated
-        case Exists(thing=Feature(kind="queue" | "obstacle" | "light") | Everyone() | Vehicles()):
+        case Exists(thing=Feature(kind="queue" | "obstacle" | "light") | Everyone()):
             return negated
     return False
 
@@ -181,36 +186,45 @@ def _of_other(
     quick = manner_of(event, "fast", "slowly", "early", "late") is not None
     if quick or (event is None and not negated):  # nobody can be put where or how he was not
         raise Unanswered(CannotSay("unsupported-condition"))
-    supposed = None if _is_absence(of, negated=negated) else event
+    supposed = None if is_absence(of, negated=negated) else event
     if supposed is None and not past and asks_pace(question.then):
         return Measures((scene.world.measure("speed", Ego(), scene.now),))
-    return _replanned(question, scene, supposed, vehicle, past=past, negated=negated)
+    one = Joint((vehicle,), supposed, negated=negated)
+    return _replanned(question, scene, one, past=past)
 
 
-def _replanned(
-    question: WhatIf,
-    scene: Asked,
-    event: Event | None,
-    vehicle: int,
-    *,
-    past: bool,
-    negated: bool,
-) -> SupposedOfOther:
-    """What would have been planned, had a vehicle done otherwise, or not been there."""
-    then = _then(question.then)
+def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
+    """What would have been planned, had several vehicles done otherwise, or not been there."""
+    first, event = several.numbers[0], several.event
+    content, _ = unwrapped(question.supposed)
+    tense = content.tense if isinstance(content, Exists) else "present"  # "was gone" is of now
+    gone = Exists(Vehicle(first), tense=tense)
+    of = gone if event is None else Happens(event)
+    past = _past(scene, of, _then(question.then), first, now=_asks_now(question.then))
+    return _replanned(question, scene, several, past=past)
+
+
+def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> SupposedOfOther:
+    """What would have been planned, had vehicles done otherwise, or not been there."""
+    then, event = _then(question.then), of.event
     drove = driven(scene, then)
     at = moment(scene, then, drove, past=past)
+    numbers, left = of.numbers, of.left_out
     if event is None:
-        found = without(scene.ride, vehicle, at)
+        found = without(scene.ride, numbers, at)
     else:
-        at = open_until(scene, vehicle, event, at) if past else at
-        found = otherwise(scene.ride, vehicle, conduct_names(event), at, negated=negated)
+        at = open_until(scene, numbers[0], event, at) if past else at
+        names, negated = conduct_names(event), of.negated
+        both = together(scene.ride, numbers, names, at, negated=negated) if numbers[1:] else None
+        if both is None:  # nothing in the record has them all do so
+            numbers, left = numbers[:1], (*numbers[1:], *left)
+        found = both or otherwise(scene.ride, numbers[0], names, at, negated=negated)
         if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
             event = structs.replace(event, action=found.proxy, manner=())
     return SupposedOfOther(
-        vehicle=vehicle,
+        vehicle=numbers[0],
         supposed=event,
-        negated=negated and event is not None,
+        negated=of.negated and event is not None,
         prior=found.prior,
         plan=found.here.plan,
         then=found.there.plan,
@@ -220,22 +234,12 @@ def _replanned(
         asked=then,
         still=_still(scene, found, then, drove),
         form=form_of(question.then),
-        slows=_slows(found) if event is not None and not negated else None,
+        slows=_slows(found) if event is not None and not of.negated else None,
         arrival=arrival(scene, found.contrast),
+        others=numbers[1:],
+        left_out=left,
+        everybody=of.everybody,
     )
-
-
-def _is_absence(of: Proposition | None, *, negated: bool) -> bool:
-    match of:
-        case Exists():
-            return negated
-        case Is(state=state):
-            return negated and state in ABSENT
-        case Related():
-            return negated
-        case Happens(event):
-            return (event.action == "appear" and negated) or event.action == "disappear"
-    return False
 
 
 def _then(question: Question | None) -> Event | None:

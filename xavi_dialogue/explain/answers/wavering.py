@@ -12,7 +12,7 @@ from xavi_dialogue.explain.answers import reasons
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.reading import unwrapped
-from xavi_dialogue.explain.facts.options import of_trace
+from xavi_dialogue.explain.causes.options import of_trace
 from xavi_dialogue.explain.history.ride import planned
 
 BACK: Final = 20.0  # [s] that "each time" reaches back where no time is said

@@ -3,11 +3,13 @@
 import numpy as np
 
 from planner.trace import Outcome
-from xavi_dialogue.causal.model import Intervention, Joint
-from xavi_dialogue.domain.answers import Certainty
-from xavi_dialogue.explain.causes.contrast import alone, alternatives, evidence, factual, sides
+from xavi_dialogue.causal.model import Actions, Intervention, Joint
+from xavi_dialogue.domain.answers import Certainty, NeedRollout
+from xavi_dialogue.explain.causes.chances import chances, either_way, surely
+from xavi_dialogue.explain.causes.contrast import alone, contrast, decided, evidence, factual
+from xavi_dialogue.explain.causes.natural import natural
 from xavi_dialogue.explain.causes.premise import Premise
-from xavi_dialogue.explain.history.ride import MIN_DISTINCT, Ride, planned
+from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT, Ride, Unanswered
 
 DOUBT = 0.05  # chance that a probability is smaller than its lower bound
 UTMOST = 0.99  # no bound is higher: there is always what nobody foresees
@@ -34,7 +36,7 @@ def at_least(share: float, n: int) -> float:
 
 
 def of_plan(ride: Ride, found: Premise) -> Certainty:
-    """Tell how surely the plan of a decision goes well.
+    """Tell how surely the plan of a decision goes well, by the chances of its outcomes.
 
     Raises:
         Unanswered: there is too little evidence.
@@ -45,39 +47,69 @@ def of_plan(ride: Ride, found: Premise) -> Certainty:
     good = [result for result in plan.results if result.rollout.outcome in WELL]
     share = min(sum(plan.outcomes[name] for name in WELL), 1.0)
     low = _bound(share, len(plan.results), sum(model.prior(result.joint) for result in good))
-    rests_on, tried = evidence(ride, model, plan), len(plan.results)
-    contrast = alone(ride, model, plan)
-    return Certainty("plan", share, low, len(good), tried, trace.sim_time, rests_on, contrast)
+    told = sum(chances(plan).of(name) for name in WELL)
+    known = len(plan.results) > 1
+    return Certainty(
+        "plan",
+        min(told, UTMOST) if known else None,
+        surely(low) if known else None,
+        len(good),
+        len(plan.results),
+        trace.sim_time,
+        evidence(ride, model, plan),
+        alone(ride, model, plan),
+        len(model.vehicles),
+    )
 
 
-def of_choice(ride: Ride, found: Premise) -> Certainty | None:
-    """Tell how surely a choice beats the best alternative; None where they were not tried alike.
+def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | None:
+    """Tell how surely a choice does better than what it is compared with where it is explained.
+
+    Args:
+        ride: the record.
+        found: the decision, and where in its plan the choice is.
+        foil: what the question names instead; () for what one would naturally do.
+
+    Returns:
+        None where there is nothing to compare it with.
 
     Raises:
-        Unanswered: there is too little evidence of what was chosen.
+        Unanswered: rollouts are needed.
     """
     trace, node = found.trace, found.node
-    model, plan = ride.model(trace), planned(trace)
-    if len(plan) <= len(node):
+    try:
+        against = contrast(ride, trace, foil, node) if foil else natural(ride, trace, node)
+        if against.verdict == "alone":
+            return None
+        model, there = ride.evidence(trace, against.foil)
+        here = decided(ride, model)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
         return None
-    here = factual(model, trace)
-    others = alternatives(model, plan[len(node)], node)
-    if not others:
-        return None
-    foil, there = others[0]
     gains = _gains(here, there)
-    known = sum(model.prior(joint) for joint in gains)
-    if known < 0.5 and len(gains) < MIN_DISTINCT:
-        return None
     better = [joint for joint, gain in gains.items() if gain > EQUAL]
-    weights = dict(zip((r.joint for r in here.results), here.weights, strict=True))
-    mass = sum(weights[joint] for joint in gains)
-    share = min(sum(weights[joint] for joint in better) / mass, 1.0) if mass > 0.0 else 0.0
-    low = _bound(share, len(gains), sum(model.prior(joint) for joint in better))
-    rests_on = evidence(ride, model, here, there)
-    contrast = sides(ride, model, here, there, foil)
-    tried, time = len(gains), trace.sim_time
-    return Certainty("choice", share, low, len(better), tried, time, rests_on, contrast)
+    known = sum(model.prior(joint) for joint in gains)
+    alike = len(gains) > 1 and (known >= MIN_COVERAGE or len(gains) >= MIN_DISTINCT)
+    proven = sum(model.prior(joint) for joint in better)
+    share = proven + max(1.0 - known, 0.0) * _expected(len(better), len(gains))
+    part = len(better) / len(gains) if gains else 0.0
+    return Certainty(
+        "choice",
+        min(either_way(min(share, 1.0)), UTMOST) if alike else None,
+        surely(min(max(proven, at_least(part, len(gains))), share, UTMOST)) if alike else None,
+        len(better),
+        len(gains),
+        trace.sim_time,
+        against.evidence,
+        against,
+        len(model.vehicles),
+    )
+
+
+def _expected(good: int, tried: int) -> float:
+    """The probability that what was not tried goes well, by Jeffreys' prior."""
+    return (good + 0.5) / (tried + 1.0)
 
 
 def _bound(share: float, n: int, proven: float) -> float:

@@ -14,15 +14,16 @@ from xavi_dialogue.domain.answers import (
     Effect,
     Evidence,
     NotApplicable,
-    OutcomeEstimate,
     TooLittle,
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, same
+from xavi_dialogue.explain.causes.chances import chances
 from xavi_dialogue.explain.causes.involved import contrastive_causes, holding_up
+from xavi_dialogue.explain.causes.lateness import exceeds, in_time
 from xavi_dialogue.explain.causes.necessity import Proven, proven
-from xavi_dialogue.explain.causes.ranges import likely, table
+from xavi_dialogue.explain.causes.ranges import likely
 from xavi_dialogue.explain.causes.routes import route_after, shared
 from xavi_dialogue.explain.causes.terms import RISK, differences, told
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, thin
@@ -51,7 +52,7 @@ def contrast(ride: Ride, trace: PlanTrace, foil: Actions | None, node: Actions =
         raise SameAsPlan(ride, trace, (*node, *foil))
     check_applicable(ride.model(trace), foil, node)
     model, there = ride.evidence(trace, (*node, *foil))
-    here = factual(model, trace)
+    here = decided(ride, model)
     return compare(ride, model, here, there, (*node, *foil))
 
 
@@ -97,6 +98,21 @@ def factual(model: CausalModel, trace: PlanTrace) -> Intervention:
         if found is not None and enough(found):
             return found
     raise thin(plan[:1], model.intervene(plan[:1]))
+
+
+def decided(ride: Ride, model: CausalModel) -> Intervention:
+    """Find the plan of a decision by its own rollouts, or by further ones where these do not do.
+
+    So what is told of the plan is the same whatever it is compared with.
+
+    Raises:
+        Unanswered: there is not enough evidence for it in either.
+    """
+    original = ride.original(model.trace)
+    try:
+        return factual(ride.model(original), original)
+    except Unanswered:
+        return factual(model, model.trace)
 
 
 def alternatives(
@@ -149,24 +165,24 @@ def sides(
 ) -> Contrast:
     """Put fact and foil beside each other, with the causes that were tried."""
     difference = differences(model, there, here)
+    other, own = chances(there), chances(here)
+    risky = other.collision >= RISK
     close = difference.verdict == "close"
     known = () if tried is None else tried.causes
     causes = tuple(c for c in known if c.mechanism is not None) if close else known
-    risk, own_risk = difference.risks
-    struck = there.collisions()
     found = effects(there, here)
     return Contrast(
         fact=here.plan,
         foil=foil,
-        outcome=outcome(there),
-        effects=to_effects(found),
+        outcome=other.likeliest,
+        effects=to_effects(in_time(found, there, here)),
         causes=causes,
         evidence=evidence(ride, model, here, there),
         decided=model.trace.sim_time,
-        fact_outcome=outcome(here),
-        collision=risk if risk >= RISK else 0.0,
-        fact_collision=own_risk,
-        collided_with=max(struck, key=lambda v: struck[v]) if struck and risk >= RISK else None,
+        fact_outcome=own.likeliest,
+        collision=other.collision if risky else 0.0,
+        fact_collision=own.collision,
+        collided_with=other.struck if risky else None,
         continued=there.plan[len(foil) :],
         aim=aim(model.trace, here),
         cleared=() if tried is None else tried.cleared,
@@ -177,6 +193,8 @@ def sides(
         error=difference.error,
         likely=likely(model, here, there, found),
         route=missed(model.trace, there, here),
+        horizon=model.trace.settings.horizon,
+        exceeds=exceeds(model.trace.settings.horizon, there, here),
     )
 
 
@@ -220,22 +238,12 @@ def alone(
         causes=() if tried is None else tried.causes,
         evidence=evidence(ride, model, here),
         decided=model.trace.sim_time,
-        fact_outcome=outcome(here),
-        fact_collision=min(here.outcomes["collision"], 1.0),
+        fact_outcome=chances(here).likeliest,
+        fact_collision=chances(here).collision,
         aim=aim(model.trace, here),
         cleared=() if tried is None else tried.cleared,
         causation=None if tried is None else tried.causation,
     )
-
-
-def outcome(intervention: Intervention) -> OutcomeEstimate:
-    """Tell the likeliest outcome of an intervention."""
-    name = intervention.likeliest
-    struck = intervention.collisions() if name == "collision" else {}
-    vehicle = max(struck, key=lambda v: struck[v], default=None)
-    chance = min(intervention.outcomes[name], 1.0)
-    error = 0.0 if name == "dead" else table().model_error  # where roads lead is no guess
-    return OutcomeEstimate(name, chance, vehicle, error)
 
 
 def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:

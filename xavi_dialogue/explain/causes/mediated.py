@@ -12,7 +12,8 @@ from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.causes.actions import CHANGES
 from xavi_dialogue.explain.history.ride import Ride, prediction
 
-EARLIER = 8.0  # [s] before the decision that is explained, within which it is looked for
+EARLIER = 8.0  # [s] before the decision that is explained, within which a wait is looked for ...
+MOVED = 12.0  # ... and a change of lanes, which stays done
 SHARE = 0.25  # probability from which one is foreseen to hold another up
 MOSTLY = 0.75  # part of the decisions from the first one on that foresaw it
 LATELY = 2.5  # [s] since when a wait must be over at most
@@ -31,13 +32,14 @@ def holders(ride: Ride, decision: PlanTrace, vehicle: int) -> Mapping[int, PlanT
     Returns:
         By vehicle the first decision that foresaw it; those foreseen most often come first.
     """
-    since = decision.sim_time - EARLIER
-    recent = [t for t in ride.traces if since <= t.sim_time <= decision.sim_time]
+    now = decision.sim_time
+    recent = [t for t in ride.traces if now - MOVED <= t.sim_time <= now]
     recent = [t for t in recent if vehicle in t.scene and t.under_way is None]
-    last = decision.sim_time - LATELY
-    waits = _foreseen(recent, vehicle, _held)
-    waits = {holder: at for holder, at in waits.items() if at[-1].sim_time >= last}
+    waits = _foreseen([t for t in recent if t.sim_time >= now - EARLIER], vehicle, _held)
+    waits = {holder: at for holder, at in waits.items() if at[-1].sim_time >= now - LATELY}
     moved = [t for t in recent if _lane(t, vehicle) != _lane(decision, vehicle)]
+    if not moved and leaves(decision, vehicle) >= SHARE:
+        moved = recent  # it is only about to do so
     found = {**_foreseen(moved, vehicle, _passed), **waits}
     ranked = sorted(found, key=lambda holder: (-len(found[holder]), holder))
     return {holder: found[holder][0] for holder in ranked[:TRIED]}
@@ -73,7 +75,7 @@ def _held(trace: PlanTrace, vehicle: int) -> dict[int, float]:
 def _passed(trace: PlanTrace, vehicle: int) -> dict[int, float]:
     """Whom a vehicle leaves its lane for, as was predicted: the nearest ahead in it."""
     lane = _lane(trace, vehicle)
-    share = sum(p for way, p in _ways(trace, vehicle) if set(way.actions[:1]) & set(CHANGES))
+    share = leaves(trace, vehicle)
     if lane is None or share <= 0.0:
         return {}
     gaps = {
@@ -85,6 +87,11 @@ def _passed(trace: PlanTrace, vehicle: int) -> dict[int, float]:
     }
     nearest = min(gaps, key=lambda other: gaps[other], default=None)
     return {} if nearest is None or gaps[nearest] > REACH else {nearest: share}
+
+
+def leaves(trace: PlanTrace, vehicle: int) -> float:
+    """Tell the probability that a vehicle leaves its lane next, as was predicted."""
+    return sum(p for way, p in _ways(trace, vehicle) if set(way.actions[:1]) & set(CHANGES))
 
 
 def _ways(trace: PlanTrace, vehicle: int) -> Iterator[tuple[TrajectoryPrediction, float]]:

@@ -1,10 +1,11 @@
 """Necessity: whether the vehicles that are blamed matter, by planning again without them.
 
 Whoever holds the ego up in the rollouts of a foil may be one of many: without it, the next one
-would. So the decision is taken again without the vehicle, and where that shows nothing without
-two (`actual`). A choice hangs on vehicles without which it is made otherwise, or most of what
-spoke for it is gone. A way of driving hangs on those without which most of the speed that is
-lost to others on the next stretch of road is not lost. Who makes no difference is no cause.
+would. So the decision is taken again without the vehicle, where that shows nothing without two,
+and last without all others (`actual`). A choice hangs on vehicles without which it is made
+otherwise, or most of what spoke for it is gone. A way of driving hangs on those without which most
+of the speed that is lost to others on the next stretch of road is not lost. Who makes no
+difference is no cause.
 """
 
 from collections.abc import Sequence
@@ -23,7 +24,7 @@ from xavi_dialogue.explain.causes.actions import CHANGES
 from xavi_dialogue.explain.causes.actual import SINGLES, Trial, actual_causes
 from xavi_dialogue.explain.causes.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.involved import against, holding_up, slowing
-from xavi_dialogue.explain.causes.mediated import holders
+from xavi_dialogue.explain.causes.mediated import holders, leaves
 from xavi_dialogue.explain.causes.profile import driven, speeds
 from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
@@ -76,12 +77,14 @@ def proven(
     tests = _Tests(ride, model, fact, foil)
     suspects = [cause.vehicle for cause in causes]
     reserve = () if foil is not None else _in_the_way_around(model)
-    found = actual_causes(suspects, reserve, tests.trial, tests.behind)
+    found = actual_causes(suspects, reserve, tests.trial, tests.behind, tests.everybody)
     if found.kind == "open":
         kept = tuple(cause for cause in causes if cause.vehicle not in found.cleared)
         return Proven(kept, found)
-    blamed = found.vehicles[:1] if found.kind == "pre-empted" else found.vehicles
     known = {cause.vehicle: cause for cause in causes}
+    blamed = found.vehicles[:1] if found.kind == "pre-empted" else found.vehicles
+    if found.kind == "several":  # of whom those at work are told of, as far as each was tried
+        blamed = tuple(v for v in suspects[:SINGLES] if v in found.vehicles)
     told = [
         known.get(vehicle) or tests.instead(vehicle, suspects) or against(model, vehicle)
         for vehicle in blamed
@@ -94,12 +97,8 @@ def proven(
         replace(cause, decision_changes=tests.changes(cause.vehicle), necessary=needed)
         for cause in told
     )
-    otherwise = foil is None or all(cause.decision_changes is not False for cause in causes)
-    return Proven(
-        causes,
-        replace(found, decides=otherwise),
-        tests.replaced(found),
-    )
+    decides = tests.decides(found, causes)
+    return Proven(causes, replace(found, decides=decides), tests.replaced(found))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,10 +115,28 @@ class _Tests:
         """The decision as it was taken."""
         return self.ride.original(self.model.trace)
 
-    def changes(self, vehicle: int) -> bool | None:
-        """Whether another action is chosen without a vehicle; None where that is not known."""
-        again = self.ride.without(self.decision, vehicle)
+    @property
+    def everybody(self) -> tuple[int, ...]:
+        """All vehicles of the decision but the ego."""
+        return tuple(sorted(vehicle for vehicle in self.decision.scene if vehicle != EGO))
+
+    def changes(self, *vehicles: int) -> bool | None:
+        """Whether another action is chosen without vehicles; None where that is not known."""
+        again = self.ride.without(self.decision, *vehicles)
         return None if again is None else planned(again)[:1] != planned(self.decision)[:1]
+
+    def decides(self, found: Causation, causes: Sequence[Cause]) -> bool:
+        """Whether something else is done without those it hangs on: without each, or without all.
+
+        Args:
+            found: on whom it hangs.
+            causes: those of them that are told.
+        """
+        if self.foil is None or not found.vehicles:
+            return True
+        if found.kind in ("one", "both"):
+            return all(cause.decision_changes is not False for cause in causes)
+        return self.changes(*found.vehicles) is not False
 
     def instead(self, vehicle: int, suspects: Sequence[int]) -> Cause | None:
         """Find how a vehicle holds the ego up where one of those at work is not there."""
@@ -144,7 +161,13 @@ class _Tests:
             Unanswered: rollouts are needed.
         """
         found = holders(self.ride, self.decision, vehicle)
-        return tuple(one for one, since in found.items() if self._matters_since(one, since))
+        return tuple(one for one, since in found.items() if self._makes(vehicle, one, since))
+
+    def _makes(self, vehicle: int, holder: int, since: PlanTrace) -> bool:
+        """Whether without a vehicle another would have stayed in its lane, or been no matter."""
+        again, before = self.ride.without(since, holder), leaves(since, vehicle)
+        stays = again is not None and leaves(again, vehicle) <= LEFT * before
+        return (before >= EXPECTED and stays) or self._matters_since(holder, since)
 
     def _matters_since(self, holder: int, since: PlanTrace) -> bool:
         """Whether most of what others cost the plan of an earlier decision goes with a vehicle."""
@@ -213,10 +236,9 @@ class _Tests:
 
     def _free(self, plan: Intervention, again: PlanTrace) -> tuple[Intervention, PlanTrace] | None:
         """What is chosen with nobody else there, and the decision; None where it is not known."""
-        everybody = {vehicle for vehicle in self.decision.scene if vehicle != EGO}
-        if not everybody & set(again.scene):
+        if set(self.everybody).isdisjoint(again.scene):
             return plan, again
-        empty = self.ride.without(self.decision, *everybody)
+        empty = self.ride.without(self.decision, *self.everybody)
         found = None if empty is None else self._chosen(empty)
         return None if empty is None or found is None else (found, empty)
 

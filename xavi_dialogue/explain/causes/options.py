@@ -1,20 +1,17 @@
 """Options: what a decision weighed, and how each came out."""
 
-from collections.abc import Iterable
-
-from msgspec.structs import replace
-
-from planner.trace import Action
+from planner.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import effects
-from xavi_dialogue.causal.model import Intervention, plan_of
+from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import Evidence
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.explain.causes.contrast import alternatives, factual, outcome
+from xavi_dialogue.explain.causes.chances import chances
+from xavi_dialogue.explain.causes.contrast import alternatives, factual
 from xavi_dialogue.explain.causes.premise import Premise
-from xavi_dialogue.explain.causes.ranges import table
 from xavi_dialogue.explain.causes.terms import differences
+from xavi_dialogue.explain.facts.plans import last_choice
 from xavi_dialogue.explain.history.deeds import Deed
-from xavi_dialogue.explain.history.ride import Ride, planned
+from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned
 
 
 def free(ride: Ride, found: Premise) -> Premise:
@@ -24,6 +21,30 @@ def free(ride: Ride, found: Premise) -> Premise:
     before = [t for t in ride.traces if t.under_way is None and t.sim_time <= found.trace.sim_time]
     deed: Deed | None = found.deed
     return Premise(before[-1], deed) if before else found
+
+
+def options_at(ride: Ride, at: float) -> tuple[OptionValue, ...]:
+    """List what the last decision up to a time [s] could choose from; the chosen one first.
+
+    Where another manoeuvre was under way, that of the last decision with a choice.
+    """
+    trace = last_choice(ride, at)
+    return () if trace is None else of_trace(ride, trace)
+
+
+def of_trace(ride: Ride, trace: PlanTrace) -> tuple[OptionValue, ...]:
+    """List what a decision could choose from, the chosen one first, then best first."""
+    model, plan = ride.model(trace), planned(trace)
+    tried = ((action, model.intervene((action,))) for action in model.options())
+    others = [(a, i) for a, i in tried if i is not None and enough(i) and (a,) != plan[:1]]
+    try:
+        here = factual(model, trace) if plan else None
+    except Unanswered:
+        here = None
+    base = 0.0 if here is None else here.value
+    rows = [] if here is None else [_chosen(plan[0], here, base)]
+    rows += [_option(model, action, there, here, base) for action, there in others]
+    return tuple(sorted(rows, key=lambda row: (not row.chosen, -(row.value or 0.0))))
 
 
 def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
@@ -39,47 +60,56 @@ def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
     here = factual(model, trace)
     chosen = plan[len(node)]
     base = trace.plan[0].value if not node else here.value
-    rows = [_option(chosen, here, here, base, min(here.outcomes["collision"], 1.0), chosen=True)]
+    rows = [_chosen(chosen, here, base)]
     for foil, there in alternatives(model, chosen, node):
-        difference = differences(model, there, here)
-        value, risk = base - difference.value, difference.risks[0]
-        rows.append(_option(foil[len(node)], there, here, value, risk, chosen=False))
+        rows.append(_option(model, foil[len(node)], there, here, base))
     return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
 
 
+def _chosen(action: Action, plan: Intervention, value: float) -> OptionValue:
+    arrives = plan.likeliest == "done"
+    time = plan.expectation("time") if arrives else None
+    return _valued(action, plan, value, time=time, delta=None, chosen=True)
+
+
 def _option(
+    model: CausalModel,
     action: Action,
     plan: Intervention,
-    here: Intervention,
+    here: Intervention | None,
+    base: float,
+) -> OptionValue:
+    """Value what was not chosen, beside what was, where that is known, with its value [s]."""
+    value = plan.value if here is None else base - differences(model, plan, here).value
+    time = delta = None
+    if plan.likeliest == "done":
+        time = plan.expectation("time")
+        found = () if here is None else effects(plan, here)
+        delta = next((e.delta for e in found if e.component == "time"), None)
+    return _valued(action, plan, value, time=time, delta=delta, chosen=False)
+
+
+def _valued(
+    action: Action,
+    plan: Intervention,
     value: float,
-    risk: float,
     *,
+    time: float | None,
+    delta: float | None,
     chosen: bool,
 ) -> OptionValue:
-    ends = outcome(plan)
-    delta = next((e.delta for e in effects(plan, here) if e.component == "time"), None)
-    arrives = ends.name == "done"
-    struck = plan.collisions()
+    told = chances(plan)
+    ends = told.likeliest
     return OptionValue(
         action=action,
         chosen=chosen,
         outcome=ends.name,
         probability=ends.probability,
-        time=plan.expectation("time") if arrives else None,
-        delta=None if chosen or not arrives else delta,
+        time=time,
+        delta=delta,
         value=value,
-        collision=risk,
-        collided_with=max(struck, key=lambda v: struck[v]) if struck else None,
-        model_error=ends.model_error,
-    )
-
-
-def with_model_error(options: Iterable[OptionValue]) -> tuple[OptionValue, ...]:
-    """Return options with how far their rollouts are to be trusted."""
-    error = table().model_error
-    return tuple(
-        option if option.outcome == "dead" else replace(option, model_error=error)
-        for option in options
+        collision=told.collision,
+        collided_with=told.struck,
     )
 
 

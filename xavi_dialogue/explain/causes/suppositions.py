@@ -77,17 +77,51 @@ def decision_for(ride: Ride, vehicle: int, moment: float) -> PlanTrace:
     return found[0]
 
 
-def without(ride: Ride, vehicle: int, moment: float) -> Supposed:
-    """Compare a decision with the same made again without a vehicle.
+def without(ride: Ride, vehicles: tuple[int, ...], moment: float) -> Supposed:
+    """Compare a decision with the same made again without some vehicles.
+
+    The decision is the one for the first of them that a decision up to a time [s] reckons with.
 
     Raises:
-        Unanswered: no decision reckons with it; or it must be planned again first.
+        Unanswered: no decision reckons with them; or it must be planned again first.
     """
-    trace = decision_for(ride, vehicle, moment)
-    again = ride.without(trace, vehicle)
+    known = [vehicle for vehicle in vehicles if known_to(ride, vehicle, moment)]
+    trace = decision_for(ride, (known or [*vehicles])[0], moment)
+    gone = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
+    again = ride.without(trace, *gone)
     if again is None:  # the planner could not make it: whoever asked it knows why
-        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=vehicle))
+        removed = gone[0] if len(gone) == 1 else tuple(sorted(gone))
+        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=removed))
     return compared(ride, trace, again, None)
+
+
+def together(
+    ride: Ride,
+    vehicles: tuple[int, ...],
+    names: tuple[ActionName, ...],
+    moment: float,
+    *,
+    negated: bool,
+) -> Supposed | None:
+    """Compare a decision with what it would be if several vehicles did, or did not do, something.
+
+    That is told from the samples of the decision in which all of them do; None where there are
+    too few, since it can be planned again with the conduct of one vehicle alone.
+    """
+    trace = decision_for(ride, vehicles[0], moment)
+    model = ride.model(trace)
+    if not set(vehicles) <= set(model.vehicles):
+        return None
+    given: dict[int, frozenset[Choice]] = {}
+    for vehicle in vehicles:
+        every, matched = frozenset(model.choices(vehicle)), matching(model, vehicle, names)
+        given[vehicle] = every - matched if negated else matched
+    if not all(given.values()):
+        return None
+    try:
+        return _given(ride, model, given)
+    except Unanswered:
+        return None
 
 
 def otherwise(
@@ -108,7 +142,7 @@ def otherwise(
     refused: Unanswered = thin(tuple(n for n in names if is_macro(n)), None)
     if supposed and matched:
         try:
-            return _given(ride, model, vehicle, supposed)
+            return _given(ride, model, {vehicle: supposed})
         except Unanswered as unanswered:
             refused = unanswered
     believed = probability(ride, trace, vehicle, names)
@@ -116,7 +150,7 @@ def otherwise(
         found = _acting(ride, trace, vehicle, ("continue-next-exit",), refused)
         return dataclasses.replace(found, prior=1.0 - believed)
     if negated and not matched:  # nobody thought that it would: things are as they are
-        return _given(ride, model, vehicle, every)
+        return _given(ride, model, {vehicle: every})
     if names[:1] == ("speed-up",) and not negated:
         need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, faster=FASTER)
         again = ride.supposed(trace, need)
@@ -149,12 +183,14 @@ def _acting(
     raise refused if ride.cannot_have(need) else Unanswered(need)
 
 
-def _given(ride: Ride, model: CausalModel, vehicle: int, supposed: frozenset[Choice]) -> Supposed:
-    """The ego's best plan given what is supposed of a vehicle, against what was decided."""
-    trace, chances = model.trace, model.choices(vehicle)
-    given = CausalModel(trace, {vehicle: supposed})
+def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]]) -> Supposed:
+    """The ego's best plan given what is supposed of others, against what was decided."""
+    trace, chance = model.trace, 1.0
+    for vehicle, choices in supposed.items():  # each chooses by itself
+        chances = model.choices(vehicle)
+        chance *= min(sum(chances[choice] for choice in choices), 1.0)
+    given = CausalModel(trace, supposed)
     there, here = _best(given, planned(trace)), factual(model, trace)
-    chance = min(sum(chances[choice] for choice in supposed), 1.0)
     contrast = replace(sides(ride, model, here, there, there.plan), likely=None)
     return Supposed(trace, trace, here, there, chance, contrast)
 

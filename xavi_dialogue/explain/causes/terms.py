@@ -11,12 +11,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from planner.trace import COMPONENTS, Costs, Outcome
-from xavi_dialogue.causal.model import CausalModel, Intervention, Result, plan_of
+from xavi_dialogue.causal.model import CausalModel, Intervention, Mixture, Result, plan_of
 from xavi_dialogue.domain.answers import Share, Term, Weighing
+from xavi_dialogue.explain.causes.chances import chances
 
 PAIRED = 0.5  # share of the weight of either side that must have been tried with both
 SPEAKS = 0.25  # [s] by which one plan must be better than another to be called so
 ROUNDING = 0.05  # [s] by which terms that are worked out from components may be off
+TINY = 1e-9  # what sums of floats are off by
 RISK = 0.01  # probability of a collision from which it is always told
 STEERING = frozenset[Term](("angular-acceleration", "curvature"))
 RIDE = STEERING | {"jerk"}
@@ -69,36 +71,52 @@ def differences(model: CausalModel, foil: Intervention, fact: Intervention) -> D
     count, each by its prior: so the planner compares, and what one side met by chance alone
     tells nothing of the choice. Else the two sides vary independently; so they do where a fatal
     outcome was met in a situation that was tried with one side only, since it weighs too much to
-    be left out.
+    be left out, and where the pairs contradict the chances that are told of such an outcome.
 
     The standard error is that of the weighted mean (Hajek 1971), of the differences by situation
     where there are such, in the share of the prior mass that was not tried.
     """
     costs = model.trace.reckoned
+    found = _paired(model, foil, fact)
+    if found is None or _contradicted(found[0], foil, fact):
+        error = math.hypot(_own_error(costs, foil), _own_error(costs, fact))
+        found = _independent(costs, foil, fact), error
+    terms, error = found
+    ranked = sorted(terms, key=lambda term: -terms[term])
+    known = {t: terms[t] for t in ranked if terms[t] != 0.0}
+    return Difference(known, error, _chances(foil, fact))
+
+
+def _paired(
+    model: CausalModel, foil: Intervention, fact: Intervention
+) -> tuple[dict[Term, float], float] | None:
+    """What the foil costs more [s] where both were tried, and its standard error [s].
+
+    None where that is too small a part of either side, or leaves a fatal outcome out.
+    """
+    costs = model.trace.reckoned
     there, here = ({r.joint: r for r in side.results} for side in (foil, fact))
     common = [joint for joint in there if joint in here]
-    mass = min(_mass(side, set(common)) for side in (foil, fact))
+    priors = [model.prior(joint) for joint in common]
+    total = sum(priors)
+    if min(_mass(side, set(common)) for side in (foil, fact)) < PAIRED or total <= 0.0:
+        return None
     if any(r.rollout.outcome in FATAL and r.joint not in here for r in foil.results) or any(
         r.rollout.outcome in FATAL and r.joint not in there for r in fact.results
     ):
-        mass = 0.0
-    priors = [model.prior(joint) for joint in common]
-    if mass >= PAIRED and sum(priors) > 0.0:
-        total = sum(priors)
-        weights = [prior / total for prior in priors]
-        pairs = [_split(_Case.of(costs, there[j]), _Case.of(costs, here[j])) for j in common]
-        terms = _sum(zip(weights, pairs, strict=True))
-        error = _error(weights, [sum(pair.values()) for pair in pairs], total)
-        sides = [
-            list(zip(weights, (side[j] for j in common), strict=True)) for side in (there, here)
-        ]
-    else:
-        terms = _independent(costs, foil, fact)
-        error = math.hypot(_own_error(costs, foil), _own_error(costs, fact))
-        sides = [list(zip(side.weights, side.results, strict=True)) for side in (foil, fact)]
-    ranked = sorted(terms, key=lambda term: -terms[term])
-    chances = _chances(sides[0], sides[1])
-    return Difference({t: terms[t] for t in ranked if terms[t] != 0.0}, error, chances)
+        return None
+    weights = [prior / total for prior in priors]
+    pairs = [_split(_Case.of(costs, there[j]), _Case.of(costs, here[j])) for j in common]
+    terms = _sum(zip(weights, pairs, strict=True))
+    return terms, _error(weights, [sum(pair.values()) for pair in pairs], total)
+
+
+def _contradicted(terms: Mapping[Term, float], foil: Mixture, fact: Mixture) -> bool:
+    """Tell whether a fatal outcome counts against the side that is less likely to have it."""
+    return any(
+        terms.get(term, 0.0) * (foil.outcomes[outcome] - fact.outcomes[outcome]) < -TINY
+        for outcome, term in FATAL.items()
+    )
 
 
 def told(difference: Difference) -> tuple[Share, ...]:
@@ -216,18 +234,11 @@ def _own_error(costs: Costs, plan: Intervention) -> float:
     return _error(list(plan.weights), values, plan.coverage)
 
 
-def _chances(
-    there: list[tuple[float, Result]], here: list[tuple[float, Result]]
-) -> dict[Term, tuple[float, float]]:
+def _chances(foil: Mixture, fact: Mixture) -> dict[Term, tuple[float, float]]:
     """How probable the outcomes other than arriving are, under foil and fact."""
+    there, here = chances(foil), chances(fact)
     names: dict[Outcome, Term] = {**FATAL, "termination": "late"}
-    return {
-        term: tuple(  # type: ignore[misc]
-            min(sum(w for w, r in side if r.rollout.outcome == outcome), 1.0)
-            for side in (there, here)
-        )
-        for outcome, term in names.items()
-    }
+    return {term: (there.of(outcome), here.of(outcome)) for outcome, term in names.items()}
 
 
 def _sum(pairs: Iterable[tuple[float, dict[Term, float]]]) -> dict[Term, float]:

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Mapping
 
 from planner.road import RoadFacts
 from planner.trace import Action as MacroAction
-from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure, OptionValue
+from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Event, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation
-from xavi_dialogue.explain.facts import beliefs, happening, looks, options, relations
+from xavi_dialogue.explain.facts import beliefs, happening, looks, plans, relations
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
 from xavi_dialogue.explain.facts.light_events import light_episodes
 from xavi_dialogue.explain.facts.measures import extremes, measuring
@@ -152,13 +152,9 @@ class World:
         found = (t.sim_time for t in self.ride.traces if t.decision == number)
         return next(found, None)
 
-    def options(self, at: float) -> tuple[OptionValue, ...]:
-        """What the last decision up to a time could choose from, with values; best first."""
-        return options.options(self.ride, at)
-
     def beginnings(self) -> Mapping[ActionName, float]:
         """When each action of the ego's plan is expected to begin [s]."""
-        return options.beginnings(self.ride)
+        return plans.beginnings(self.ride)
 
 
 _kept: list[World] = []  # latest first

@@ -69,6 +69,13 @@ def time_effect(contrast: Contrast) -> Effect | None:
     return next((e for e in worth_telling(contrast) if e.component == "time"), None)
 
 
+def _astray(contrast: Contrast) -> Chance | None:
+    """How probable it is that the foil leads off the way, where that weighs against it."""
+    found = (s for s in contrast.told if s.term == "dead" and s.cost > 0.0)
+    share = next(found, None)
+    return None if share is None or not share.chance else Chance(share.chance)
+
+
 def consequence_slots(
     contrast: Contrast, context: SpeechContext, *, past: bool, that: bool = False
 ) -> dict[str, Any]:
@@ -81,7 +88,7 @@ def consequence_slots(
         that: the foil was named, and is "that".
     """
     outcome = contrast.outcome
-    chance = 1.0 if outcome is None else outcome.calibrated
+    chance = 1.0 if outcome is None else outcome.probability
     struck = outcome.collided_with if outcome is not None else None
     struck = struck if struck is not None else contrast.collided_with
     time, main = time_effect(contrast), main_effect(contrast)
@@ -109,7 +116,10 @@ def consequence_slots(
         "risk": Chance(risk) if counts or risk >= RISK else None,
         "tiny": risk < terms.TINY,
         "later": later,
+        "unlike": contrast.spares_delay,
+        "astray": _astray(contrast) if kind == "late" else None,
         **terms.timed(contrast, context, more=later),
+        **terms.looked_ahead(contrast),
         **terms.not_worth_it(contrast),
         **terms.effort(contrast),
     }

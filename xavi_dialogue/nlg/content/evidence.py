@@ -2,7 +2,7 @@
 
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect, Evidence
 from xavi_dialogue.domain.evidence import Causation
-from xavi_dialogue.domain.terms import Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.contrasts import (
     cause_message,
     kind_of,
@@ -10,6 +10,7 @@ from xavi_dialogue.nlg.content.contrasts import (
     told_cause,
     worth_telling,
 )
+from xavi_dialogue.nlg.content.suspects import all_of
 from xavi_dialogue.nlg.content.terms import foil_verbs
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -18,6 +19,7 @@ from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Wh
 NARROW = 1.0  # [s] a range that is not worth giving
 NOTHING = 0.25  # [s] a difference that is none
 MOST = 2  # causes beside the first that are told
+NAMED = 4  # vehicles that are causes together only, up to which each is named
 
 
 def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[Message, ...]:
@@ -89,11 +91,15 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     if causation is None or causation.kind in ("one", "open"):
         return None
     one, other = (*(Who(Vehicle(v), time) for v in causation.vehicles[:2]), None, None)[:2]
+    few = causation.kind == "several" and len(causation.vehicles) <= NAMED
+    every = all_of(causation.vehicles, time) if few else None
     return message(
         "HANGS_ON",
         kind=causation.kind,
         one=one,
         other=other,
+        every=every,
+        count=None if every is not None else len(causation.vehicles),
         past=past,
         decides=causation.decides,
     )
@@ -108,7 +114,7 @@ def cleared(vehicles: tuple[int, ...], time: float, *, past: bool) -> Message | 
     """Tell which vehicles made no difference."""
     if not vehicles:
         return None
-    who = Who(Vehicles(vehicles) if len(vehicles) > 1 else Vehicle(vehicles[0]), time)
+    who = all_of(vehicles, time)
     return message("NO_DIFFERENCE", who=who, past=past, many=len(vehicles) > 1)
 
 

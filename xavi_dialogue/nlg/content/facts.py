@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,
@@ -31,6 +30,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
 
+RISK = 0.01  # probability of a collision from which it is told
 CHANGED = 1.4  # [m/s] change of speed from which it is told
 TOLD = 0.1  # probability from which an answer names an alternative
 BESIDES = 2  # likely alternatives that are told
@@ -220,11 +220,11 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
         verb=verb,
         chosen=option.chosen,
         outcome=option.outcome,
-        chance=Chance(calibrated(option.probability, option.model_error)),
+        chance=Chance(option.probability),
         later=Quantity(delta, "s") if delta is not None and delta > 0.25 else None,
         sooner=Quantity(-delta, "s") if delta is not None and delta < -0.25 else None,
         struck=Who(Vehicle(option.collided_with)) if option.collided_with is not None else None,
-        risk=Chance(option.collision) if option.collision > 0 else None,
+        risk=Chance(option.collision) if option.collision >= RISK else None,
     )
 
 

@@ -96,36 +96,38 @@ def _times(fit: float) -> str:
 
 def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
     """Plan how sure we are of a plan, or that a choice was the better one."""
-    contrast = answer.contrast
+    contrast, share = answer.contrast, answer.share
     past = context.now - answer.decided > PRESENT
     fact = () if contrast is None else contrast.fact
     foil = () if contrast is None else contrast.foil
-    first = message(
-        "CERTAINTY",
-        plan=answer.about == "plan",
-        past=past,
-        unsure=answer.share < EVEN,
-        close=bool(fact and foil) and EVEN <= answer.share < CLOSE,
-        share=Chance(answer.share),
-        fact=own_verbs(fact, foil) if fact else None,
-        foil=own_verbs(foil, fact) if foil else None,
-        simple=context.detail == "simpler",
-    )
-    details = (
-        message(
-            "CERTAIN_OF",
-            good=Number(answer.good, ""),
-            situations=Number(answer.situations, "situation"),
-            all=answer.good == answer.situations,
-            one=answer.situations == 1,
-            plan=answer.about == "plan",
-            low=Chance(answer.low),
-            past=past,
-        ),
-    )
+    slots: dict[str, Any] = {
+        "plan": answer.about == "plan",
+        "past": past,
+        "unknown": share is None,
+        "unsure": share is not None and share < EVEN,
+        "fair": share is not None and share < CLOSE,
+        "share": None if share is None else Chance(share),
+        "fact": own_verbs(fact, foil) if fact else None,
+        "simple": context.detail == "simpler",
+        "good": Number(answer.good, ""),
+        "situations": Number(answer.situations, "situation"),
+        "all": answer.good == answer.situations,
+        "well": answer.good > 0,
+        "one": answer.evidence.distinct_samples <= 1,
+        "others": answer.others > 0,
+        "low": None if answer.low is None else Chance(answer.low),
+        "foil": None,
+        "verdict": "alone",
+    }
+    if contrast is not None and foil:
+        told = consequence_slots(contrast, context, past=past)
+        slots = told | slots | {"foil": own_verbs(foil, fact), "verdict": contrast.verdict}
+    details: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
+    if slots["verdict"] == "better" and slots["fair"]:
+        details = (*_because(contrast, context, past=past), *details)
     more = () if contrast is None else further(contrast, context, past=past)
     shown = () if context.detail == "simpler" else details
-    return Plan((first,), shown, more[:2])
+    return Plan((Message("CERTAINTY", slots),), shown, more[:2])
 
 
 def plan_method(answer: Method, context: SpeechContext) -> Plan:

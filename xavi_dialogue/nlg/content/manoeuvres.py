@@ -3,10 +3,12 @@
 from collections.abc import Iterable
 
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlg.content.clauses import doing, episode_clause
-from xavi_dialogue.nlg.surface.values import Clause, Tense, Who
+from xavi_dialogue.nlg.surface.message import Message
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense, Who
 
 CHANGES = frozenset(("change-left", "change-right", "overtake"))
 EXITS = frozenset(("exit-left", "exit-right", "exit-straight"))
@@ -99,3 +101,14 @@ def denial(action: ActionName, *, past: bool) -> Clause:
     verb = doing(action, ego=True)
     tense: Tense = "past" if past else "present"
     return Clause(Who(ride=ride), verb, (), tense, progressive=not past, negated=True)
+
+
+def performed(rule: str, done: Performed) -> Message:
+    """Return by a rule that we did something, are doing it or plan to do it."""
+    time = None if done.time is None else Moment(done.time)
+    return Message(rule, {"performed": done.when, "fact": own_verbs((done.action,)), "when": time})
+
+
+def performed_later(done: Performed | None) -> tuple[Message, ...]:
+    """Return that what was compared was done later, or is planned; () where it is neither."""
+    return () if done is None else (performed("PERFORMED_LATER", done),)

@@ -38,12 +38,21 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     first = _driving(answer, context, past)
     told = bool(answer.causes) and answer.causes[0].vehicle == answer.suspect
     core = suspected(
-        first, answer.suspect, answer.suspected, answer.deed.begin, answer.cleared, told=told
+        first,
+        answer.suspect,
+        answer.suspected,
+        answer.deed.begin,
+        answer.cleared,
+        answer.besides,
+        told=told,
     )
     first_of = answer.causes[0].vehicle if answer.causes else None
     others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
     alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
+    if hangs is not None and answer.causation is not None and answer.causation.jointly:
+        core, hangs = (*core, hangs), None  # one of them alone is no reason
+    others = list(answer.causes[1:]) if answer.suspected == "beside" else others
     asked = hangs if answer.of_causes else None
     details = [*(_also(c, answer, context, past) for c in others[:1]), asked]
     more = [

@@ -15,7 +15,7 @@ from xavi_dialogue.nlg.content.contrasts import (
     told_cause,
 )
 from xavi_dialogue.nlg.content.evidence import further
-from xavi_dialogue.nlg.content.manoeuvres import CHANGES, own_verbs
+from xavi_dialogue.nlg.content.manoeuvres import CHANGES, own_verbs, performed, performed_later
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.reasons import cause_of
@@ -45,14 +45,15 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
-    risk = None if told_risk and not answer.done else risks(contrast, context, past=past)
+    done = answer.done is not None
+    risk = None if told_risk and not done else risks(contrast, context, past=past)
     more = further(contrast, context, past=past)
-    if answer.ahead is not None and answer.ahead.vehicle is not None and not answer.done:
+    if answer.ahead is not None and answer.ahead.vehicle is not None and not done:
         who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
         blocked = message("IF_BLOCKED", who=who, past=past, form=answer.form, **_verbs(contrast))
         return Plan((blocked,), (), more, (), about_cause(answer))
-    if answer.done:
-        just = message("JUST_THAT", fact=slots["fact"], past=past)
+    if answer.done is not None:
+        just = performed("JUST_THAT", answer.done)
         rest = (Message("INSTEAD_OF_IT", slots),) if kind_of(contrast) != "alone" else ()
         core = (just, *(m for m in (risk,) if m is not None), *rest)
         return Plan(core, (), more, (), about_cause(answer))
@@ -64,11 +65,12 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
             risk = risks(contrast, context, past=past, unsaid=True)
         beside = () if risk is None or answer.form in OF_RISKS else (risk,)
-        return Plan((told, *beside), (), more, (), about_cause(answer))
+        core = (told, *beside, *performed_later(answer.later))
+        return Plan(core, (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
-    return Plan(core, (), more, (), about_cause(answer))
+    return Plan((*core, *performed_later(answer.later)), (), more, (), about_cause(answer))
 
 
 def _both_late(contrast: Contrast) -> Chance | None:
@@ -76,7 +78,7 @@ def _both_late(contrast: Contrast) -> Chance | None:
     foil, fact = contrast.outcome, contrast.fact_outcome
     if foil is None or fact is None or not foil.name == fact.name == "termination":
         return None
-    least, most = sorted((foil.calibrated, fact.calibrated))
+    least, most = sorted((foil.probability, fact.probability))
     return Chance(least) if most - least <= ALIKE else None
 
 

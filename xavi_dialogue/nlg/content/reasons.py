@@ -15,7 +15,12 @@ from xavi_dialogue.nlg.content.contrasts import (
 )
 from xavi_dialogue.nlg.content.driven import STANDING, motion_cause
 from xavi_dialogue.nlg.content.evidence import further, hangs_on
-from xavi_dialogue.nlg.content.manoeuvres import deed_clause, own_verbs, planned_clause
+from xavi_dialogue.nlg.content.manoeuvres import (
+    deed_clause,
+    own_verbs,
+    performed_later,
+    planned_clause,
+)
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.suspects import suspected
@@ -63,11 +68,15 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         answer.suspected,
         contrast.decided,
         contrast.cleared,
+        answer.besides,
         told=_names(answer, answer.suspect) or context.detail == "less",
     )
     more = further(contrast, context, past=past)
     core = core if risk is None else (risk, *core)  # a risk is told, and first
+    core = (*core, *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
+    if hangs is not None and _jointly(answer):
+        core, hangs = (*core, hangs), None  # one of them alone is no reason
     asked = answer.of_causes and _of_vehicles(contrast)
     details = () if hangs is None or not asked else (hangs,)
     more = more if hangs is None or details else (hangs, *more)
@@ -78,6 +87,18 @@ def _of_vehicles(contrast: Contrast) -> bool:
     """Whether the reason is told of vehicles, so that whether it hangs on them belongs to it."""
     hangs = contrast.causation is not None and contrast.causation.kind != "none"
     return hangs and not contrast.way and told_cause(contrast) is not None
+
+
+def _jointly(answer: ChoiceReason) -> bool:
+    """Whether the reason names a vehicle where several are it: together, or each would be enough.
+
+    So it is where it was asked whether one is.
+    """
+    causation = answer.contrast.causation
+    if causation is None or not causation.jointly or answer.contrast.way:
+        return False
+    asked = answer.suspected not in (None, "none", "neither")
+    return asked or any(_names(answer, vehicle) for vehicle in causation.vehicles)
 
 
 def _silent(rule: str, slots: Mapping[str, object]) -> bool:

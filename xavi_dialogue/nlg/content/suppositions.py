@@ -2,14 +2,17 @@
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Contrast, SupposedOfOther
-from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.terms import Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses import event_clause
 from xavi_dialogue.nlg.content.contrasts import RISK, time_effect
 from xavi_dialogue.nlg.content.evidence import rests_on
 from xavi_dialogue.nlg.content.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
+from xavi_dialogue.nlg.content.terms import looked_ahead
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Tense, Who
@@ -22,7 +25,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     """Plan what we would have done, and whether that is what we did."""
     slots: dict[str, Any] = {
         "past": answer.past,
-        "who": Who(Vehicle(answer.vehicle), _time(answer)),
+        "who": _who(answer),
         "condition": _condition(answer, context),
         "then": own_verbs(answer.then[:2], answer.plan),
         "plan": own_verbs(answer.plan[:2], answer.then),
@@ -34,10 +37,10 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
         event = event_clause(answer.asked, context.now)
         slots["asked"] = Clause(event.subject, event.verb, event.rest)
     slots["slows"] = answer.slows
-    timed = _timed(answer)
+    timed = _timed(answer, context)
     if timed is not None:
         told = Message("SUPPOSED_ARRIVAL", {**slots, **timed})
-        return Plan((told,), (), (), (), about_cause(answer))
+        return Plan((told, *_left_out(answer)), (), (), (), about_cause(answer))
     crash = _crash(answer)
     if crash is not None:
         slots |= {"crash": True, "risk": Chance(crash.collision), "struck": _struck(crash)}
@@ -46,6 +49,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     risky = outcome is not None and outcome.rule == "SUPPOSED_RISK"
     risky = risky and (crash is None or answer.asked is not None)
     core = (first, outcome) if risky and outcome is not None else (first,)
+    core = (*core, *_left_out(answer))
     outcome = None if crash is not None else outcome
     details = () if risky or outcome is None else (outcome,)
     contrast = answer.contrast
@@ -60,12 +64,19 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     )
 
 
-def _timed(answer: SupposedOfOther) -> dict[str, Any] | None:
+def _timed(answer: SupposedOfOther, context: SpeechContext) -> dict[str, Any] | None:
     """The slots for when we would be there, where that is what is asked."""
     if answer.form not in ("arrival", "quicker") or answer.contrast is None:
         return None
-    effect = time_effect(answer.contrast)
+    contrast = answer.contrast
+    effect = time_effect(contrast)
     return {
+        "late": contrast.late,
+        "unlike": contrast.spares_delay,
+        "chance": None if contrast.outcome is None else Chance(contrast.outcome.probability),
+        "waypoint": contrast.waypoint,
+        "simple": context.detail == "simpler",
+        **looked_ahead(contrast),
         "verdict": answer.form == "quicker",
         "sooner": effect is not None and effect.delta < 0.0,
         "delta": None if effect is None else Quantity(abs(effect.delta), "s"),
@@ -88,13 +99,33 @@ def _time(answer: SupposedOfOther) -> float | None:
     return None if answer.contrast is None else answer.contrast.decided
 
 
+def _who(answer: SupposedOfOther) -> Who:
+    """All of whom the same is supposed."""
+    numbers = (answer.vehicle, *answer.others)
+    thing = Vehicles(numbers) if answer.others else Vehicle(answer.vehicle)
+    return Who(thing, _time(answer))
+
+
+def _left_out(answer: SupposedOfOther) -> tuple[Message, ...]:
+    """Say of whom nothing could be supposed beside it; () where that is of nobody."""
+    if not answer.left_out:
+        return ()
+    numbers = answer.left_out
+    thing = Vehicles(numbers) if len(numbers) > 1 else Vehicle(numbers[0])
+    return (message("SUPPOSED_LEFT_OUT", who=Who(thing, _time(answer))),)
+
+
 def _condition(answer: SupposedOfOther, context: SpeechContext) -> Clause | None:
     """What is supposed, as the clause of an "if"; None where the vehicle were not there."""
+    tense: Tense = "past-perfect" if answer.past else "past"
+    if answer.everybody:
+        return Clause("nobody else", "be", ("around",), tense)
     if answer.supposed is None:
         return None
-    tense: Tense = "past-perfect" if answer.past else "past"
-    negated = answer.negated
-    clause = event_clause(answer.supposed, context.now, tense=tense, negated=negated)
+    negated, supposed = answer.negated, answer.supposed
+    if answer.others:
+        supposed = replace(supposed, actor=_who(answer).thing)
+    clause = event_clause(supposed, context.now, tense=tense, negated=negated)
     return Clause(clause.subject, clause.verb, clause.rest, tense, negated=negated)
 
 

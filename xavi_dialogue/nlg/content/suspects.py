@@ -1,7 +1,7 @@
 """Suspects: whether the vehicle that a question takes for the cause is one, with the reason."""
 
 from xavi_dialogue.domain.reasons import Suspected
-from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.terms import Vehicle, Vehicles
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Who
 
@@ -12,6 +12,7 @@ def suspected(
     part: Suspected | None,
     time: float,
     cleared: tuple[int, ...] = (),
+    besides: tuple[int, ...] = (),
     *,
     told: bool,
 ) -> tuple[Message, ...]:
@@ -23,11 +24,24 @@ def suspected(
         part: which part it has.
         time: [s] at which it is described.
         cleared: vehicles that make no difference.
+        besides: who else is the cause, where it is taken for the only one.
         told: the reason names it.
     """
     if suspect is None or part is None:
         return (reason,)
-    slots = {"who": Who(Vehicle(suspect), time), "part": part, "cleared": suspect in cleared}
+    slots = {
+        "who": Who(Vehicle(suspect), time),
+        "part": part,
+        "cleared": suspect in cleared,
+        "besides": all_of(besides, time),
+    }
     if told or part in ("none", "neither"):
         return (message("VERDICT_ON", reason=reason, **slots),)
     return (message("SUSPECTED", **slots), reason)
+
+
+def all_of(vehicles: tuple[int, ...], time: float) -> Who | None:
+    """Refer to one or several vehicles as they were at a time [s]; None where there are none."""
+    if not vehicles:
+        return None
+    return Who(Vehicle(vehicles[0]) if len(vehicles) == 1 else Vehicles(vehicles), time)

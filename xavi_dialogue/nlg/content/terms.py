@@ -4,6 +4,7 @@ What speaks for the verdict goes first, a risk of a collision before all else; w
 it follows after "though".
 """
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -18,7 +19,7 @@ LIKELY = 0.5  # probability from which an outcome is what comes, and no chance
 SURE = 0.995  # probability from which none is told
 LITTLE = 2.25  # [s] a gain up to which it is called little
 LARGE = 8.0  # [s] a difference that is much in everyday words
-TINY = 0.005  # probability below which it is told as under 1 %
+TINY = 0.01  # probability below which it is told as under 1 %
 ROUND = 5.0  # [s] to which the time that is compared is rounded
 STEERING = ("angular-acceleration", "curvature")
 RIDES = ("jerk", "angular-acceleration", "curvature")
@@ -45,6 +46,8 @@ def sides(
     sign = -1.0 if contrast.verdict == "worse" else 1.0
     risky = sorted(_leading(contrast.told), key=lambda share: share.term != "collision")
     spoken = [s for s in risky if s.term != "collision" or s.cost > 0.0 or sign < 0.0]
+    if any(s.term == "late" for s in spoken) and (contrast.late or contrast.spares_delay):
+        spoken = [s for s in spoken if s.term != "time"]  # of the few that arrive alone
     told = [(s, _term(s, contrast, context, past=past)) for s in spoken]
     for_it = tuple(one for s, one in told if sign * s.cost > 0.0)
     fatal = any(s.term == "collision" and sign * s.cost > 0.0 for s in spoken)
@@ -105,6 +108,15 @@ def timed(contrast: Contrast, context: SpeechContext, *, more: bool) -> dict[str
     }
 
 
+def looked_ahead(contrast: Contrast) -> dict[str, object]:
+    """The slots for the time that is looked ahead, and how much longer the late one takes."""
+    known, more = contrast.horizon, contrast.exceeds
+    return {
+        "horizon": None if known is None else Quantity(known, "s"),
+        "exceeds": None if more is None or more < 1.0 else Quantity(math.floor(more), "s"),
+    }
+
+
 def stretch(contrast: Contrast, context: SpeechContext) -> Quantity | None:
     """Tell how long a drive is compared, where it does not go to the destination."""
     aim = contrast.aim
@@ -117,7 +129,7 @@ def _term(share: Share, contrast: Contrast, context: SpeechContext, *, past: boo
     outcome = contrast.outcome
     name = _OUTCOMES.get(share.term)
     likely = outcome is not None and name == outcome.name and outcome.probability >= LIKELY
-    chance = outcome.calibrated if likely and outcome is not None else share.chance or 0.0
+    chance = outcome.probability if likely and outcome is not None else share.chance or 0.0
     here = share.fact_chance or 0.0
     struck = contrast.collided_with
     if outcome is not None and outcome.collided_with is not None:
@@ -138,6 +150,8 @@ def _term(share: Share, contrast: Contrast, context: SpeechContext, *, past: boo
         chance=Chance(chance),
         tiny=chance < TINY,
         both=both,
+        unlike=share.term == "late" and contrast.spares_delay,
+        **looked_ahead(contrast),
         fact_risk=Chance(here) if 0.01 <= here < chance - 0.01 else None,
         struck=None if struck is None else Who(Vehicle(struck), contrast.decided),
         waypoint=contrast.waypoint,

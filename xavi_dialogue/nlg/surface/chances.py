@@ -4,6 +4,8 @@ import math
 
 from xavi_dialogue.nlg.surface.tables import WordingError, table
 
+LEAST = 0.01 - 1e-9  # from which a probability is told in whole percent
+
 
 def chance(probability: float, form: str) -> str:
     """A probability in words, or in percent with the form "percent".
@@ -22,9 +24,9 @@ def chance(probability: float, form: str) -> str:
 
 
 def percent(probability: float) -> str:
-    """A probability in whole percent, never all or nothing."""
+    """A probability in whole percent, never all or nothing; one below 1 % is told as such."""
     bounds = table("chances")["bounds"]
     whole = math.floor(probability * 100 + 0.5)
     if whole >= 100:
         return str(bounds["high"])
-    return str(bounds["low"]) if whole <= 0 else f"{whole} %"
+    return str(bounds["low"]) if probability < LEAST else f"{whole} %"

@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Vehicle,
 )
-from xavi_dialogue.nlu.compose.blames import blamed_for
+from xavi_dialogue.nlu.compose.blames import blamed_for, of_one_alone
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.existence import if_alone
 from xavi_dialogue.nlu.compose.expecting import as_expected, feared
@@ -80,6 +80,8 @@ class Composer(Statements):
             found = cast(Found, getattr(self, _RULES[unit.name])(unit))
         else:
             found = self._talk(unit)
+        words = words_of(unit)
+        found = [(tuple(of_one_alone(act, words) for act in acts), cost) for acts, cost in found]
         talk = tuple(a for p in unit.parts if (a := _lead_act(p)) is not None)
         if unit.name == "talk" or not talk:
             return found

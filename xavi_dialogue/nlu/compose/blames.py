@@ -1,8 +1,10 @@
 """Blames: "was it for the bus", "was that braking because of him or of the lorry"."""
 
+import re
+
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.meaning import Act, Ask, Whether, Why
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -21,6 +23,13 @@ from xavi_dialogue.nlu.compose.sem import Group, Sem, Specified, as_thing
 
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "take-turn"})
 _HINDERING = frozenset({"bend", "light", "crossing", "queue", "obstacle"})
+_HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way", "let-go"})
+#: That nobody else is meant; "just" and "only just" may be of the time, and "not only" denies it.
+_ALONE = re.compile(
+    r"(?<!not )\bonly\b(?! just)|\balone\b|\b(?:solely|purely|merely|exclusively)\b"
+    r"|\bjust (?:because|due|for|down to|thanks to|the|that|this|vehicle|him|her|them)\b"
+    r"|\b(?:nobody|no one|noone|nothing) else\b|\bby (?:itself|himself|herself)\b"
+)
 
 
 def blamed(clause: Clause) -> Thing | None:
@@ -90,6 +99,23 @@ def _whole(event: Event) -> Proposition:
     """Take a deed for one that was for the sake of nobody in particular."""
     action = "stop" if event.action == "block" else event.action  # "that you stopped"
     return Happens(replace(event, action=action, object=None))
+
+
+def of_one_alone(act: Act, words: str) -> Act:
+    """Mark "only because of him", "was it him alone?": whether nobody else is why is asked.
+
+    "Did you stop only for the bus?" asks the same.
+    """
+    if not isinstance(act, Ask) or not _ALONE.search(words):
+        return act
+    match act.question:
+        case Why(suspect=thing, rival=None) as why if thing is not None:
+            return Ask(replace(why, alone=True))
+        case Whether(
+            that=Happens(event=Event(actor=Ego(), object=Vehicle() | Described() as whom) as event)
+        ) if event.action in _HELD and event.modal is None:
+            return Ask(Why(Happens(replace(event, object=None)), suspect=whom, alone=True))
+    return act
 
 
 def rival(clause: Clause) -> Thing | None:

@@ -33,7 +33,15 @@ from xavi_dialogue.nlu.compose.adoption import adopted
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.nominal import asked_of
-from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.sem import (
+    Group,
+    Measure,
+    Noun,
+    Sem,
+    as_thing,
+    is_thing,
+    members_of,
+)
 from xavi_dialogue.nlu.compose.severally import asked_each, towards
 from xavi_dialogue.nlu.compose.states import state_of
 from xavi_dialogue.nlu.compose.suppositions import suppose
@@ -175,6 +183,8 @@ class Fragments(BareQuestions):
             thing = Described(origin=cast(Any, clause.origin), definite=False)
         if thing is None and event is None and _there_yet(clause):
             return [((Ask(Whether(Happens(Event("arrive", tense="perfect")))),), 0.0)]
+        if clause.without is not None and thing is not None and event is None:
+            clause.without, thing = Group((*members_of(clause.without), thing)), None
         supposed = self.composer.questions.supposition(clause)
         if supposed is not None and thing is None and event is None:
             return [((suppose(supposed),), 0.0)]

@@ -1,5 +1,6 @@
 """Frames: the condition a question stands under, and the contrast beside it."""
 
+import dataclasses
 from typing import Any, cast
 
 from msgspec import structs
@@ -11,6 +12,7 @@ from xavi_dialogue.domain.meaning import (
     Whether,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -21,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Nobody,
     Not,
     Passenger,
     Pronoun,
@@ -33,7 +36,15 @@ from xavi_dialogue.nlu.compose.adoption import as_of, timed, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.pacing import at_pace
 from xavi_dialogue.nlu.compose.propositions import Propositions
-from xavi_dialogue.nlu.compose.sem import alternative, as_thing, is_thing
+from xavi_dialogue.nlu.compose.sem import (
+    NONE_OF_THEM,
+    Group,
+    Sem,
+    alternative,
+    as_thing,
+    is_thing,
+    members_of,
+)
 
 
 class Frames:
@@ -66,19 +77,30 @@ class Frames:
     def supposition(self, clause: Clause) -> Proposition | None:
         """Read what is supposed: "if he had stopped", "without the lorry"."""
         if clause.without is not None:
-            thing = as_thing(clause.without)
-            if isinstance(clause.without, Event):
-                return Not(Happens(clause.without))
-            return Not(Exists(thing)) if thing is not None else None
+            members = members_of(clause.without)
+            away = tuple(one for sem in members if (one := _without(sem)) is not None)
+            return Both(away) if len(away) > 1 else next(iter(away), None)
         if clause.condition is None:
             return None
         return self.supposed(clause.condition)
 
     def supposed(self, condition: Clause) -> Proposition | None:
-        """Read a supposition; that a thing is not there is that it does not exist."""
+        """Read a supposition, of each of several things; that one is away is that it is not.
+
+        "If 1 or 5 were not there" is that neither is.
+        """
+        sem = condition.subject
+        if not isinstance(sem, Group) or any(as_thing(one) is None for one in sem.members):
+            return self._supposed(condition)
+        each = [self._supposed(dataclasses.replace(condition, subject=one)) for one in sem.members]
+        found = tuple(one for one in each if one is not None)
+        either = sem.join == "or" and not all(isinstance(one, Not) for one in found)
+        return Both(found, "or" if either else "and") if found else None
+
+    def _supposed(self, condition: Clause) -> Proposition | None:
         bare = is_short(condition) and is_thing(condition.subject)
         found: Proposition | None = None if bare else self.propositions.plain(condition)
-        found = found if found is None else at_pace(condition, found)
+        found = found if found is None else _of_none(at_pace(condition, found))
         if found is None:
             thing = as_thing(condition.subject)
             if thing is None:
@@ -115,6 +137,22 @@ class Frames:
         if isinstance(other, Event):
             return Happens(other)
         return _with_object(of, as_thing(other))
+
+
+def _of_none(of: Proposition) -> Proposition:
+    """Read what is said of none of them as denied of all of them."""
+    if first(of, Nobody) != NONE_OF_THEM:
+        return of
+    every = rewrite(of, lambda part: Pronoun("them-all") if part == NONE_OF_THEM else part)
+    return Not(every)
+
+
+def _without(sem: Sem) -> Proposition | None:
+    """Read that a thing is away, or that a deed is not done: "without the lorry"."""
+    if isinstance(sem, Event):
+        return Not(Happens(sem))
+    thing = as_thing(sem)
+    return None if thing is None else Not(Exists(thing))
 
 
 def _contrary(question: Why) -> bool:

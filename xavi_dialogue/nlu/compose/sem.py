@@ -100,6 +100,10 @@ _NUMBERS = 20  # numbers of vehicles are below
 _OPEN = frozenset({"it", "that", "this", "they"})
 
 
+#: Nobody of those who were spoken of: "neither of them".
+NONE_OF_THEM = Nobody(Described(plural=True))
+
+
 def is_thing(sem: object) -> bool:
     """Say whether a meaning is a thing of the domain."""
     return isinstance(sem, THINGS)
@@ -157,6 +161,13 @@ def as_thing(sem: "Sem | None") -> Thing | None:
     if isinstance(sem, Quantity) and sem.unit == "count" and sem.value in range(1, _NUMBERS):
         return Vehicle(int(sem.value))  # "the gap to 2"
     return None
+
+
+def members_of(sem: "Sem | None") -> tuple["Sem", ...]:
+    """List what is joined by "and" or "or"; a meaning that is no group is the only one."""
+    if sem is None:
+        return ()
+    return sem.members if isinstance(sem, Group) else (sem,)
 
 
 def alternative(sem: object) -> Thing | None:

@@ -21,6 +21,7 @@ from xavi_dialogue.nlu.compose.adoption import also_named
 from xavi_dialogue.nlu.compose.followers import Followers, doing
 from xavi_dialogue.nlu.compose.heads import noun, rank_of
 from xavi_dialogue.nlu.compose.sem import (
+    NONE_OF_THEM,
     Group,
     Moment,
     Noun,
@@ -159,6 +160,8 @@ class Nouns(Followers):
             return described(traits.kind or "vehicle", traits, plural=True)
         if leaf.key == "everybody":
             return Everyone(cast(Any, traits.kind or "vehicle"))
+        if leaf.key == "neither":
+            return NONE_OF_THEM
         traits.determiner = "indef"
         if leaf.key == "somebody":
             words = {word for part in leaves_of(core) for word in part.words}

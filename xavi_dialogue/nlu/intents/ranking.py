@@ -7,7 +7,8 @@ reads them at a high cost, the plain questions of likely intents stand beside it
 from collections.abc import Sequence
 from typing import Final
 
-from xavi_dialogue.domain.meaning import Reading, TokenShare
+from xavi_dialogue.domain.meaning import Ask, Reading, TokenShare, WhatIf
+from xavi_dialogue.domain.terms import Both
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
 from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain
@@ -25,7 +26,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     best = readings[0]
     incomplete = bool(best.unknown or best.unread)
-    clear = not incomplete and best.cost <= CLEAR * len(best.acts)
+    clear = not incomplete and (best.cost <= CLEAR * len(best.acts) or _of_several(best))
     if clear or any(share.strange for share in asking(text, best.shares)):
         return tuple(readings)
     thing = mentioned(best)
@@ -41,6 +42,12 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     if len(offered) > 1:
         found.append(_reading(best, offered[:2]))
     return tuple(sorted([*readings, *found], key=lambda reading: reading.cost))
+
+
+def _of_several(best: Reading) -> bool:
+    """Tell whether something is supposed of several: a plain question is of one of them."""
+    asked = (act.question for act in best.acts if isinstance(act, Ask))
+    return any(isinstance(one, WhatIf) and isinstance(one.supposed, Both) for one in asked)
 
 
 def _leaves_open(best: Reading, intent: Intent, incomplete: bool) -> bool:

@@ -104,7 +104,7 @@ class Alternative(msgspec.Struct, frozen=True, kw_only=True):
     action: Action
     words: str  # "change to the left lane"
     chosen: bool
-    outcomes: dict[str, float]  # probability by outcome; {} where it was not tried
+    outcomes: dict[str, float]  # share of rollouts by outcome; {} where it was not tried
     time: TimeRange | None  # null of the chosen one, and where it cannot be told
     arrival: float | None  # [s] expected time to the goal
     value: float | None  # expected reward
@@ -179,7 +179,7 @@ class Side(msgspec.Struct, frozen=True, kw_only=True):
     title: str  # "my plan", "what you asked about", "what I would have done instead"
     brief: str  # what tells it from the other side: "move to the left lane"
     words: str  # "change to the left lane, then turn left"
-    outcomes: dict[str, float]
+    outcomes: dict[str, float]  # share of rollouts by outcome
     arrival: float | None  # [s]
     lines: tuple[Drive, ...]  # likeliest first, 5 at most
     runs: tuple[Run, ...]  # those that differ, 100 at most

@@ -24,7 +24,8 @@ def risk_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     decision, foil = found
     yield Told("collision", foil)
     yield from _risk(said, match, decision, foil)
-    if match["other"] and not any(is_chance(match, v, "other") for v in decision.risks(None)):
+    own = map(trusted, decision.risks(None))
+    if match["other"] and not any(is_chance(match, value, "other") for value in own):
         yield Fault("risk of the plan", f"{match[0]}: {percents(decision.risks(None))}")
 
 
@@ -40,7 +41,7 @@ def both_risks(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
         return
     yield Told("collision", foil)
     yield from _risk(said, match, decision, foil)
-    if not any(is_chance(match, value, "other") for value in decision.risks(None)):
+    if not any(is_chance(match, trusted(value), "other") for value in decision.risks(None)):
         yield Fault("risk of the plan", f"{match[0]}: {percents(decision.risks(None))}")
 
 
@@ -50,7 +51,7 @@ def own_risk(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     if said.decision is None:
         return
     values = said.decision.risks(None)
-    if not any(is_chance(match, value) for value in values):
+    if not any(is_chance(match, trusted(value)) for value in values):
         yield Fault("risk of the plan", f"{match[0]}: {percents(values)}")
 
 
@@ -91,9 +92,7 @@ def _risk(said: Said, match: re.Match[str], decision: Decision, foil: Actions) -
     struck = said.who(match["who"]) if match["who"] else ()
     with_it = decision.risks(foil, struck) + decision.risks(None, struck)
     known = (*values, *decision.risks(foil, struck))
-    if "adverb" in match.groupdict():  # told as the outcome, and not as a risk
-        known = tuple(trusted(value) for value in known)
-    if not any(is_chance(match, value) for value in known):
+    if not any(is_chance(match, trusted(value)) for value in known):
         yield Fault("risk of a foil", f"{match[0]}: {percents(values)} for {', '.join(foil)}")
     elif struck and not any(with_it):
         yield Fault("collision with another", match[0])

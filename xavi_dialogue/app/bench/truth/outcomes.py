@@ -5,7 +5,8 @@ from collections.abc import Iterator
 
 from planner.trace import Action, Outcome
 from xavi_dialogue.app.bench.truth.context import Fault, Said, Told, claim
-from xavi_dialogue.app.bench.truth.naming import PERCENT, foil_of, percents
+from xavi_dialogue.app.bench.truth.decision import Decision
+from xavi_dialogue.app.bench.truth.naming import PERCENT, foil_of, percents, seconds
 from xavi_dialogue.app.bench.truth.phrases import ADVERB, acts, is_chance, is_likely, trusted
 from xavi_dialogue.app.bench.truth.reckoning import OUTCOMES
 
@@ -13,10 +14,14 @@ ROADS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "contin
 LONGER = 1.0  # [s] by which another way is longer
 
 
-@claim(
-    rf"would {ADVERB}(?:have )?take(?:n)? longer than I look(?:ed)? ahead"
-    r", and so would",
+#: Where a plan leads within the time that is looked ahead.
+WITHIN = (
+    r"(?:have got|get) (?:us )?(?:to our destination|as far as I (?:had planned|plan)) "
+    r"(?:within the (?P<horizon>\d+) seconds|in the time) that I look(?:ed)? ahead"
 )
+
+
+@claim(rf"would {ADVERB}not {WITHIN}, and neither would")
 def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that neither foil nor plan is through within the time that is looked ahead."""
     found = foil_of(said, match)
@@ -26,18 +31,47 @@ def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     sides = [[side.chance("termination") for side in pair] for pair in decision.pairs(foil)]
     if not any(is_likely(match["adverb"], trusted(min(pair))) for pair in sides):
         yield Fault("outcome of both", f"{match[0]}: {percents([x for p in sides for x in p])}")
+    yield from _looked(decision, match)
 
 
 @claim(
-    rf"would {ADVERB}(?:have )?take(?:n)? (?:much too long|longer than I look(?:ed)? ahead)"
-    r"(?!, and so would)",
-    rf"might (?:have )?take(?:n)? much too long \({PERCENT}\)(?P<adverb>)",
-    r"would (?:have )?take(?:n)? (?:still longer|less long)(?P<both>)",
-    r"(?P<both>more certain) to get us on in time",
+    rf"would {ADVERB}not {WITHIN}(?!, and neither would)",
+    rf"might not {WITHIN} \({PERCENT}\)(?P<adverb>)",
+    rf"(?P<both>more certain) to {WITHIN}",
+    rf"would {WITHIN}(?P<both>)",
+    r"would (?:have left|leave) (?:more|less) of the way to go(?P<both>) after the "
+    r"(?:(?P<horizon>\d+) seconds|time) that I look(?:ed)? ahead",
 )
 def late(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     """Check that a foil is not through within the time that is looked ahead."""
     yield from _outcome(said, match, ("termination",))
+    if said.decision is not None:
+        yield from _looked(said.decision, match)
+
+
+@claim(r"more than (?P<seconds>\d+) seconds? (?P<how>longer|sooner) than my choice")
+def beyond(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check by how much the one that arrives does so before the time that is looked ahead ends."""
+    found = foil_of(said, match)
+    if found is None:
+        return
+    decision, foil = found
+    horizon = decision.trace.settings.horizon
+    pairs = decision.pairs(foil)
+    known = [
+        horizon - time
+        for fact, side in pairs
+        if (time := (fact if match["how"] == "longer" else side).mean("time")) is not None
+    ]
+    if not any(int(match["seconds"]) <= left < int(match["seconds"]) + 1.0 for left in known):
+        yield Fault("time of a foil", f"{match[0]}: {seconds(known)}")
+
+
+def _looked(decision: Decision, match: re.Match[str]) -> Iterator[Fault]:
+    """Check how far it is looked ahead."""
+    known = decision.trace.settings.horizon
+    if match["horizon"] and abs(float(match["horizon"]) - known) > 0.5:
+        yield Fault("time looked ahead", f"{match[0]}: {known:g} s")
 
 
 @claim(
@@ -69,10 +103,10 @@ def _outcome(
     part = match.groupdict()
     if part.get("both") is not None:
         return  # it is told which side has more of it, or that the roads have it so: `way_ahead`
+    told = map(trusted, values) if outcomes == ("termination",) else iter(values)
     if part.get("chance"):
-        right = any(is_chance(match, value) for value in values)
+        right = any(is_chance(match, value) for value in told)
     else:
-        told = map(trusted, values) if outcomes == ("termination",) else values
         right = any(is_likely(match["adverb"], value) for value in told)
     if not right:
         yield Fault("outcome of a foil", f"{match[0]}: {percents(values)} for {', '.join(foil)}")

@@ -52,14 +52,53 @@ def another_instead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("holds nobody up", match[0])
 
 
-@claim(r"[Nn]o single vehicle ma(?:kes|de) the difference")
-def nobody_alone(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that some vehicle was tried, and that some plan without one is the same."""
+@claim(r"[Nn]o other vehicle ma(?:kes|de) the difference to that, not even all of them together")
+def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that it was planned again without all others, and came to the same."""
     if said.decision is None:
         return
-    known = [t for t in said.decision.without if t.what_if and len(t.what_if.gone) == 1]
-    if known and all(t.plan[:1] and t.plan[0].action != _first(said.decision) for t in known):
-        yield Fault("differs without", f"{match[0]}: each of {len(known)} plans")
+    known = [t for t in said.decision.without if t.what_if and t.what_if.gone]
+    every = [t for t in known if len(t.scene) == 1]
+    if not every:
+        yield Fault("not tried without", match[0])
+    elif all(t.plan[:1] and t.plan[0].action != _first(said.decision) for t in every):
+        yield Fault("differs without", match[0])
+
+
+@claim(
+    r"[Nn]o single vehicle ma(?:kes|de) the difference to that, only several together: without "
+    r"(?:all (?P<count>\d+) of them|(?P<who>(?:V\d+|it)(?:(?:,| and|, and) (?:V\d+|it))*)), "
+    r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same)"
+)
+def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that it was planned again without so many vehicles, and came to what is told."""
+    if said.decision is None:
+        return
+    named = re.findall(r"V\d+|it", match["who"] or "")
+    count = int(match["count"] or len(named))
+    sure = {v for one in named if one != "it" for v in said.who(one)}
+    again = (t for t in said.decision.without if t.what_if is not None)
+    known = [t for t in again if t.what_if and len(t.what_if.gone) == count >= len(sure)]
+    known = [t for t in known if t.what_if and sure <= t.what_if.gone]
+    if not known:
+        yield Fault("not tried without", match[0])
+    elif match["how"] != "otherwise" and all(
+        t.plan[:1] and t.plan[0].action != _first(said.decision) for t in known
+    ):
+        yield Fault("differs without", match[0])
+
+
+@claim(
+    r"[Bb]oth (?P<who>V\d+|it) and (?P<other>V\d+|it) (?:ha(?:d|ve) to be there|count(?:ed)?)"
+    r": without one of them, I would (?:have )?do(?:ne)? (?:otherwise|the same)",
+)
+def both(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that it was planned again without one of two vehicles by itself."""
+    if said.decision is None:
+        return
+    named = {*said.who(match["who"]), *said.who(match["other"])}
+    if not any(tried(said.decision, (vehicle,)) for vehicle in named):
+        yield Fault("not tried without", match[0])
 
 
 @claim(r"[Ee]ither of them would have been enough, (?P<who>V\d+|it) or (?P<other>V\d+|it)")

@@ -11,8 +11,9 @@ from xavi_dialogue.domain.terms import Thing
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.facts.measures import between, driving, identity, roads, trip
 from xavi_dialogue.explain.facts.measures.asked import Asked
-from xavi_dialogue.explain.facts.options import options
+from xavi_dialogue.explain.facts.plans import last_choice
 from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.ride import enough, planned
 
 Worker: TypeAlias = Callable[[Asked], Measure]
 
@@ -26,8 +27,13 @@ def _comfort(asked: Asked) -> Measure:
 
 def _value(asked: Asked) -> Measure:
     """The expected reward of what was chosen."""
-    chosen = next((o for o in options(asked.states.ride, asked.at) if o.chosen), None)
-    return asked.none("not-recorded") if chosen is None else asked.found(chosen.value)
+    ride = asked.states.ride
+    trace = last_choice(ride, asked.at)
+    plan = () if trace is None else planned(trace)
+    found = ride.model(trace).intervene(plan[:1]) if trace is not None and plan else None
+    if found is None or not enough(found):
+        return asked.none("not-recorded")
+    return asked.found(found.value)
 
 
 def _count(asked: Asked) -> Measure:
@@ -86,7 +92,7 @@ LACKING: Mapping[Attribute, Gap] = {
     "duration": "not-applicable",  # World.duration of an episode
     "delay": "not-applicable",  # World.delay of an episode
     "probability": "not-applicable",  # World.belief, World.probability
-    "cost": "not-applicable",  # World.options
+    "cost": "not-applicable",  # causes.options
     "weather": "not-sensed",
     "battery": "not-sensed",
     "money": "not-recorded",

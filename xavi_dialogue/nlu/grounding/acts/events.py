@@ -112,8 +112,7 @@ def completed(spoken: Event, g: Grounder) -> Event:
 def _window(spoken: Event, mode: Mode, g: Grounder, outer: Window | None) -> Window:
     if outer is not None and outer.said and isinstance(spoken.time, Unsaid):
         return outer
-    granted = mode in ("presupposed", "denied")
-    tense = "past" if spoken.tense == "perfect" and granted else spoken.tense
+    tense = "past" if spoken.tense == "perfect" and mode != "asked" else spoken.tense
     return g.window(spoken.time, tense)
 
 

@@ -1,0 +1,103 @@
+"""An option of a decision has one chance of a collision, whatever answer tells it."""
+
+import pytest
+from msgspec.structs import replace
+
+from planner.trace import PlanTrace, fault_of
+from tests.explain.answers.stated import scene
+from tests.explain.causes.decisions import decided, ride
+from tests.explain.trust import trusted
+from tests.traces import Actions, Aim, Chosen, End, Way
+from xavi_dialogue.explain.answers.foreseen import collision_chance
+from xavi_dialogue.explain.causes.certainty import of_plan
+from xavi_dialogue.explain.causes.contrast import alone, compare, sides
+from xavi_dialogue.explain.causes.contrast import decided as plan_of
+from xavi_dialogue.explain.causes.options import of_trace, weighed
+from xavi_dialogue.explain.causes.premise import Premise
+from xavi_dialogue.explain.causes.terms import differences
+
+BOTH: tuple[Actions, ...] = (("continue",), ("change-left",))
+SHARES = (0.4, 0.3, 0.2, 0.1)
+
+
+def uneven() -> PlanTrace:
+    """Moving left was tried in three situations of four, and strikes vehicle 1 in one of them.
+
+    By their priors, as both were tried in them, that is 0.2 / 0.9; by what the foil stands for
+    in all, it is another number. Going on strikes nobody.
+    """
+
+    def ends(plan: Actions, chosen: Chosen) -> End:
+        hit = plan[0] == "change-left" and chosen[1][1] == 2
+        return End("collision", collided_with=1) if hit else End(time=12.0)
+
+    aims = {1: (Aim("continue", 1.0, tuple(Way(("continue",), p) for p in SHARES)),)}
+    trace = decided(ends, aims, (("continue",), ("change-left", "continue")))
+    kept = [
+        r
+        for r in trace.rollouts
+        if r.actions[0].action == "continue" or r.samples[0].trajectory != 3
+    ]
+    often = [r for r in kept if r.samples[0].trajectory == 0] * 3  # the search drew it again
+    return replace(trace, rollouts=(*kept, *often))
+
+
+def test_every_answer_tells_the_same_chance_of_an_option() -> None:
+    trace = uneven()
+    whole, premise = ride(trace), Premise(trace, None)
+    model = whole.model(trace)
+    here, there = plan_of(whole, model), model.intervene(("change-left",))
+    assert there is not None
+    chance = trusted(there.outcomes["collision"])
+    assert there.outcomes["collision"] != pytest.approx(0.2 / 0.9, abs=1e-3)
+    told = sides(whole, model, here, there, ("change-left",))
+    share = differences(model, there, here).share("collision")
+    listed = {o.action: o for o in of_trace(whole, trace)}
+    valued = {o.action: o for o in weighed(whole, premise)}
+    assert told.collision == pytest.approx(chance)
+    assert share.chance == pytest.approx(chance)
+    for options in (listed, valued):
+        assert options["change-left"].collision == pytest.approx(chance)
+        assert options["continue"].collision == pytest.approx(trusted(0.0))
+    own = collision_chance(scene(traces=[trace]), trace.sim_time)
+    assert told.fact_collision == pytest.approx(own)
+    assert alone(whole, model, here).fact_collision == pytest.approx(own)
+    well = of_plan(whole, premise).share
+    assert well == pytest.approx(1.0 - own - here.outcomes["dead"] - trusted(0.0))
+
+
+@pytest.mark.parametrize("wrong", [float("nan"), float("inf"), -float("inf"), 1e9])
+@pytest.mark.parametrize("where", ["time", "term", "reward"])
+def test_a_figure_that_is_none_is_no_record(wrong: float, where: str) -> None:
+    """Else a difference of rewards is none either, and no verdict agrees with its terms."""
+    trace = decided({"continue": End(), "change-left": End()}, plans=BOTH)
+    first = trace.rollouts[0]
+    changes = {
+        "time": {"components": {**first.components, "time": wrong}},
+        "term": {"terms": {"time": wrong}},
+        "reward": {"reward": wrong},
+    }
+    bad = replace(trace, rollouts=(replace(first, **changes[where]), *trace.rollouts[1:]))
+    assert fault_of(trace) is None
+    assert fault_of(bad) is not None
+
+
+def test_a_drive_with_no_time_is_compared_without_one() -> None:
+    """What is absent is None: it arrives, and when is not known."""
+    trace = decided(
+        {"continue": End(), "change-left": End()}, plans=(("continue",), ("change-left",))
+    )
+    rows = [
+        replace(r, components=dict.fromkeys(r.components, None))
+        if r.actions[0].action == "change-left"
+        else r
+        for r in trace.rollouts
+    ]
+    bare = replace(trace, rollouts=tuple(rows))
+    whole = ride(bare)
+    model = whole.model(bare)
+    here, there = plan_of(whole, model), model.intervene(("change-left",))
+    assert there is not None
+    found = compare(whole, model, here, there, ("change-left",))
+    assert all(effect.component != "time" for effect in found.effects)
+    assert found.likely is None

@@ -1,0 +1,80 @@
+"""Suspects: whether the vehicle that a question takes for the cause is one, and the only one."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason
+from xavi_dialogue.domain.evidence import Causation
+from xavi_dialogue.domain.reasons import Suspected
+
+
+def with_suspect(
+    found: Answer, suspect: int | None, rival: int | None = None, *, alone: bool = False
+) -> Answer:
+    """Tell of the vehicle that the question takes for the cause whether it is.
+
+    Where it is one of the causes it goes first, so that it is the one that is spoken of. Of two
+    that are asked about, the one that is the cause, or is more of it. Where it is taken for the
+    only one, who or what else is.
+    """
+    if suspect is None or not isinstance(found, ChoiceReason | MotionReason):
+        return found
+    named = _blamed(found)
+    besides: tuple[int, ...] = ()
+    if rival is not None:
+        asked = [vehicle for vehicle in named if vehicle in (suspect, rival)]
+        suspect = asked[0] if asked else suspect
+        part: Suspected = "either" if asked else "neither"
+    else:
+        part = _part(named, suspect)
+        if alone and part != "none":
+            besides = tuple(vehicle for vehicle in named if vehicle != suspect)
+            part = "beside" if besides or _road_too(found) else _alone(found)
+    if isinstance(found, ChoiceReason):
+        ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
+        against = replace(found.contrast, causes=tuple(ranked))
+        return replace(found, contrast=against, suspect=suspect, suspected=part, besides=besides)
+    motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+    return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
+
+
+def _blamed(found: ChoiceReason | MotionReason) -> list[int]:
+    """List the vehicles that are causes, most important first."""
+    if isinstance(found, MotionReason):
+        named = [cause.vehicle for cause in found.causes if cause.vehicle is not None]
+        return list(dict.fromkeys((*named, *_jointly(found))))
+    against = found.contrast
+    named = [cause.vehicle for cause in against.causes]
+    if against.decisive == "collision" and against.collided_with is not None:
+        named = [against.collided_with, *named]
+    if found.ahead is not None and found.ahead.vehicle is not None:
+        named = [found.ahead.vehicle, *named]
+    return list(dict.fromkeys((*named, *_jointly(found))))
+
+
+def _causation(found: ChoiceReason | MotionReason) -> Causation | None:
+    return found.causation if isinstance(found, MotionReason) else found.contrast.causation
+
+
+def _jointly(found: ChoiceReason | MotionReason) -> tuple[int, ...]:
+    causation = _causation(found)
+    return () if causation is None else causation.jointly
+
+
+def _alone(found: ChoiceReason | MotionReason) -> Suspected:
+    """Tell that one is the only cause, as far as planning again without it showed."""
+    causation = _causation(found)
+    tried = causation is not None and causation.kind in ("one", "pre-empted")
+    return "alone" if tried else "main"
+
+
+def _road_too(found: ChoiceReason | MotionReason) -> bool:
+    """Tell whether something of the road is a reason beside a vehicle."""
+    return isinstance(found, MotionReason) and any(
+        cause.vehicle is None and cause.kind != "plan" for cause in found.causes
+    )
+
+
+def _part(named: list[int], suspect: int) -> Suspected:
+    if suspect not in named:
+        return "none"
+    return "main" if named[0] == suspect else "part"
