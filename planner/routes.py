@@ -97,7 +97,7 @@ def toward(roads: Roads, lane: str, direction: Direction, goal: EgoGoal | None) 
 
 
 def _length_by(roads: Roads, lead: Lead, goal: EgoGoal | None) -> tuple[float, bool]:
-    """Length [m] of the way to a goal by a link, and whether it turns back, which counts as some."""
+    """Length [m] of the way to a goal by a link; and whether it turns back, which counts extra."""
     length = remaining(roads, roads.network.lanes[lead.link.to_lane].edge, goal)
     return length + TURNING_BACK * lead.turnaround, lead.turnaround
 

@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from sim.boxes import overlap
+from sim.boxes import Box, overlap
 from sim.goal import Goal
 from sim.network import Network
 from sim.scene import EGO, Scene
@@ -78,7 +78,8 @@ class Observer:
         return Drive(ended, time, tuple(self.hits), self.hard_brakes, self.provoked)
 
     def _touched(self, scene: Scene) -> Iterator[Hit]:
-        for name, other in (*scene.vehicles.items(), *scene.people.items()):
+        everybody: dict[int, Box] = {**scene.vehicles, **scene.people}
+        for name, other in everybody.items():
             if name != EGO and overlap(scene.ego, other):
                 caused = caused_by_ego(self._recent, scene, name, self.network)
                 yield Hit(name, round(scene.time, 3), caused)

@@ -1,6 +1,7 @@
 """Terms: actors, actions and tenses as the query fields spell them. One table each."""
 
 from collections.abc import Iterator, Mapping
+from typing import get_args
 
 from xavi_dialogue.domain.terms import (
     Both,
@@ -22,16 +23,12 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.domain.vocabulary import BEYOND, MACRO_ACTIONS, ActionName, Bearing
+from xavi_dialogue.domain.vocabulary import BEYOND, ActionName, Bearing
 from xavi_dialogue.nlu.projection.fields import FieldAction, FieldActions, FieldTense
 
 #: What each action is called in the fields; those that are missing have no name there.
 ACTIONS: Mapping[ActionName, FieldAction] = {
-    **{action: action for action in MACRO_ACTIONS},
-    "give-way": "give-way",
-    "slow-down": "slow-down",
-    "speed-up": "speed-up",
-    "overtake": "overtake",
+    **{action: action for action in get_args(FieldAction)},
     "let-go": "give-way",
     "go": "continue",
     "move": "continue",
