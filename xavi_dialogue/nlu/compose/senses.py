@@ -17,6 +17,7 @@ ALMOST = 0.5  # of a thing of another type that might do
 LEFT_PARTICLE = 0.25
 NO_ACTOR = 0.6  # of a deed that is said to drive: "its turning passed us"
 UNITLESS = 0.4  # what a number is cheaper by beside a verb of speed: "doing 60"
+COLOUR = "c"  # types of a role that what is asked for fills only where it is a colour
 _OF_VEHICLES = frozenset(
     {"pass", "overtake", "cut-in", "brake", "turn", "exit-left", "exit-right", "change-left",
      "change-right", "pull-out", "merge", "stand", "wait", "move"}
@@ -130,8 +131,9 @@ def _fill(
     if role.kind == "s":
         if clause.subject is None:
             return None
-        if isinstance(clause.subject, Wanted) and found.sense.head == "turn-colour":
-            return None  # "what would change?" is not asked of lights
+        unlit = clause.subject == Pronoun("that") or isinstance(clause.subject, Wanted)
+        if unlit and found.sense.head == "turn-colour":
+            return None  # "what would change?", "has that changed?" are not asked of lights
         cost = fits(clause.subject, role.types)
         vague = isinstance(clause.subject, Pronoun | Wanted)
         return cost if cost is None or not vague else cost + VAGUE
@@ -161,7 +163,8 @@ def _fill_object(role: Role, found: Match, clause: Clause, objects: list[Sem]) -
             _take(role, found, clause.subject)
         return cost
     if clause.gap is not None and not found.gap_used and not _stranded(clause):
-        if types(clause.gap) == "n" and fits(clause.gap, role.types) is None:
+        strict = types(clause.gap) == "n" or role.types == COLOUR
+        if strict and fits(clause.gap, role.types) is None:
             return None
         found.gap_used = True
         _take(role, found, clause.gap)
