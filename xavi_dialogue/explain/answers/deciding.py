@@ -91,10 +91,12 @@ def listed(question: Listing, scene: Asked) -> Answer:
     Raises:
         Unanswered: the record lacks it, or has too little evidence.
     """
-    ride, span = scene.ride, scene.past if scene.past is not None and scene.past.said else None
-    moment = ride.at(span.begin) if span is not None and span.begin == span.end else None
-    if moment is None:
-        found = options.with_choice(ride, premise(ride, Subject(None, (), False, span)))
+    ride, said = scene.ride, scene.past
+    moment = None
+    if said is not None and said.said and said.begin == said.end:
+        moment = ride.at(said.begin)
+    if moment is None:  # of the deed that was spoken of before, where no time is said
+        found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
     else:
         found = options.with_choice(ride, Premise(moment, None))
     rows = options.weighed(ride, found)
