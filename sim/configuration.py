@@ -265,7 +265,7 @@ class _Inspection:
         for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):
             yield f"{what} are seen, and where they go is not foreseen"
         if network.crossings or self.engine.call(self.engine.api.person.getIDCount):
-            yield "people on foot are seen, and where they go is not foreseen"
+            yield "people on foot are seen, but the car does not give way to them"
         limits, closed = self._changed(network)
         if limits:
             yield f"{_many(limits)} have another limit now; the car keeps to that of the net"

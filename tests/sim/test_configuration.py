@@ -197,7 +197,7 @@ def test_what_is_not_modelled_is_named(tmp_path: Path) -> None:
         "steps of 1 s are shortened to 0.1 s",
         "stops of 'late' are not made",
         "trams are seen, and where they go is not foreseen",
-        "people on foot are seen, and where they go is not foreseen",
+        "people on foot are seen, but the car does not give way to them",
     ):
         assert any(words in warning for warning in told)
 
