@@ -1,9 +1,9 @@
 """Planning again from a recorded decision with something changed.
 
-The ego may be told what to do first, vehicles taken away, another supposed to have a goal, to do
-certain things or to drive faster, and lights to show something else. Everything that is needed
-stands in the trace, so a replayed ride can be asked as well as a live one. The same request gives
-the same trace.
+The ego may have to do something first, vehicles may be taken away, another may be supposed to
+have a goal, to do certain things or to drive faster, and lights to show something else. Everything
+that is needed stands in the trace, so a replayed ride can be asked as well as a live one. The same
+request gives the same trace.
 
 What is inferred of those who stay is inferred from the world as it was, with everybody in it, and
 only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So

@@ -46,7 +46,7 @@ def depart(engine: Engine, file: Path, rider: Rider) -> str:
 
 
 def forget_stops(engine: Engine, name: str) -> None:
-    """Take a vehicle's stops away: SUMO would hold the ego there whatever it is told.
+    """Take a vehicle's stops away: else SUMO holds the ego there against every command.
 
     Raises:
         SumoFailed: SUMO cannot do it.

@@ -69,7 +69,7 @@ def test_the_latest_turns_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_bounds() -> None:
     bounds = ("MAX_ROUNDS", "MAX_TRACES", "MAX_EVENTS", "MAX_GAPS", "MAX_PLANNED")
-    assert [getattr(manager, name) for name in bounds] == [8, 300, 2000, 100, 100]
+    assert [getattr(manager, name) for name in bounds] == [12, 300, 2000, 100, 100]
 
 
 def test_a_ride_is_named_by_its_first_trace() -> None:

@@ -292,6 +292,14 @@ CASES: tuple[Answer, ...] = (
     OtherReason(1, Episode(V, "move", 20.0, speed_to=1.7), causes=(MotionCause("starting"),)),
     OtherReason(1, None, Event("overtake", V), (MotionCause("limit", 0, speed=8.0, value=13.9),)),
     MotionReason(SLOWED, (LEADER,), suspect=2, suspected="either"),
+    MotionReason(
+        SLOWED, (LEADER,), causation=Causation("several", (1, 2, 3), minimal=False), of_causes=True
+    ),
+    *(
+        ChoiceReason("why", CHANGED, LONG, suspect=suspect, suspected="same", past=past)
+        for suspect in (2, 3)
+        for past in (True, False)
+    ),
     MotionReason(SLOWED, (LEADER,), suspect=3, suspected="neither"),
     MotionReason(SLOWED, (MotionCause("give-way-line", 2),), halted=9.0),
     Priority(NOW, "give-way", 1, grounds=True),

@@ -147,3 +147,10 @@ def test_where_the_same_would_be_done_that_is_said() -> None:
     assert "counted" in text
     assert "I would have done the same, but for less of a reason" in text
     assert "done otherwise" not in text
+
+
+def test_where_not_all_of_several_may_be_needed_nobody_is_named() -> None:
+    several = Causation("several", (2, 3, 4), minimal=False)
+    text = told(LEADER, causation=several)
+    assert text.endswith("only several together.")
+    assert "4" not in text

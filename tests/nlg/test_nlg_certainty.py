@@ -5,10 +5,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as replace_struct
 
-from tests.nlg.causal_cases import CHANGED, ends
+from tests.nlg.causal_cases import CHANGED, LATER, MANY, ends
 from tests.nlg.scenery import CONTEXT
-from xavi_dialogue.domain.answers import ChoiceReason, SupposedOfUs
+from xavi_dialogue.domain.answers import Certainty, ChoiceReason, SupposedOfUs
 from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.nlg.content.facts import option_message
@@ -72,3 +73,18 @@ def test_no_rule_of_an_answer_has_a_word_of_certainty():
         found = [x for x in lines if not x.startswith("#") and SURE.search(x)]
         assert found == [], path.name
     assert table("chances")["band"][0]["adverb"] == "almost certainly"
+
+
+@pytest.mark.parametrize(
+    ("good", "covered", "proven", "said"),
+    [
+        (8, 0.9, 0.8, "those were the likelier ones"),
+        (28, 0.9, 0.3, "those were the less likely ones"),
+        (32, 0.6, 0.6, "which make up 60 % of what I thought possible"),
+    ],
+)
+def test_a_count_of_situations_is_told_with_its_weight(good, covered, proven, said):
+    held = Certainty("choice", 0.87, 0.8, good, 32, 10.0, MANY, LATER, 1, covered, proven)
+    assert said in say(held, CONTEXT).text
+    plain = replace_struct(held, proven=covered * good / 32, covered=covered)
+    assert ("likel" in say(plain, CONTEXT).text.split(". ", 1)[1]) is False

@@ -98,3 +98,14 @@ def test_who_is_left_out_is_named():
     assert "one vehicle at a time only" in said
     assert "vehicle 1" in said
     check(said)
+
+
+def test_when_it_could_last_be_done_is_told():
+    for answer in (
+        SupposedOfUs(LATER, open_at=5.0),
+        ChoiceReason("why-not", None, LATER, open_at=5.0),
+    ):
+        said = say(answer, CONTEXT).text
+        assert "I last had that choice at 0:05." in said
+        check(said)
+        assert "last had" not in say(replace(answer, open_at=None), CONTEXT).text

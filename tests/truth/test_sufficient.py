@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import EgoGoal, PlannedAction, PlanTrace, WhatIf
+from planner.trace import Action, EgoGoal, PlannedAction, PlanTrace, WhatIf
 from sim.scene import Scene
 from tests.sources import imports, modules
 from tests.traces import Aim, Chosen, End, Way, World, trace_of
@@ -145,6 +145,39 @@ def test_what_comes_without_a_vehicle_was_planned_again() -> None:
         decision = Decision(trace, without=without)
         faults, _, _ = checked(seen(trace), 4.0, "Why?", "Vehicle 1 made no difference.", decision)
         assert {one.kind for one in faults} == (set() if kind is None else {kind})
+
+
+NONE = "No other vehicle makes the difference to that, not even all of them together."
+SEVERAL = "No single vehicle makes the difference to that, only several together"
+ALL_NAMED = f"{SEVERAL}: without all 3 of them, I would do the same, but for less of a reason."
+
+
+@pytest.mark.parametrize(
+    ("text", "removed", "plan", "kind"),
+    [
+        (NONE, (1, 2), "continue", None),
+        (NONE, (1, 2), "stop", "differs without"),
+        (NONE, (1,), "continue", "not tried without"),
+        (SEVERAL + ".", (1, 2, 3), "stop", None),
+        (SEVERAL + ".", (1, 2), "stop", "not tried without"),
+        (ALL_NAMED, (1, 2, 3), "continue", None),
+        (ALL_NAMED, (1, 2, 3), "stop", "differs without"),
+        (ALL_NAMED, (1, 2), "continue", "not tried without"),
+    ],
+)
+def test_what_hangs_on_several_was_planned_again_without_them(
+    text: str, removed: tuple[int, ...], plan: Action, kind: str | None
+) -> None:
+    trace = trace_of(WORLD)
+    scene = {name: state for name, state in trace.scene.items() if name not in removed}
+    again = replace(
+        trace, what_if=WhatIf(removed=removed), scene=scene, plan=(PlannedAction(plan, -17.5, 10),)
+    )
+    faults, sentences, _ = checked(
+        seen(trace), 4.0, "Why?", text, Decision(trace, without=(again,))
+    )
+    assert [one.understood for one in sentences] == [True]
+    assert {one.kind for one in faults} == (set() if kind is None else {kind})
 
 
 def test_a_sentence_that_is_not_read_is_told() -> None:

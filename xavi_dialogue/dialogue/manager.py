@@ -49,7 +49,7 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.domain.answers import NeedRollout
 
-MAX_ROUNDS = 8  # of planning again for one question
+MAX_ROUNDS = 12  # of planning again for one question
 MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
 MAX_EVENTS = 2000
 MAX_SCENES = 100  # for questions about a moment that is just over

@@ -83,11 +83,17 @@ class Causation(Value, frozen=True):
     vehicles: tuple[int, ...] = ()
     cleared: tuple[int, ...] = ()  # tried, and of no matter
     decides: bool = True  # without them something else is done; else the same, for less of a reason
+    minimal: bool = True  # False: "several" are together enough, but maybe not all of them needed
 
     @property
     def jointly(self) -> tuple[int, ...]:
         """The vehicles that are causes together, or of which each would have been enough."""
-        return self.vehicles if self.kind in ("both", "either", "several") else ()
+        return self.vehicles if self.is_joint and self.minimal else ()
+
+    @property
+    def is_joint(self) -> bool:
+        """Tell whether several are causes together, or each would have been enough."""
+        return self.kind in ("both", "either", "several")
 
 
 #: What the planner reckons with, in seconds: the components of the reward, what other outcomes cost

@@ -163,6 +163,7 @@ class Options(Value, frozen=True):
     risk: bool = False  # only with whom the first one would have collided
     hits: int = 0  # drives imagined of it that ended in a collision
     drives: int = 0  # of so many
+    earlier: bool = False  # of a decision before the latest one
 
 
 class Compared(Value, frozen=True):

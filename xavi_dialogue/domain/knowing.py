@@ -44,6 +44,9 @@ class Certainty(Value, frozen=True):
     evidence: Evidence
     contrast: Contrast | None = None
     others: int = 0  # vehicles whose conduct was guessed
+    #: Probability, as foreseen, of the situations that were tried, and of those in which it does.
+    covered: float | None = None
+    proven: float | None = None
 
 
 class Method(Value, frozen=True):

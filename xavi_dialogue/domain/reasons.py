@@ -12,7 +12,10 @@ from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
 
 #: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither;
 #: where it is taken for the only one, whether it is ("alone"), or there is more ("beside").
-Suspected: TypeAlias = Literal["main", "part", "none", "either", "neither", "alone", "beside"]
+#: "same": it speaks against the alternative, but without it the same is done.
+Suspected: TypeAlias = Literal[
+    "main", "part", "none", "either", "neither", "alone", "beside", "same"
+]
 
 
 class Performed(Value, frozen=True):
@@ -36,6 +39,7 @@ class ChoiceReason(Value, frozen=True):
     of_causes: bool = False  # it was asked who or what causes it
     later: Performed | None = None  # "why-not": it was done after that decision, or is planned
     besides: tuple[int, ...] = ()  # who else is the cause, where the suspect was taken for all
+    open_at: float | None = None  # [s] when it could last be done, before the decision in force
 
 
 class MotionCause(Value, frozen=True):
@@ -191,6 +195,7 @@ class SupposedOfUs(Value, frozen=True):
     claimed: float | None = None  # [s] what the question takes it to gain or cost
     ahead: MotionCause | None = None  # who stood in the lane that we would have stayed in
     later: Performed | None = None  # it was done after that decision, or is planned
+    open_at: float | None = None  # [s] when it could last be done, before the decision in force
 
 
 class SupposedOfOther(Value, frozen=True):

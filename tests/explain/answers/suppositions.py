@@ -43,12 +43,14 @@ class Setting:
         self.shares: dict[Any, Any] = {}
         self.drove: Any = None
         self.open = 3.0
+        self.happens: bool | None = None  # without a vehicle, as the reason is tried
         for name in ("hastened", "closeness", "freed", "of_us", "undone"):
             patch.setattr(supposing, name, self._teller(name))
         for name in ("reaction", "for_anybody"):
             patch.setattr(reacting, name, self._teller(name))
         patch.setattr(reacting, "is_sudden", lambda *args, **more: False)
         patch.setattr(supposing, "without", lambda *args: self._found("without", args))
+        patch.setattr(supposing, "without_at", self._tried)
         patch.setattr(supposing, "otherwise", lambda *a, **m: self._found("otherwise", a, **m))
         patch.setattr(supposing, "share_of", lambda t, plan, name: self.shares.get((t, name)))
         patch.setattr(supposing, "driven", lambda scene, then: self.drove)
@@ -57,6 +59,9 @@ class Setting:
 
     def _teller(self, name: str) -> Any:
         return lambda *args, **more: Told(name, args, more)
+
+    def _tried(self, *args: Any) -> Any:
+        return None if self.happens is None else (self._found("without-at", args), self.happens)
 
     def _found(self, by: str, args: tuple[Any, ...], **more: Any) -> Found:
         found = Found(by, args[1:], self.plan, proxy=self.proxy, **more)

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import CannotSay, ChoiceReason, DidNotHappen, 
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.explain.answers import against as module
 from xavi_dialogue.explain.answers.against import Against, against
 from xavi_dialogue.explain.answers.asked import Unanswered
 from xavi_dialogue.explain.answers.choices import why_not
@@ -140,6 +141,18 @@ def test_doing_sooner_what_was_done_is_compared_before() -> None:
     assert result(against, later, chosen()) == CannotSay("unsupported-condition")
 
 
+def refuse_at(time: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make it too late for any foil at the decision of a time [s]."""
+    compared = module.contrast
+
+    def refusing(ride: Any, trace: Any, foil: Any, node: Any = ()) -> Any:
+        if trace.sim_time == time:
+            raise Unanswered(NotApplicable(foil, "it is too late"))
+        return compared(ride, trace, foil, node)
+
+    monkeypatch.setattr(module, "contrast", refusing)
+
+
 def test_what_comes_too_late_is_compared_where_it_was_open_last(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -149,16 +162,7 @@ def test_what_comes_too_late_is_compared_where_it_was_open_last(
     busy = decision(9.0, STAY, ends=ends, under_way="continue")
     facts: dict[str, Any] = {"events": DRIVING, "traces": [*open_, busy, shut]}
     turn = Event("exit-right", tense="present")
-    from xavi_dialogue.explain.answers import against as module
-
-    compared = module.contrast
-
-    def refusing(ride: Any, trace: Any, foil: Any, node: Any = ()) -> Any:
-        if trace.sim_time == 12.0:
-            raise Unanswered(NotApplicable(foil, "it is too late"))
-        return compared(ride, trace, foil, node)
-
-    monkeypatch.setattr(module, "contrast", refusing)
+    refuse_at(12.0, monkeypatch)
     found = tried(turn, **facts)
     assert (found.contrast.decided, found.earlier) == (8.0, True)
     facts["traces"] = [open_[0], shut]  # 10 s before
@@ -170,16 +174,7 @@ def test_why_not_now_is_not_answered_by_a_decision_before(monkeypatch: pytest.Mo
     shut = decision(12.0, STAY, ends={STOP: LATE})
     facts: dict[str, Any] = {"events": DRIVING, "traces": [decision(8.0, STAY, ends=ends), shut]}
     turn = Event("exit-right", tense="present")
-    from xavi_dialogue.explain.answers import against as module
-
-    compared = module.contrast
-
-    def refusing(ride: Any, trace: Any, foil: Any, node: Any = ()) -> Any:
-        if trace.sim_time == 12.0:
-            raise Unanswered(NotApplicable(foil, "it is too late"))
-        return compared(ride, trace, foil, node)
-
-    monkeypatch.setattr(module, "contrast", refusing)
+    refuse_at(12.0, monkeypatch)
     assert against(turn, chosen(**facts)).contrast.decided == 8.0
     found = result(lambda event, scene: against(event, scene, before=False), turn, chosen(**facts))
     assert found == NotApplicable(TURN, "it is too late")

@@ -156,8 +156,8 @@ def test_of_staying_it_is_who_was_ahead() -> None:
 
 def test_what_was_not_done_is_compared_at_the_last_decision_for_it() -> None:
     found = told(why_not, Event("stop"))
-    assert reason(found) == (6.0, LEFT, ("stop",))
-    assert (found.past, found.deed.action) == (True, "change-left")
+    assert reason(found) == (12.0, STAY, ("stop",))
+    assert (found.past, found.deed, found.open_at) == (True, None, None)
     now = told(why_not, Event("change-right", tense="present"))
     assert reason(now) == (12.0, STAY, ("change-right",))
     then = told(why_not, Event("stop"), span=Span(2.0, 3.0, said=True))

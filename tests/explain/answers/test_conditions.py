@@ -311,3 +311,11 @@ def test_whether_what_we_or_others_do_is_safe_is_asked_of_distances(tried: list[
     assert told({"event": other})
     assert told({"event": Event("follow", US, tense="present")})
     assert tried == []
+
+
+def test_whether_we_were_ever_unsure_is_asked_of_what_we_did(handed: list[Any]) -> None:
+    held("sure", of={"tense": "past"})
+    held("sure")
+    did_so = HowSure(Happens(handed[0].of.event))
+    assert handed == [did_so, HowSure()]
+    assert (handed[0].of.event.action, handed[0].of.event.tense) == ("do", "past")

@@ -225,7 +225,7 @@ def test_what_would_have_made_what_was_not_done_the_choice() -> None:
         found = pivoted(of)
         foil = "stop" if isinstance(of, Not) else "change-right"
         assert found.contrast.foil == (foil,)
-    assert pivoted(Not(Happens(Event("stop")))).contrast.decided == 6.0
+    assert pivoted(Not(Happens(Event("stop")))).contrast.decided == 12.0
     #: Had it turned left, the lane change would have been the better choice.
     aims = {1: (aim("exit-left", 0.3), aim("continue", 0.7))}
 

@@ -43,17 +43,18 @@ def at(event: Event, deed: Event | None = None, span: Any = None, **facts: Any) 
 @pytest.mark.parametrize(
     ("event", "deed", "found"),
     [
-        (Event("stop"), None, (6.0, "change-left", ("stop",))),
+        (Event("stop"), None, (12.0, None, ("stop",))),
         (Event("give-way", tense="present"), None, (12.0, None, ("stop",))),
         (Event("brake", tense="present"), None, (12.0, None, ("stop",))),
         (Event("wait"), CHANGE, (6.0, "change-left", ("stop",))),
+        (Event("keep-lane"), None, (6.0, "change-left", ("continue",))),
         (Event("keep-lane"), CHANGE, (6.0, "change-left", ("continue",))),
         (Event("change-lane", side="right"), None, (12.0, None, ("change-right",))),
         (Event("change-left", tense="present"), None, (12.0, None, ("change-left",))),
         (Event("stop", then=Event("turn", side="right")), None,
-         (6.0, "change-left", ("stop", "exit-right"))),
+         (12.0, None, ("stop", "exit-right"))),
         (Event("change-lane", tense="present"), None, (12.0, None, ("change-left",))),
-        (Event("stop", then=Event("speed-up")), None, (6.0, "change-left", ("stop",))),
+        (Event("stop", then=Event("speed-up")), None, (12.0, None, ("stop",))),
     ],
 )  # fmt: skip
 def test_where_a_foil_could_have_been_done(event: Event, deed: Any, found: Any) -> None:

@@ -125,7 +125,8 @@ def test_a_way_of_driving_is_the_episode_of_it() -> None:
 
 def test_where_a_stop_was_chosen_it_is_that_choice() -> None:
     assert driven(Event("stop"), events=begun("stop", 8.0)) is None
-    assert driven(Event("brake"), events=begun("stop", 8.0)) is None
+    assert driven(Event("brake"), events=begun("stop", 6.0)) is None
+    assert driven(Event("brake"), events=begun("stop", 8.0)) == SLOWED  # it began later
     elsewhere = Span(15.0, 16.0, said=True)
     over = begun("exit-right", 8.0, 9.0)
     assert driven(Event("brake"), events=over) == SLOWED

@@ -6,7 +6,7 @@ import pytest
 
 from tests.explain.answers.given import NOW, Given, deed, look, refused
 from tests.explain.answers.suppositions import GONE, LATER, ONE, TURNS, Setting, did, what_if
-from xavi_dialogue.domain.answers import CannotSay, Measures
+from xavi_dialogue.domain.answers import CannotSay, Measures, TooLittle
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Doing, HowMuch, When, Whether
@@ -142,12 +142,34 @@ def test_whether_we_would_still_drive_so_is_told_by_the_drives(
         assert what_if(GONE, then).still is still
     setting.drove = deed("brake", 3.0, 5.0, standing=True)
     setting.shares = {("after", "stop"): 0.9}
-    assert what_if(GONE, then).still is True
+    assert what_if(TURNS, then).still is True
     turn = Whether(did("exit-right", Ego()))
-    assert what_if(GONE, turn).still is True
+    assert what_if(TURNS, turn).still is True
     setting.drove = deed("brake", 3.0, 5.0)
     setting.shares = {("after", "slow-down"): 0.9}
-    assert what_if(GONE, turn).still is True
+    assert what_if(TURNS, turn).still is True
+
+
+@pytest.mark.parametrize("happens", [True, False])
+def test_without_one_we_would_drive_so_as_the_trial_of_the_reason_shows(
+    happens: bool, setting: Setting
+) -> None:
+    setting.drove, setting.happens = deed("brake", 3.0, 5.0), happens
+    setting.shares = {("after", "slow-down"): 0.0 if happens else 1.0}
+    found = what_if(GONE, Whether(did("slow-down", Ego())))
+    assert [one.by for one in setting.found] == ["without-at"]
+    assert found.still is happens
+
+
+def test_where_the_trial_of_the_reason_cannot_be_made_no_other_decision_clears_it(
+    setting: Setting,
+) -> None:
+    setting.drove = deed("brake", 3.0, 5.0)
+    then = Whether(did("slow-down", Ego()))
+    setting.shares = {("after", "slow-down"): 0.1}
+    assert what_if(GONE, then).still is False
+    setting.shares = {("after", "slow-down"): 0.9}
+    assert refused(what_if, GONE, then) == TooLittle("too-little-evidence")
 
 
 def test_only_what_we_would_do_is_asked_of_the_other_world(setting: Setting) -> None:

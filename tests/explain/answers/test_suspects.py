@@ -169,3 +169,33 @@ def test_one_that_matters_by_what_it_makes_another_do_is_part_of_it() -> None:
     found = replace(of_motion(2), causation=Causation("both", (2, 1)))
     told_: Any = with_suspect(found, 1)
     assert told_.suspected == "part"
+
+
+@pytest.mark.parametrize(
+    ("kind", "vehicles", "changes", "decides", "part"),
+    [
+        ("one", (1,), False, False, "same"),
+        ("one", (1,), True, True, "main"),
+        ("both", (1, 2), False, False, "same"),
+        ("both", (1, 2), True, False, "main"),
+        ("either", (1, 2), False, True, "main"),
+        ("either", (1, 2), False, False, "same"),
+    ],
+)
+def test_one_without_which_the_same_is_done_is_not_the_reason(
+    kind: Any, vehicles: Any, changes: bool, decides: bool, part: str
+) -> None:
+    found = of_choice(1, hit=1)
+    causes = (replace(found.contrast.causes[0], decision_changes=changes),)
+    causation = Causation(kind, vehicles, decides=decides)
+    found = replace(found, contrast=replace(found.contrast, causes=causes, causation=causation))
+    told_: Any = with_suspect(found, 1)
+    assert told_.suspected == part
+    two: Any = with_suspect(found, 1, 7)
+    assert two.suspected == ("same" if part == "same" else "either")
+
+
+def test_one_of_several_that_are_not_named_is_not_the_only_cause() -> None:
+    causation = Causation("several", (1, 2, 5), minimal=False)
+    told_: Any = with_suspect(replace(of_motion(1), causation=causation), 1, alone=True)
+    assert (told_.suspected, told_.besides) == ("beside", ())

@@ -6,7 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from xavi_dialogue.explain.causes.actual import PAIRS, SINGLES, Trial, Try, actual_causes
+from xavi_dialogue.explain.causes.actual import (
+    PAIRS,
+    SINGLES,
+    TRIALS,
+    Trial,
+    Try,
+    actual_causes,
+)
 
 
 def trying(
@@ -79,7 +86,7 @@ def test_where_no_two_are_enough_all_of_them_may_be_together() -> None:
     trial, tried = trying(lambda without: without >= {1, 2, 3})
     found = actual_causes((1, 2, 3), (), trial, everybody=(3, 2, 1))
     assert (found.kind, found.vehicles, found.cleared) == ("several", (1, 2, 3), ())
-    assert tried[-1] == (1, 2, 3)
+    assert (1, 2, 3) in tried
 
 
 def test_those_at_work_are_named_where_they_are_enough_else_all_that_are_there() -> None:
@@ -88,9 +95,33 @@ def test_those_at_work_are_named_where_they_are_enough_else_all_that_are_there()
     assert (found.kind, found.vehicles) == ("several", (1, 2, 3))
     trial, _ = trying(lambda without: without >= {1, 2, 3, 4})
     found = actual_causes((3, 1, 2), (), trial, everybody=(1, 2, 3, 4, 5))
-    assert (found.kind, found.vehicles) == ("several", (1, 2, 3, 4, 5))
+    assert (found.kind, found.minimal, found.jointly) == ("several", False, ())
     found = actual_causes((1,), (), trial, everybody=(1, 2, 3, 4, 5))
-    assert (found.kind, found.vehicles, found.cleared) == ("several", (1, 2, 3, 4, 5), ())
+    assert (found.kind, found.vehicles, found.cleared) == ("several", (1, 2, 3, 4), ())
+
+
+def test_those_that_take_the_place_of_one_another_are_told_and_no_bystander() -> None:
+    instead = {(1,): (5,), (5,): (1,), (1, 5): (8,)}
+    trial, tried = trying(lambda without: without >= {1, 5, 8}, instead)
+    found = actual_causes((1,), (), trial, everybody=tuple(range(1, 10)))
+    assert (found.kind, found.vehicles, found.minimal) == ("several", (1, 5, 8), True)
+    assert len(tried) <= TRIALS
+
+
+def test_where_the_trials_end_before_the_set_is_the_smallest_nobody_is_named() -> None:
+    trial, tried = trying(lambda without: without >= {2, 9, 15, 20})
+    found = actual_causes((1,), (), trial, everybody=tuple(range(1, 21)))
+    assert (found.kind, found.minimal, found.jointly) == ("several", False, ())
+    assert len(tried) <= TRIALS
+
+
+def test_one_or_two_of_all_others_are_told_as_such() -> None:
+    trial, _ = trying(lambda without: 3 in without)
+    found = actual_causes((1,), (), trial, everybody=(1, 2, 3, 4))
+    assert (found.kind, found.vehicles) == ("one", (3,))
+    trial, _ = trying(lambda without: without >= {1, 3})
+    found = actual_causes((1,), (), trial, everybody=(1, 2, 3))
+    assert (found.kind, found.vehicles) == ("pre-empted", (1, 3))
 
 
 def test_where_it_is_so_without_all_others_too_it_was_none_of_them() -> None:
@@ -141,6 +172,8 @@ def test_what_is_named_is_a_smallest_set_and_trials_are_few(
     elif found.kind == "several":
         assert gone(frozenset(found.vehicles))
         assert not any(gone(frozenset((one,))) for one in names[: min(count, SINGLES)])
+        parts = (set(found.vehicles) - {one} for one in found.vehicles)
+        assert not found.minimal or not any(gone(frozenset(part)) for part in parts)
     else:
         assert found.vehicles == ()
         assert not gone(frozenset(names))

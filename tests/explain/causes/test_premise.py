@@ -222,7 +222,8 @@ def test_what_could_be_chosen_when() -> None:
 @pytest.mark.parametrize(
     ("asked", "foil", "time"),
     [
-        (subject(), ("stop",), 12.0),  # the manoeuvre asked about had that choice
+        (subject(), ("stop",), 20.0),  # in force, and it could
+        (subject(span=said(12.0, 14.0)), ("stop",), 12.0),  # the manoeuvre then had that choice
         (subject(), (), 12.0),
         (subject("change-left"), ("stop",), 4.0),
         (subject(), ("continue",), 12.0),

@@ -1,6 +1,7 @@
 """Planning again with what is supposed of another; what the route has next."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pytest
 from msgspec.structs import replace
@@ -10,8 +11,17 @@ from planner.trace import Action, PlanTrace, WhatIf
 from tests.explain.causes.decisions import decided, in_the_way, ride
 from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.causal.model import CausalModel
-from xavi_dialogue.domain.answers import NeedRollout, NotRecorded
+from xavi_dialogue.domain.answers import (
+    Evidence,
+    MotionCause,
+    NeedRollout,
+    NotRecorded,
+    TooLittle,
+)
 from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.explain.causes import suppositions
+from xavi_dialogue.explain.causes.actual import Trial
+from xavi_dialogue.explain.causes.driving import Reasons
 from xavi_dialogue.explain.causes.involved import against
 from xavi_dialogue.explain.causes.natural import on_route
 from xavi_dialogue.explain.causes.suppositions import (
@@ -205,3 +215,32 @@ def test_the_conduct_of_several_is_told_from_samples_that_have_it() -> None:
     assert together(ride(trace), (1, 2), ("exit-left",), 4.0, negated=False) is None
     assert together(ride(trace), (1, 2), ("continue",), 4.0, negated=True) is None
     assert together(ride(trace), (1, 7), ("continue",), 4.0, negated=False) is None
+
+
+@pytest.mark.parametrize(
+    ("gone", "necessary", "happens"),
+    [(True, True, False), (False, False, True), (None, None, None), (True, None, False)],
+)
+def test_a_way_of_driving_without_one_is_told_by_the_trial_of_its_reason(
+    gone: bool | None, necessary: bool | None, happens: bool | None, monkeypatch: Any
+) -> None:
+    assert _happens(gone, necessary, monkeypatch) is happens
+
+
+def test_who_is_told_as_a_reason_untried_is_not_said_to_make_no_difference(
+    monkeypatch: Any,
+) -> None:
+    with pytest.raises(Unanswered) as refused:
+        _happens(False, None, monkeypatch)
+    assert refused.value.result == TooLittle("too-little-evidence")
+
+
+def _happens(gone: bool | None, necessary: bool | None, monkeypatch: Any) -> bool | None:
+    """Whether we brake without vehicle 1, by what the trial shows and what is told of it."""
+    monkeypatch.setattr(suppositions, "trial_of", lambda *args: Trial(gone))
+    for name in ("factual", "in_hindsight"):
+        monkeypatch.setattr(suppositions, name, lambda *args: None)
+    whole: Any = type("Made", (), {"model": lambda self, trace: None})()
+    trace: Any = None
+    causes = (MotionCause("blocked", vehicle=1, necessary=necessary),)
+    return suppositions.happens_without(whole, Reasons(causes, None, Evidence(), trace), (1,))

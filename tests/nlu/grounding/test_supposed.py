@@ -41,6 +41,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Within,
 )
+from xavi_dialogue.nlu.grounding.acts.questions import question as ground_question
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.supposing import subordinate, through
 
@@ -173,3 +174,13 @@ def test_a_further_supposition_is_asked_of_what_was_asked_before() -> None:
     asked = WhatIf(Not(Happens(SLOWED)), then)
     found = completed(Elliptic(form="what-if", thing=Vehicle(2)), asked)
     assert found == WhatIf(Not(Exists(Vehicle(2))), then)
+
+
+def test_what_would_have_happened_is_at_no_time_of_the_ride() -> None:
+    then = Doing(None, tense="past")
+    g = grounder(Discourse())
+    asked = WhatIf(Happens(Event("keep-lane", tense="perfect")), then)
+    grounded = ground_question(asked, g)
+    assert isinstance(grounded, WhatIf)
+    assert grounded.then == then
+    assert g.notes.span is None or not g.notes.span.said

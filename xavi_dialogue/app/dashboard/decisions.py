@@ -99,8 +99,8 @@ def expected_arrival(trace: PlanTrace, plan: Intervention) -> float | None:
     return None if trace.waypoint is not None else rounded(plan.expectation("time"))
 
 
-def chances(plan: Intervention) -> dict[str, float]:
-    """The probability of each outcome that there may be."""
+def outcome_shares(plan: Intervention) -> dict[str, float]:
+    """The share of the rollouts, by weight, that each outcome has; answers trust them less."""
     return {name: chance(share) for name, share in plan.outcomes.items() if share > 0.0}
 
 
@@ -196,7 +196,7 @@ def _tried(
         action=action,
         words=deed(action, in_lane=in_lane),
         chosen=here is None,
-        outcomes=chances(there),
+        outcomes=outcome_shares(there),
         time=None if here is None else _later(there, here),
         arrival=expected_arrival(trace, there),
         value=rounded(there.value),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from planner.trace import PlanTrace, Rollout
 from sim.scene import EGO
 from xavi_dialogue.app.dashboard.branches import rounded
-from xavi_dialogue.app.dashboard.decisions import chances, expected_arrival
+from xavi_dialogue.app.dashboard.decisions import expected_arrival, outcome_shares
 from xavi_dialogue.app.dashboard.lines import chance, likeliest
 from xavi_dialogue.app.dashboard.sides import Found, sides
 from xavi_dialogue.app.dashboard.told import Told, asked_about, title_of, told_of
@@ -133,7 +133,7 @@ def _side(found: Found, in_lane: bool, title: str, brief: Actions) -> Side:
         title=dashboard_words("title", title),
         brief=plan_words(brief, in_lane=in_lane),
         words=plan_words(plan.plan, in_lane=in_lane),
-        outcomes=chances(plan),
+        outcomes=outcome_shares(plan),
         arrival=expected_arrival(trace, plan),
         lines=likeliest(trace, plan, LINES),
         runs=tuple(_run(trace, result, in_lane) for _, result in ranked[:RUNS]),

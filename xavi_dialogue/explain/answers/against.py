@@ -17,7 +17,7 @@ from xavi_dialogue.domain.terms import Ego, Event, Exit
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.foils import MANOEUVRES, Did, foil_at, settled
-from xavi_dialogue.explain.answers.reading import is_past, manner_of
+from xavi_dialogue.explain.answers.reading import foil_subject, is_past, manner_of
 from xavi_dialogue.explain.causes.actions import STRAIGHT, same, to_macros
 from xavi_dialogue.explain.causes.contrast import SameAsPlan, contrast
 from xavi_dialogue.explain.causes.natural import on_way
@@ -39,6 +39,7 @@ class Against:
     contrast: Contrast
     earlier: bool = False  # of a decision before the one asked about: there it came too late
     later: Performed | None = None  # it was done after that decision, or is planned
+    open_at: float | None = None  # [s] when it could last be done; None where that is not asked
 
 
 def against(
@@ -77,7 +78,17 @@ def against(
         found, earlier = Premise(last, found.deed), True
         compared = _compared(scene, found, foil)
     later = _later(event, scene, compared.decided, found.node)
-    return Against(found, foil, compared, earlier, later)
+    open_at = _open_at(event, scene, found)
+    return Against(found, foil, compared, earlier, later, open_at)
+
+
+def _open_at(event: Event, scene: Asked, found: Premise) -> float | None:
+    """Tell when [s] something could last be done, where no time and no deed says of when it is."""
+    in_force = scene.ride.at(scene.now)
+    about = foil_subject(scene, event)
+    if found.deed is not None or about.span is not None or not about.is_past:
+        return None
+    return None if in_force is None or found.trace is in_force else found.trace.sim_time
 
 
 def _compared(scene: Asked, found: Premise, foil: Actions) -> Contrast:

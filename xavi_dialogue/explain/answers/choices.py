@@ -111,10 +111,11 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
     Raises:
         Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
     """
-    later = None
+    later = open_at = None
     try:
         tried = against(event, scene, deed, before=is_past(scene, event))
         found, compared, later = tried.found, tried.contrast, tried.later
+        open_at = tried.open_at
     except Unanswered as unanswered:
         thin = unanswered.result
         if not isinstance(thin, TooLittle) or thin.reason != "too-little-evidence":
@@ -128,7 +129,9 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
     past = _over(scene, event, found) or is_past(scene, event)
     ahead = _left_for(scene, found, compared) if stays else _beside(scene, found, compared)
     done = deed_of(scene, found)
-    return ChoiceReason("why-not", done, compared, past=past, ahead=ahead, later=later)
+    return ChoiceReason(
+        "why-not", done, compared, past=past, ahead=ahead, later=later, open_at=open_at
+    )
 
 
 def straight(scene: Asked) -> Answer:

@@ -250,7 +250,9 @@ def _close(of: Is, asked: Asked) -> Finding:
 
 
 def _sure(of: Is, asked: Asked) -> Finding:
-    about = None if of.event is None else Happens(of.event)
+    done = Event("do", Ego(), tense="past") if of.tense in ("past", "perfect") else None
+    event = of.event or done  # "were you ever unsure?": of what we did
+    about = None if event is None else Happens(event)
     return Finding(None, answer=handed(HowSure(about, of.time), asked))
 
 

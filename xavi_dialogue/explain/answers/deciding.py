@@ -24,9 +24,21 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, foils, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.own_suppositions import of_us
-from xavi_dialogue.explain.answers.reading import event_of, is_past, subject, unwrapped
+from xavi_dialogue.explain.answers.reading import (
+    event_of,
+    foil_subject,
+    subject,
+    unwrapped,
+)
 from xavi_dialogue.explain.causes import avoidance, options, pivot
-from xavi_dialogue.explain.causes.actions import DRIVING, is_macro, names_of, same, to_macros
+from xavi_dialogue.explain.causes.actions import (
+    DRIVING,
+    STRAIGHT,
+    is_macro,
+    names_of,
+    same,
+    to_macros,
+)
 from xavi_dialogue.explain.causes.contrast import alternatives, contrast
 from xavi_dialogue.explain.causes.course import hard_braking
 from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, premise
@@ -79,11 +91,19 @@ def listed(question: Listing, scene: Asked) -> Answer:
     Raises:
         Unanswered: the record lacks it, or has too little evidence.
     """
-    found = options.free(scene.ride, premise(scene.ride, Subject(None, (), False, scene.span)))
-    rows = options.weighed(scene.ride, found)
+    ride, said = scene.ride, scene.past
+    moment = None
+    if said is not None and said.said and said.begin == said.end:
+        moment = ride.at(said.begin)
+    if moment is None:  # of the deed that was spoken of before, where no time is said
+        found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
+    else:
+        found = options.with_choice(ride, Premise(moment, None))
+    rows = options.weighed(ride, found)
     rests_on = options.situations(found)
     del question
-    return Options(rows, found.trace.sim_time, rests_on)
+    decided = found.trace.sim_time
+    return Options(rows, decided, rests_on, earlier=decided < ride.latest.sim_time)
 
 
 def compared(question: Compare, scene: Asked) -> Answer:
@@ -96,7 +116,8 @@ def compared(question: Compare, scene: Asked) -> Answer:
     events = [event for option in named if (event := _own_event(option)) is not None]
     if not events:
         return listed(Listing("options"), scene)
-    single = len(question.options) == 1 and not _was_done(scene, events[0])
+    kept = events[0].action == "keep-lane"  # going straight on is another action
+    single = len(question.options) == 1 and (kept or not _was_done(scene, events[0]))
     if single and question.by in ("time", "speed", "best", "safety"):
         form: Asking = FORMS.get(question.by, "quicker")
         return of_us(replace(events[0], tense="past"), scene, form)
@@ -213,6 +234,9 @@ def _own_event(option: Proposition | Thing) -> Event | None:
 
 def _was_done(scene: Asked, event: Event) -> bool:
     names = names_of(event)
+    turn = foils.at_turn(scene, names, past=True) if names == ("exit-straight",) else None
+    if turn is not None:
+        return planned(turn.trace)[len(turn.node)] in STRAIGHT
     deeds = [d for d in scene.ride.deeds if any(same(name, d.action) for name in names)]
     plan = planned(scene.ride.latest)[:1]
     return bool(deeds) or any(same(name, step) for name in names for step in plan)
@@ -224,11 +248,10 @@ def _sides(
     """The decision, what was done, and the foil, of one or two options named."""
     done = next((event for event in events if _was_done(scene, event)), None)
     others = [event for event in events if event is not done]
-    past = is_past(scene, events[0])
     if done is not None and others:
         found, foil = foils.foil_at(others[0], scene, done)
     else:
-        about = Subject(None, (), past, scene.span)
+        about = foil_subject(scene, events[0])
         names = foils.settled(scene, events[-1])
         found = about_foil(scene.ride, about, names[:1])
         foil = to_macros(scene.ride.model(found.trace), names[:1], found.node)

@@ -6,10 +6,16 @@ from planner.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import DidNotHappen
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Performed
-from xavi_dialogue.domain.terms import Event, Exit
+from xavi_dialogue.domain.terms import Ego, Event, Exit
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reading import check_able, is_past, subject
+from xavi_dialogue.explain.answers.reading import (
+    check_able,
+    foil_subject,
+    is_past,
+    manner_of,
+    subject,
+)
 from xavi_dialogue.explain.causes.actions import (
     CHANGES,
     DRIVING,
@@ -23,7 +29,6 @@ from xavi_dialogue.explain.causes.actions import (
 )
 from xavi_dialogue.explain.causes.premise import (
     Premise,
-    Subject,
     about_foil,
     episode_of,
     happened,
@@ -66,6 +71,8 @@ def foil_at(
         Unanswered: it cannot be done at all.
     """
     check_able(event)
+    if deed is None:
+        check_kept(scene, event)
     names = settled(scene, event)
     names = tuple("stop" if name in DRIVING - {"speed-up"} else name for name in names)
     if deed is None:
@@ -74,10 +81,12 @@ def foil_at(
     ring = earlier_exit(event, scene)
     if ring is not None:
         return ring
-    about = subject(scene, deed) if deed is not None else Subject(None, (), past, scene.span)
-    turn = None if deed is not None else at_turn(scene, names, past=past)
-    if turn is not None:
-        found = turn
+    about = subject(scene, deed) if deed is not None else foil_subject(scene, event)
+    meant = None
+    if deed is None:
+        meant = at_turn(scene, names, past=past) or _at_deed(scene, event, names, past=past)
+    if meant is not None:
+        found = meant
     elif len(names) > 1 or deed is None:
         found = about_foil(scene.ride, about, names[:1])
     else:
@@ -109,6 +118,22 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     if at is None or trace.under_way is not None:
         return None
     return Premise(trace, None, plan[:at])
+
+
+def _at_deed(
+    scene: Asked, event: Event, names: tuple[ActionName, ...], *, past: bool
+) -> Premise | None:
+    """Find the choice of the deed that a question speaks of by what was not done.
+
+    Keeping the lane is what the last change of lanes did not; earlier or later is what was done.
+    """
+    if event.action == "keep-lane":
+        names = CHANGES
+    elif manner_of(event, "early", "late") is None:
+        return None
+    made = [deed for deed in scene.ride.deeds if past and deed.action in names]
+    deed = pick(foil_subject(scene, event).span, made, lambda deed: deed.span)
+    return None if deed is None else _chosen(scene, deed)
 
 
 def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction, ...]] | None:
@@ -164,6 +189,26 @@ def check_undone(scene: Asked, event: Event, names: tuple[ActionName, ...]) -> N
         when: Literal["did", "doing"] = "doing" if deed.ended is None else "did"
         performed = Performed(deed.action, when, deed.time)
         raise Did(event, performed, _chosen(scene, deed), (episode_of(deed),))
+
+
+def check_kept(scene: Asked, event: Event) -> None:
+    """Decline to say why we did not keep our lane, where no change of lanes is done or begun.
+
+    Raises:
+        Did: we keep the lane, or kept it then.
+    """
+    if event.action != "keep-lane" or event.object is not None or event.then is not None:
+        return
+    moves = [deed for deed in scene.ride.deeds if deed.action in CHANGES and deed.carried_out]
+    trace = scene.ride.at(scene.moment)
+    if trace is None or pick(scene.span, moves, lambda deed: deed.span) is not None:
+        return
+    if not set(planned(trace)[:1]) & set(CHANGES):
+        over = scene.past is not None and trace is not scene.ride.latest
+        when: Literal["did", "doing"] = "did" if over else "doing"
+        done = Performed("keep-lane", when, trace.sim_time if over else None)
+        kept = Episode(Ego(), "keep-lane", trace.sim_time)
+        raise Did(event, done, Premise(trace, None), (kept,))
 
 
 def _chosen(scene: Asked, deed: Deed) -> Premise | None:

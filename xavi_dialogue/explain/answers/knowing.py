@@ -38,6 +38,7 @@ from xavi_dialogue.explain.answers.priority import priority_at, right_of_way
 from xavi_dialogue.explain.answers.reading import (
     check_seen,
     event_of,
+    foil_subject,
     is_own,
     is_past,
     subject,
@@ -48,7 +49,7 @@ from xavi_dialogue.explain.causes import certainty, options
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS, HALTS, YIELDS, to_macros
 from xavi_dialogue.explain.causes.conduct import belief_of, conduct_names, last_with, probability
 from xavi_dialogue.explain.causes.grounds import grounds
-from xavi_dialogue.explain.causes.premise import Premise, Subject, about_foil, premise
+from xavi_dialogue.explain.causes.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.history.ride import prediction
 
 FORESEEN = 12.0  # [s] within which what came is what was foreseen
@@ -136,7 +137,7 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         chosen = certainty.of_choice(ride, options.free(ride, found))
         return chosen or certainty.of_plan(ride, found)
     if event is not None and (negated or event.modal == "would"):  # what was not done
-        about = Subject(None, (), is_past(scene, event), scene.span)
+        about = foil_subject(scene, event)
         names = foils.settled(scene, event)[:1]
         found = about_foil(ride, about, names)
         foil = to_macros(ride.model(found.trace), names, found.node)

@@ -162,6 +162,7 @@ def of_us(
         arrival=arrival(scene, compared),
         ahead=_standing_ahead(scene, compared),
         later=tried.later,
+        open_at=tried.open_at,
     )
 
 
@@ -224,7 +225,9 @@ def _done(did: Did, scene: Asked, form: Asking) -> SupposedOfUs:
     if found is None:
         raise did
     compared = natural(ride, found.trace, found.node)
-    if compared.foil[len(found.node) :] == ("stop",) and did.performed.action != "stop":
+    foil, done = compared.foil[len(found.node) :], did.performed.action
+    elsewhere = done == "keep-lane" and not set(foil[:1]) & set(CHANGES)
+    if elsewhere or (foil == ("stop",) and done != "stop"):
         model = ride.model(found.trace)  # stopping is nothing that one thinks of
         compared = alone(ride, model, factual(model, found.trace))
     past = did.performed.when == "did"

@@ -101,6 +101,16 @@ def subject(scene: Asked, event: Event | None) -> Subject:
     return Subject(event, names, past, span, coming=event.tense == "future")
 
 
+def foil_subject(scene: Asked, event: Event | None) -> Subject:
+    """Read when a question about what was not done is about, where it names no deed.
+
+    A time that was inferred from what was asked before counts only where the question refers back.
+    """
+    span = scene.span
+    inferred = span is not None and not (span.said or span.ahead or scene.act.leaned)
+    return Subject(None, (), is_past(scene, event), None if inferred else span)
+
+
 def is_past(scene: Asked, event: Event | None) -> bool:
     """Tell whether a question is about what lies behind."""
     return scene.past is not None or event is None or event.tense in ("past", "perfect")

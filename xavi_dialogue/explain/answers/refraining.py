@@ -20,8 +20,9 @@ from xavi_dialogue.explain.answers import choices, going, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.priority import priority_at
-from xavi_dialogue.explain.answers.reading import is_past, vehicle_in
+from xavi_dialogue.explain.answers.reading import foil_subject, is_past, vehicle_in
 from xavi_dialogue.explain.causes.actions import CHANGES, HALTS
+from xavi_dialogue.explain.causes.premise import is_open
 from xavi_dialogue.explain.causes.yielding import leads
 from xavi_dialogue.explain.history.deeds import Deed
 
@@ -65,9 +66,18 @@ def refrained(event: Event, scene: Asked) -> Answer:
         return choices.why_not(structs.replace(event, action=aside, object=None), scene)
     if stays:
         return choices.why_not(Event("keep-lane", tense=event.tense, time=event.time), scene)
-    if crossed is None:
+    if crossed is None or _is_over(event, scene, crossed):
         return _undone(event, scene)
     return _went(event, scene, crossed)
+
+
+def _is_over(event: Event, scene: Asked, crossed: Deed) -> bool:
+    """Tell whether a junction lies behind where stopping is asked of no junction and no time."""
+    named = event.object is not None or event.where is not None or foil_subject(scene, event).span
+    if event.action != "stop" or named or crossed.ended is None:
+        return False
+    trace = scene.ride.at(scene.now)
+    return trace is not None and is_open(scene.ride, trace, ("stop",))
 
 
 def _passed_by(event: Event, scene: Asked, change: Deed) -> bool:

@@ -4,16 +4,23 @@ import dataclasses
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether
-from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.explain.answers import choices, motions
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.own_suppositions import GOING
 from xavi_dialogue.explain.answers.reading import event_of, subject
 from xavi_dialogue.explain.causes.conduct import conduct_names, probability
+from xavi_dialogue.explain.causes.driving import reasons_for
 from xavi_dialogue.explain.causes.premise import happened, manoeuvre, premise
-from xavi_dialogue.explain.causes.suppositions import known_to
+from xavi_dialogue.explain.causes.suppositions import (
+    Supposed,
+    happens_without,
+    known_to,
+    planned_without,
+)
 
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
 
@@ -45,14 +52,45 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
     """Find the episode of driving that is asked about, where it is one and no choice."""
     if then is None:
         return None
-    if choices.is_choice(then) or happened(scene.ride, ("stop",), scene.span) is not None:
+    if choices.is_choice(then):
         return None
     for kinds in motions.KINDS.get(then.action, (motions.SLOWING,)):
         found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
         chosen = scene.pick(found, lambda e: (e.begin, e.end))
         if chosen is not None:
-            return chosen
+            stop = happened(scene.ride, ("stop",), scene.span)
+            end = scene.now if chosen.end is None else chosen.end
+            chose = stop is not None and stop.started <= end and chosen.begin <= stop.span[1]
+            return None if chose else chosen
     return None
+
+
+def without_at(
+    scene: Asked, drove: Episode, vehicles: tuple[int, ...]
+) -> tuple[Supposed, bool] | None:
+    """Tell whether we would have driven so without vehicles, as `why` tries it.
+
+    Args:
+        scene: the setting.
+        drove: how we drove.
+        vehicles: those that are supposed not to be there.
+
+    Returns:
+        The decision that explains it, planned again without them, and whether we would; None
+        where that cannot be planned.
+
+    Raises:
+        Unanswered: that decision does not know them; or what it shows is not sure.
+    """
+    reasons = reasons_for(scene.ride, scene.world, drove, scene.moment)
+    trace = reasons.trace
+    known = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
+    if not known:
+        raise Unanswered(
+            NotRecorded("out-of-view", thing=Vehicle(vehicles[0]), since=trace.sim_time)
+        )
+    happens = happens_without(scene.ride, reasons, known)
+    return None if happens is None else (planned_without(scene.ride, trace, known), happens)
 
 
 def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bool) -> float:
@@ -64,6 +102,13 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
             return premise(scene.ride, subject(scene, then)).trace.sim_time
         except Unanswered:
             return scene.moment
+    if then is not None:
+        stop = happened(scene.ride, ("stop",), scene.span)
+        if stop is not None:
+            try:
+                return scene.ride.choice_of(stop).sim_time
+            except Unanswered:
+                return stop.time
     if past:
         said = scene.past is not None and scene.past.said
         deed = manoeuvre(scene.ride, scene.span if said else None)

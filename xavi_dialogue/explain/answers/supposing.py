@@ -7,6 +7,7 @@ from xavi_dialogue.domain.answers import (
     CannotSay,
     Measures,
     SupposedOfOther,
+    TooLittle,
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Doing, Question, WhatIf, Whether
@@ -54,7 +55,13 @@ from xavi_dialogue.explain.answers.reading import (
     manner_of,
     unwrapped,
 )
-from xavi_dialogue.explain.answers.supposed_when import driven, imagined, moment, open_until
+from xavi_dialogue.explain.answers.supposed_when import (
+    driven,
+    imagined,
+    moment,
+    open_until,
+    without_at,
+)
 from xavi_dialogue.explain.causes.actions import DRIVING, names_of, same
 from xavi_dialogue.explain.causes.conduct import conduct_names
 from xavi_dialogue.explain.causes.suppositions import (
@@ -211,7 +218,11 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
     at = moment(scene, then, drove, past=past)
     numbers, left = of.numbers, of.left_out
     if event is None:
-        found = without(scene.ride, numbers, at)
+        tried = None if drove is None else without_at(scene, drove, numbers)
+        found = without(scene.ride, numbers, at) if tried is None else tried[0]
+        still = _still(found, then, drove) if tried is None else tried[1]
+        if drove is not None and tried is None and still:  # by another decision than explains it
+            raise Unanswered(TooLittle("too-little-evidence"))
     else:
         at = open_until(scene, numbers[0], event, at) if past else at
         names, negated = conduct_names(event), of.negated
@@ -221,6 +232,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         found = both or otherwise(scene.ride, numbers[0], names, at, negated=negated)
         if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
             event = structs.replace(event, action=found.proxy, manner=())
+        still = _still(found, then, drove)
     return SupposedOfOther(
         vehicle=numbers[0],
         supposed=event,
@@ -232,7 +244,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         contrast=found.contrast,
         past=past,
         asked=then,
-        still=_still(scene, found, then, drove),
+        still=still,
         form=form_of(question.then),
         slows=_slows(found) if event is not None and not of.negated else None,
         arrival=arrival(scene, found.contrast),
@@ -251,9 +263,7 @@ def _then(question: Question | None) -> Event | None:
     return None
 
 
-def _still(
-    scene: Asked, found: Supposed, then: Event | None, driven: Episode | None
-) -> bool | None:
+def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool | None:
     """Whether what is asked about would have come about."""
     if then is None:
         return None

@@ -22,13 +22,18 @@ def with_suspect(
     besides: tuple[int, ...] = ()
     if rival is not None:
         asked = [vehicle for vehicle in named if vehicle in (suspect, rival)]
+        asked.sort(key=lambda vehicle: _same_without(found, vehicle))
         suspect = asked[0] if asked else suspect
         part: Suspected = "either" if asked else "neither"
+        part = "same" if asked and _same_without(found, suspect) else part
+    elif suspect in named and _same_without(found, suspect):
+        part = "same"
     else:
         part = _part(named, suspect)
         if alone and part != "none":
             besides = tuple(vehicle for vehicle in named if vehicle != suspect)
-            part = "beside" if besides or _road_too(found) else _alone(found)
+            others = besides or _road_too(found) or _unnamed(found)
+            part = "beside" if others else _alone(found)
     if isinstance(found, ChoiceReason):
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
@@ -58,6 +63,26 @@ def _causation(found: ChoiceReason | MotionReason) -> Causation | None:
 def _jointly(found: ChoiceReason | MotionReason) -> tuple[int, ...]:
     causation = _causation(found)
     return () if causation is None else causation.jointly
+
+
+def _unnamed(found: ChoiceReason | MotionReason) -> bool:
+    """Tell whether several are it together, of whom it is not known who is needed."""
+    causation = _causation(found)
+    return causation is not None and not causation.minimal
+
+
+def _same_without(found: ChoiceReason | MotionReason, suspect: int) -> bool:
+    """Tell whether the same is done without a vehicle that speaks against the alternative.
+
+    Of several that are so together that is the same done without all of them.
+    """
+    causation = _causation(found)
+    if not isinstance(found, ChoiceReason) or causation is None:
+        return False
+    if causation.kind in ("one", "both"):
+        causes = found.contrast.causes
+        return any(c.vehicle == suspect and c.decision_changes is False for c in causes)
+    return suspect in causation.vehicles and not causation.decides
 
 
 def _alone(found: ChoiceReason | MotionReason) -> Suspected:

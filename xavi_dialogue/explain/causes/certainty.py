@@ -46,7 +46,8 @@ def of_plan(ride: Ride, found: Premise) -> Certainty:
     plan = factual(model, trace)
     good = [result for result in plan.results if result.rollout.outcome in WELL]
     share = min(sum(plan.outcomes[name] for name in WELL), 1.0)
-    low = _bound(share, len(plan.results), sum(model.prior(result.joint) for result in good))
+    proven = sum(model.prior(result.joint) for result in good)
+    low = _bound(share, len(plan.results), proven)
     told = sum(chances(plan).of(name) for name in WELL)
     known = len(plan.results) > 1
     return Certainty(
@@ -59,6 +60,8 @@ def of_plan(ride: Ride, found: Premise) -> Certainty:
         evidence(ride, model, plan),
         alone(ride, model, plan),
         len(model.vehicles),
+        sum(model.prior(result.joint) for result in plan.results),
+        proven,
     )
 
 
@@ -104,6 +107,8 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
         against.evidence,
         against,
         len(model.vehicles),
+        known,
+        proven,
     )
 
 

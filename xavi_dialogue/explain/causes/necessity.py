@@ -8,6 +8,7 @@ of the speed that is lost to others on the next stretch of road is not lost. Who
 difference is no cause.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -84,7 +85,8 @@ def proven(
     known = {cause.vehicle: cause for cause in causes}
     blamed = found.vehicles[:1] if found.kind == "pre-empted" else found.vehicles
     if found.kind == "several":  # of whom those at work are told of, as far as each was tried
-        blamed = tuple(v for v in suspects[:SINGLES] if v in found.vehicles)
+        at_work = tuple(v for v in suspects[:SINGLES] if v in found.vehicles)
+        blamed = at_work or (found.vehicles if found.minimal else ())
     told = [
         known.get(vehicle) or tests.instead(vehicle, suspects) or against(model, vehicle)
         for vehicle in blamed
@@ -99,6 +101,17 @@ def proven(
     )
     decides = tests.decides(found, causes)
     return Proven(causes, replace(found, decides=decides), tests.replaced(found))
+
+
+def trial_of(
+    ride: Ride, model: CausalModel, fact: Intervention, vehicles: tuple[int, ...]
+) -> Trial:
+    """Try whether the ego drives so without vehicles, as where they are suspected of it.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    return _Tests(ride, model, fact, None).trial(vehicles)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,8 +130,11 @@ class _Tests:
 
     @property
     def everybody(self) -> tuple[int, ...]:
-        """All vehicles of the decision but the ego."""
-        return tuple(sorted(vehicle for vehicle in self.decision.scene if vehicle != EGO))
+        """All vehicles of the decision but the ego, nearest first."""
+        scene = self.decision.scene
+        ours = scene[EGO].position
+        away = {v: math.dist(ours, other.position) for v, other in scene.items() if v != EGO}
+        return tuple(sorted(away, key=lambda vehicle: (away[vehicle], vehicle)))
 
     def changes(self, *vehicles: int) -> bool | None:
         """Whether another action is chosen without vehicles; None where that is not known."""

@@ -23,6 +23,26 @@ def free(ride: Ride, found: Premise) -> Premise:
     return Premise(before[-1], deed) if before else found
 
 
+def with_choice(ride: Ride, found: Premise) -> Premise:
+    """Find the decision that chose what is under way, with more than one thing to choose from.
+
+    That is the one asked about, or the last before it that chose the same; where all that did had
+    no choice, the one asked about.
+    """
+    found = free(ride, found)
+    if found.node or not planned(found.trace):
+        return found
+    first = planned(found.trace)[0]
+    for trace in reversed(ride.traces):
+        if trace.sim_time > found.trace.sim_time or trace.under_way is not None:
+            continue
+        if planned(trace)[:1] != (first,):
+            break
+        if alternatives(ride.model(trace), first):
+            return Premise(trace, found.deed)
+    return found
+
+
 def options_at(ride: Ride, at: float) -> tuple[OptionValue, ...]:
     """List what the last decision up to a time [s] could choose from; the chosen one first.
 

@@ -145,9 +145,10 @@ def _ahead(ride: Ride, names: Sequence[ActionName]) -> Premise | None:
 def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Premise:
     """Find the decision at which a foil was an alternative.
 
-    That is the one of the premise; where the question names no deed, and the foil did not apply
-    there or the ego has done nothing but drive on, the last one at which it did, of those that
-    came to what they chose. Which way to go is asked of the last turn, though.
+    Where the question names a deed, that is the decision for it. Where it says when, it is the one
+    then. Otherwise it is the decision in force if the foil was open there, and not chosen, else
+    the last one at which it was. Going on is asked of the last manoeuvre, which it was to do
+    without, and which way to go of the last turn.
     """
     found = premise(ride, subject)
     if subject.names or not foil or not subject.is_past:
@@ -158,17 +159,18 @@ def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Pr
     on = found.deed is None or found.deed.action == "continue"
     span = past(subject.span)
     lately = span is None or span.end >= ride.now - ROUNDING  # "just now": as late as it goes
-    if is_open(ride, found.trace, foil) and not (on and lately):
+    named = span is not None or any(m in STRAIGHT for m in means(foil[0]))
+    if named and is_open(ride, found.trace, foil) and not (on and lately):
         return found
-    others = [
+    others = (
         trace
-        for trace in ride.traces
-        if _came_to_pass(ride, trace)
+        for trace in reversed(ride.traces)
+        if (span is None or span.begin <= trace.sim_time <= span.end)
         and is_open(ride, trace, foil)
         and not _begins(trace, foil)
-        and (span is None or span.begin <= trace.sim_time <= span.end)
-    ]
-    return Premise(others[-1], None) if others else found
+    )
+    last = next(others, found.trace)
+    return found if last is found.trace else Premise(last, None)
 
 
 def _free(ride: Ride, found: Premise, foil: tuple[ActionName, ...]) -> Premise:
@@ -197,16 +199,6 @@ def options_known(ride: Ride, names: Sequence[MacroAction]) -> tuple[MacroAction
     free = [trace for trace in ride.traces if trace.under_way is None]
     known = {action for trace in free for action in ride.model(trace).options()}
     return tuple(name for name in names if name in known)
-
-
-def _came_to_pass(ride: Ride, trace: PlanTrace) -> bool:
-    """Whether what a decision chose was carried out; plans may be given up."""
-    first, time = planned(trace)[:1], trace.sim_time
-    return any(
-        (deed.action,) == first
-        and deed.started - ROUNDING <= time <= (ride.now if deed.ended is None else deed.ended)
-        for deed in ride.deeds
-    )
 
 
 def _begins(trace: PlanTrace, foil: Sequence[ActionName]) -> bool:

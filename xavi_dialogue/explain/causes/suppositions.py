@@ -8,13 +8,16 @@ from msgspec.structs import replace
 from planner.trace import Action as MacroAction
 from planner.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
-from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRecorded
+from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRecorded, TooLittle
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.actions import CHANGES, is_macro, means
 from xavi_dialogue.explain.causes.conduct import matching, probability
 from xavi_dialogue.explain.causes.contrast import evidence, factual, sides
 from xavi_dialogue.explain.causes.course import lines, speed_mark, stands
+from xavi_dialogue.explain.causes.driving import Reasons
+from xavi_dialogue.explain.causes.hindsight import in_hindsight
+from xavi_dialogue.explain.causes.necessity import trial_of
 from xavi_dialogue.explain.history.ride import (
     ROUNDING,
     Ride,
@@ -86,13 +89,45 @@ def without(ride: Ride, vehicles: tuple[int, ...], moment: float) -> Supposed:
         Unanswered: no decision reckons with them; or it must be planned again first.
     """
     known = [vehicle for vehicle in vehicles if known_to(ride, vehicle, moment)]
-    trace = decision_for(ride, (known or [*vehicles])[0], moment)
+    return planned_without(ride, decision_for(ride, (known or [*vehicles])[0], moment), vehicles)
+
+
+def planned_without(ride: Ride, trace: PlanTrace, vehicles: tuple[int, ...]) -> Supposed:
+    """Compare a decision with the same made again without some vehicles.
+
+    Raises:
+        Unanswered: it must be planned again first.
+    """
     gone = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
     again = ride.without(trace, *gone)
     if again is None:  # the planner could not make it: whoever asked it knows why
         removed = gone[0] if len(gone) == 1 else tuple(sorted(gone))
         raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=removed))
     return compared(ride, trace, again, None)
+
+
+def happens_without(ride: Ride, reasons: Reasons, vehicles: tuple[int, ...]) -> bool | None:
+    """Tell whether the ego drives so without vehicles, by the trial by which they are causes.
+
+    Args:
+        ride: the record.
+        reasons: why it does.
+        vehicles: those of the decision that are not there.
+
+    Returns:
+        Whether it does; None where that cannot be planned.
+
+    Raises:
+        Unanswered: it does, but one of them is told as a reason that could not be tried; or the
+            record lacks what was decided; or rollouts are needed.
+    """
+    model = ride.model(reasons.trace)
+    plan = in_hindsight(ride, model, factual(model, reasons.trace))
+    gone = trial_of(ride, model, plan, vehicles).gone
+    open_ = {cause.vehicle for cause in reasons.causes if cause.necessary is None}
+    if gone is False and open_ & set(vehicles):
+        raise Unanswered(TooLittle("too-little-evidence"))
+    return None if gone is None else not gone
 
 
 def together(

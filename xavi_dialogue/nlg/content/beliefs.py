@@ -132,6 +132,7 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
     first = message(
         "OPTIONS_MANY",
         besides=answer.besides,
+        when=Moment(answer.decided) if answer.earlier else None,
         chosen=verb,
         others=tuple(_verb(o.action) for o in others[:NAMED]),
         all=tuple(_verb(o.action) for o in answer.options[:NAMED]),

@@ -91,7 +91,7 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     if causation is None or causation.kind in ("one", "open"):
         return None
     one, other = (*(Who(Vehicle(v), time) for v in causation.vehicles[:2]), None, None)[:2]
-    few = causation.kind == "several" and len(causation.vehicles) <= NAMED
+    few = causation.kind == "several" and causation.minimal and len(causation.vehicles) <= NAMED
     every = all_of(causation.vehicles, time) if few else None
     return message(
         "HANGS_ON",
@@ -102,6 +102,7 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
         count=None if every is not None else len(causation.vehicles),
         past=past,
         decides=causation.decides,
+        minimal=causation.minimal,
     )
 
 

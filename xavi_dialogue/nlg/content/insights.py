@@ -19,6 +19,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 
 EVEN = 0.45  # probability below which we are not sure at all
 CLOSE = 0.65  # probability below which it was close
+AGREEING = 0.2  # of probability, within which a count of situations goes with it
 BETTER = 1.2  # times by which a path must fit better to be told
 UNFORESEEN = 0.25  # probability up to which something was not to be foreseen
 MOVED = 0.02  # change of probability from which it is told
@@ -116,6 +117,8 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
         "one": answer.evidence.distinct_samples <= 1,
         "others": answer.others > 0,
         "low": None if answer.low is None else Chance(answer.low),
+        "covered": None if answer.covered is None else Chance(min(answer.covered, 1.0)),
+        "weight": _weight(answer),
         "foil": None,
         "verdict": "alone",
     }
@@ -128,6 +131,19 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
     more = () if contrast is None else further(contrast, context, past=past)
     shown = () if context.detail == "simpler" else details
     return Plan((Message("CERTAINTY", slots),), shown, more[:2])
+
+
+def _weight(answer: Certainty) -> str | None:
+    """Tell whether the situations in which it does better are the likelier ones, or the others.
+
+    None where their count goes with their probability, among those that were tried.
+    """
+    if not answer.covered or answer.proven is None or not 0 < answer.good < answer.situations:
+        return None
+    surplus = answer.proven / answer.covered - answer.good / answer.situations
+    if abs(surplus) < AGREEING:
+        return None
+    return "likelier" if surplus > 0.0 else "unlikelier"
 
 
 def plan_method(answer: Method, context: SpeechContext) -> Plan:

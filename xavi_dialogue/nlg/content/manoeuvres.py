@@ -106,7 +106,13 @@ def denial(action: ActionName, *, past: bool) -> Clause:
 def performed(rule: str, done: Performed) -> Message:
     """Return by a rule that we did something, are doing it or plan to do it."""
     time = None if done.time is None else Moment(done.time)
-    return Message(rule, {"performed": done.when, "fact": own_verbs((done.action,)), "when": time})
+    verbs, kept = own_verbs((done.action,)), done.action == "keep-lane"
+    return Message(rule, {"performed": done.when, "fact": verbs, "when": time, "kept": kept})
+
+
+def last_open(time: float | None) -> tuple[Message, ...]:
+    """Return when [s] something could last be done; () where that need not be told."""
+    return () if time is None else (Message("LAST_OPEN", {"when": Moment(time)}),)
 
 
 def performed_later(done: Performed | None) -> tuple[Message, ...]:

@@ -44,13 +44,14 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         answer.deed.begin,
         answer.cleared,
         answer.besides,
+        past=past,
         told=told,
     )
     first_of = answer.causes[0].vehicle if answer.causes else None
     others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
     alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
-    if hangs is not None and answer.causation is not None and answer.causation.jointly:
+    if hangs is not None and answer.causation is not None and answer.causation.is_joint:
         core, hangs = (*core, hangs), None  # one of them alone is no reason
     others = list(answer.causes[1:]) if answer.suspected == "beside" else others
     asked = hangs if answer.of_causes else None

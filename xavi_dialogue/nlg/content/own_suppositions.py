@@ -15,7 +15,13 @@ from xavi_dialogue.nlg.content.contrasts import (
     told_cause,
 )
 from xavi_dialogue.nlg.content.evidence import further
-from xavi_dialogue.nlg.content.manoeuvres import CHANGES, own_verbs, performed, performed_later
+from xavi_dialogue.nlg.content.manoeuvres import (
+    CHANGES,
+    last_open,
+    own_verbs,
+    performed,
+    performed_later,
+)
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.reasons import cause_of
@@ -65,12 +71,13 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
             risk = risks(contrast, context, past=past, unsaid=True)
         beside = () if risk is None or answer.form in OF_RISKS else (risk,)
-        core = (told, *beside, *performed_later(answer.later))
+        core = (told, *beside, *last_open(answer.open_at), *performed_later(answer.later))
         return Plan(core, (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
     first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
-    return Plan((*core, *performed_later(answer.later)), (), more, (), about_cause(answer))
+    core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
+    return Plan(core, (), more, (), about_cause(answer))
 
 
 def _both_late(contrast: Contrast) -> Chance | None:

@@ -17,6 +17,7 @@ from xavi_dialogue.nlg.content.driven import STANDING, motion_cause
 from xavi_dialogue.nlg.content.evidence import further, hangs_on
 from xavi_dialogue.nlg.content.manoeuvres import (
     deed_clause,
+    last_open,
     own_verbs,
     performed_later,
     planned_clause,
@@ -69,11 +70,12 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         contrast.decided,
         contrast.cleared,
         answer.besides,
+        past=past,
         told=_names(answer, answer.suspect) or context.detail == "less",
     )
     more = further(contrast, context, past=past)
     core = core if risk is None else (risk, *core)  # a risk is told, and first
-    core = (*core, *performed_later(answer.later))
+    core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
         core, hangs = (*core, hangs), None  # one of them alone is no reason
@@ -95,7 +97,7 @@ def _jointly(answer: ChoiceReason) -> bool:
     So it is where it was asked whether one is.
     """
     causation = answer.contrast.causation
-    if causation is None or not causation.jointly or answer.contrast.way:
+    if causation is None or not causation.is_joint or answer.contrast.way:
         return False
     asked = answer.suspected not in (None, "none", "neither")
     return asked or any(_names(answer, vehicle) for vehicle in causation.vehicles)

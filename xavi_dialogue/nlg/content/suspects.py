@@ -14,6 +14,7 @@ def suspected(
     cleared: tuple[int, ...] = (),
     besides: tuple[int, ...] = (),
     *,
+    past: bool,
     told: bool,
 ) -> tuple[Message, ...]:
     """Put the verdict on the vehicle that the question takes for the cause before the reason.
@@ -25,6 +26,7 @@ def suspected(
         time: [s] at which it is described.
         cleared: vehicles that make no difference.
         besides: who else is the cause, where it is taken for the only one.
+        past: the reason is told as past.
         told: the reason names it.
     """
     if suspect is None or part is None:
@@ -34,6 +36,7 @@ def suspected(
         "part": part,
         "cleared": suspect in cleared,
         "besides": all_of(besides, time),
+        "past": past,
     }
     if told or part in ("none", "neither"):
         return (message("VERDICT_ON", reason=reason, **slots),)

@@ -32,6 +32,9 @@ BY = {
     "first": "time",
 }
 
+#: Words of what is said to do worse.
+_WORSE = frozenset({"worse", "slower", "riskier", "longer", "later", "less safe", "costlier"})
+
 
 class Comparing(Frames):
     """Builds questions that compare deeds."""
@@ -75,6 +78,15 @@ class Comparing(Frames):
             deed = with_fields(deed, modal=clause.modal)
         options = (Happens(deed), *self._other(clause))
         return Compare(tuple(_at(option, clause.tense) for option in options), by)
+
+    def weighed_deed(self, clause: Clause) -> Happens | None:
+        """Read the deed of "stopping would have been worse"; what was worse was not done."""
+        compare = self.comparison(clause)
+        if not isinstance(compare, Compare) or not isinstance(compare.options[0], Happens):
+            return None
+        deed = compare.options[0]
+        worse = any(word in _WORSE for _, word in clause.comparisons)
+        return Happens(with_fields(deed.event, modal="would")) if worse else deed
 
     def _other(self, clause: Clause) -> tuple[Any, ...]:
         clauses = [c for c in (clause, clause.infinitive, clause.gerund) if c is not None]

@@ -44,7 +44,7 @@ from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.comparing import Comparing
 from xavi_dialogue.nlu.compose.expecting import hindsight
-from xavi_dialogue.nlu.compose.nominal import asked_of
+from xavi_dialogue.nlu.compose.nominal import asked_of, event_in
 from xavi_dialogue.nlu.compose.pacing import not_rather, permitted
 from xavi_dialogue.nlu.compose.sem import (
     Group,
@@ -309,7 +309,11 @@ class Polar(Comparing):
 
     def _sure_of(self, clause: Clause) -> Proposition | None:
         governed = clause.that or clause.infinitive
-        return self.propositions.plain(governed) if governed is not None else None
+        if governed is None:
+            deeds = (event_in(p.sem) for p in clause.complements if p.key in ("about", "of"))
+            deed = next((one for one in deeds if one is not None), None)
+            return None if deed is None else as_of(Happens(deed), clause.tense)
+        return self.propositions.plain(governed) or self.weighed_deed(governed)
 
     def _whether_special(self, clause: Clause, value: Special) -> Question | None:
         if value.name == "obey":
@@ -326,6 +330,9 @@ class Polar(Comparing):
             return Why(That(), suspect=value.subject)  # "did he scare you?"
         if value.name == "matter":
             return WhatWouldChange(None)
+        staked = clause.verb is not None and clause.verb.key == "bet"
+        if staked and clause.modal == "would" and isinstance(as_thing(value.subject), Ego):
+            return HowSure(value.content)  # "would you bet on it?"
         ours = isinstance(value.content, Happens) and isinstance(value.content.event.actor, Ego)
         if value.name == "consider" and (ours or (value.content is None and _is_option(clause))):
             return Listing("options", time=clause.time)  # "did you consider alternatives?"

@@ -243,7 +243,8 @@ class Questions(Options):
         governed = clause.that or clause.infinitive or clause.gerund
         if governed is not None:
             governed.subject = governed.subject or Ego()
-            return cast("Proposition | None", self.propositions.plain(governed))
+            plain = cast("Proposition | None", self.propositions.plain(governed))
+            return plain or self.weighed_deed(governed)
         for phrase in clause.complements:
             sem = phrase.sem
             if isinstance(sem, Noun):

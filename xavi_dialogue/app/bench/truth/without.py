@@ -68,7 +68,7 @@ def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 @claim(
     r"[Nn]o single vehicle ma(?:kes|de) the difference to that, only several together: without "
     r"(?:all (?P<count>\d+) of them|(?P<who>(?:V\d+|it)(?:(?:,| and|, and) (?:V\d+|it))*)), "
-    r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same)"
+    r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but for less of a reason)"
 )
 def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without so many vehicles, and came to what is told."""
@@ -88,9 +88,19 @@ def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("differs without", match[0])
 
 
+@claim(r"[Nn]o single vehicle ma(?:kes|de) the difference to that, only several together(?!:)")
+def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
+    """Check that it was planned again without three vehicles or more."""
+    if said.decision is None:
+        return
+    if not any(t.what_if and len(t.what_if.gone) > 2 for t in said.decision.without):
+        yield Fault("not tried without", match[0])
+
+
 @claim(
     r"[Bb]oth (?P<who>V\d+|it) and (?P<other>V\d+|it) (?:ha(?:d|ve) to be there|count(?:ed)?)"
-    r": without one of them, I would (?:have )?do(?:ne)? (?:otherwise|the same)",
+    r": without one of them, I would (?:have )?do(?:ne)? "
+    r"(?:otherwise|the same, but for less of a reason)",
 )
 def both(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without one of two vehicles by itself."""

@@ -112,6 +112,8 @@ def _supposed_question(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, that=g.proposition(that, "supposed"))
         case When(of=of) | Why(of=of):
             return replace(spoken, of=g.proposition(of, "supposed"))
+        case Doing(actor=None, time=Unsaid()):
+            return spoken  # what would have happened is at no time of the ride
     return question(spoken, g)
 
 
