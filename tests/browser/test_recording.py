@@ -24,7 +24,7 @@ def test_a_recording_is_seen_and_asked_about(crew: Crew, visit: Visits, tmp_path
     chat.popen.stdin.close()
     assert chat.popen.wait(PATIENCE) == 0, chat.said
     without = tmp_path / "without"
-    for name in ("libsumo", "sumolib", "traci"):
+    for name in ("libsumo", "traci"):  # sumolib reads networks, and does so without SUMO
         (without / name).mkdir(parents=True)
         (without / name / "__init__.py").write_text(NO_SUMO)
     shown = dashboard(
