@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
+BERTH = 1.0  # [m] free before and behind who changes lanes: nobody drives quite as predicted
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -47,7 +48,8 @@ def first_hit(
 
     A follower that would have braked does not count. Who is careless changes lanes without
     regard for those behind: then they do, and so does one that is right behind at the end, and
-    too fast to brake, or to be SAFE_CUT_IN away.
+    too fast to brake, or to be SAFE_CUT_IN away. A lane change that leaves less than BERTH before
+    or behind hits too, unless there was less from the beginning.
 
     Args:
         own: [S, 4] states at steps `first`, `first` + 1, ...
@@ -60,12 +62,12 @@ def first_hit(
     """
     found, whom, last = len(own), -1, len(own) - 1
     for m in range(len(states)):
+        berth = BERTH if careless else 0.0
         for k in range(min(len(own), states.shape[1] - first, found)):
             other = states[m, first + k]
-            near = math.hypot(other[0] - own[k, 0], other[1] - own[k, 1])
-            if near < size[0] + sizes[m, 0] + size[1] + sizes[m, 1] and overlap(
-                own[k, 0], own[k, 1], own[k, 2], size, other[0], other[1], other[2], sizes[m]
-            ):
+            if k == 0 and berth > 0.0 and _meets(own[k], size, other, sizes[m], berth):
+                berth = 0.0
+            if _meets(own[k], size, other, sizes[m], berth):
                 if careless or not _in_front(own[k], other) < -1.0:
                     found, whom = k, m
                 break
@@ -74,6 +76,17 @@ def first_hit(
             if ends and _cut_off(own[last], size[0], states[m, first + last], braking):
                 found, whom = last, m
     return (found, whom) if whom >= 0 else (-1, -1)
+
+
+@_jit
+def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float) -> bool:
+    """Whether another body comes within `berth` [m] before or behind ours, or touches it."""
+    near = math.hypot(other[0] - own[0], other[1] - own[1])
+    if near >= size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth:
+        return False
+    x, y = own[0] + berth * math.cos(own[2]), own[1] + berth * math.sin(own[2])
+    longer = (size[0] + 2.0 * berth, size[1])
+    return overlap(x, y, own[2], longer, other[0], other[1], other[2], other_size)
 
 
 @_jit

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.forward import DT, Motion, advance
-from planner.kernels.collision import SAFE_CUT_IN
+from planner.kernels.collision import BERTH, SAFE_CUT_IN
 from planner.kernels.driving import (
     ACCELERATION,
     ALIGNED,
@@ -490,7 +490,14 @@ def first_hit(
         count = stop - first
         where, turned = other.position[first:stop], other.heading[first:stop]
         theirs = (other.length, other.width)
-        sample = first_overlap(own[:count, :2], own[:count, 2], size, where, turned, theirs)
+        body = (own[:count, :2], own[:count, 2], size)
+        if careless:
+            ahead = np.column_stack((np.cos(own[:count, 2]), np.sin(own[:count, 2])))
+            longer = (size[0] + 2.0 * BERTH, size[1])
+            free = (own[:count, :2] + BERTH * ahead, own[:count, 2], longer)
+            if first_overlap(*free, where, turned, theirs) != 0:
+                body = free
+        sample = first_overlap(*body, where, turned, theirs)
         if sample is None and careless:
             sample = _cut_off(own, size[0], first, other)
         elif sample is not None and not careless and _ahead(own[sample], where[sample]) < -1.0:
