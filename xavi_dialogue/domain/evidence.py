@@ -16,13 +16,16 @@ class Evidence(Value, frozen=True):
     traces: tuple[str, ...] = ()  # trace ids
 
 
-def calibrated(probability: float, model_error: float) -> float:
+def calibrated(
+    probability: float, model_error: float, unforeseen: float = 1.0 / len(OUTCOMES)
+) -> float:
     """Return how probable an outcome is, of its probability among rollouts.
 
     Rollouts do not know the error of their own model. With the probability `model_error` they
-    tell nothing, and each outcome is as likely (label smoothing, Szegedy et al. 2016).
+    tell nothing, and the outcome is as likely as it is among what they did not foresee; by
+    default each outcome is (label smoothing, Szegedy et al. 2016).
     """
-    return (1.0 - model_error) * probability + model_error / len(OUTCOMES)
+    return (1.0 - model_error) * probability + model_error * unforeseen
 
 
 class OutcomeEstimate(Value, frozen=True):

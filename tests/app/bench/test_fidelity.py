@@ -9,7 +9,7 @@ from xavi_dialogue.app.bench.agreement import agreement, by_outcome, calibration
 from xavi_dialogue.app.bench.cases import Case, Compared, Task, compare
 from xavi_dialogue.app.bench.fidelity import measure, report, tasks
 from xavi_dialogue.app.bench.foresight import Foreseen
-from xavi_dialogue.app.bench.ranging import coverage, extension, learn, model_error
+from xavi_dialogue.app.bench.ranging import coverage, extension, learn
 from xavi_dialogue.app.bench.resimulate import Happened
 from xavi_dialogue.app.bench.rivals import Guess, by_name, key_of
 from xavi_dialogue.domain.evidence import calibrated
@@ -99,7 +99,10 @@ def test_ranges_are_learnt_of_the_rides_that_were_driven() -> None:
     rides = [Compared("learning", 7 + k, (timed(4.0 + 0.1 * k, seed=k),)) for k in range(2 * LEAST)]
     found = learn([*rides, Compared("learning", 99, error="no")], "again")
     cases = 2 * LEAST
-    assert found.source == Source("again", {"learning": (7, 6 + cases)}, cases, cases, 0, cases)
+    worlds = {"learning": (7, 6 + cases)}
+    assert found.source == Source("again", worlds, cases, cases, 0, cases, found.source.model_error)
+    assert found.source.model_error == pytest.approx(0.0, abs=1e-3)  # all came as foreseen
+    assert found.model_error == pytest.approx(1.0 - 0.05 ** (1.0 / cases), abs=1e-4)
     whole = found.group("exit", "road")
     assert whole is not None
     assert (whole.rides, whole.cases) == (cases, cases)
@@ -154,18 +157,12 @@ def test_calibration_sorts_probabilities_into_bins() -> None:
     assert bins[0].happened == 0.0
 
 
-def test_the_error_of_the_model_is_what_makes_the_outcomes_likeliest() -> None:
-    """Of ten that were certain one did not happen: 0.1 = error * 3 / 4, as each is as likely."""
-    assert model_error([1.0] * 9 + [0.0]) == pytest.approx(0.1 / 0.75, abs=1e-3)
-    assert model_error([1.0] * 10) == pytest.approx(0.0, abs=1e-3)
-    assert model_error([]) == 0.0
-
-
 def test_calibration_tells_the_probabilities_that_answers_tell() -> None:
-    bins = calibration(CASES, lambda chance: calibrated(chance, 0.4))
+    bins = calibration(CASES, lambda _, chance: calibrated(chance, 0.4))
     assert bins[-1].n == 0  # 1.0 is told as 0.7
     assert (bins[3].n, bins[3].said) == (2, pytest.approx(0.7))
     assert calibrated(0.0, 0.4) == pytest.approx(0.1)
+    assert calibrated(0.5, 0.4, 0.9) == pytest.approx(0.3 + 0.36)
 
 
 def test_what_is_wrong_is_listed_with_how_to_see_it_again() -> None:

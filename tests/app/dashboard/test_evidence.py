@@ -8,16 +8,15 @@ from msgspec.structs import replace
 
 from planner.trace import PlanTrace, Rollout
 from tests.dialogue.talking import Talk, ride
+from tests.explain.trust import trusted
 from xavi_dialogue.app.dashboard.evidence import has_evidence, of_turn, traces_of, vehicles_of
 from xavi_dialogue.app.dashboard.told import told_of
 from xavi_dialogue.dialogue.explanation import Contrastive, as_json
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import ChoiceReason
 from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.meaning import Ask, Identify
 from xavi_dialogue.domain.terms import Ego, Thing, Vehicle, Vehicles
-from xavi_dialogue.explain.causes.ranges import table
 from xavi_dialogue.transports.web.documents import EvidenceShown
 
 CONTRASTS = (
@@ -109,7 +108,7 @@ def test_what_is_shown_agrees_with_what_was_said(name: str) -> None:
         outcome = explanation.outcome
         if outcome is not None:
             share = shown.counterfactual.outcomes[outcome.name]
-            told = share if outcome.name == "dead" else calibrated(share, table().model_error)
+            told = share if outcome.name == "dead" else trusted(share, outcome.name)
             assert told == pytest.approx(outcome.probability, abs=1e-4)
         for effect, said in zip(explanation.effects, shown.effects, strict=True):
             assert said.delta == pytest.approx(effect.delta, abs=1e-4)

@@ -63,7 +63,7 @@ def test_every_answer_tells_the_same_chance_of_an_option() -> None:
     assert told.fact_collision == pytest.approx(own)
     assert alone(whole, model, here).fact_collision == pytest.approx(own)
     well = of_plan(whole, premise).share
-    assert well == pytest.approx(1.0 - own - here.outcomes["dead"] - trusted(0.0))
+    assert well == pytest.approx(1.0 - own - here.outcomes["dead"] - trusted(0.0, "dead"))
 
 
 @pytest.mark.parametrize("wrong", [float("nan"), float("inf"), -float("inf"), 1e9])

@@ -18,14 +18,14 @@ def test_what_a_decision_could_choose_from() -> None:
     trace = weighing()
     going, left, stop = of_trace(Ride(Record(4.0, (trace,))), trace)
     assert (going.action, going.chosen, going.outcome) == ("continue", True, "done")
-    assert going.probability == approx(trusted(0.7))
+    assert going.probability == approx(trusted(0.7, "done"))
     assert (going.time, going.delta) == (approx(12.0), None)
     assert going.value == approx(-0.7 * 12.0 - 0.3 * 200.0)
     assert (going.collision, going.collided_with) == (approx(trusted(0.3)), 1)
     assert (left.action, left.chosen, left.probability) == (
         "change-left",
         False,
-        approx(trusted(1.0)),
+        approx(trusted(1.0, "done")),
     )
     assert (left.time, left.delta) == (approx(11.0), approx(-1.0))
     assert (left.collision, left.collided_with) == (trusted(0.0), None)

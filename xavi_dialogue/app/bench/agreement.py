@@ -147,17 +147,22 @@ def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
 
 
 def calibration(
-    cases: Sequence[Case], told: Callable[[float], float] = float, bins: int = 5
+    cases: Sequence[Case],
+    told: Callable[[Outcome, float], float] = lambda _, given: given,
+    bins: int = 5,
 ) -> tuple[Bin, ...]:
     """How often outcomes happened that were given about the same probability.
 
     Args:
         cases: foils and what came of them.
-        told: the probability that is told, of that among the rollouts.
+        told: the probability that is told of an outcome, of that among the rollouts.
         bins: how many, as wide.
     """
     pairs = [
-        (told(case.foreseen.outcomes.get(outcome, 0.0)), float(case.happened.outcome == outcome))
+        (
+            told(outcome, case.foreseen.outcomes.get(outcome, 0.0)),
+            float(case.happened.outcome == outcome),
+        )
         for case in cases
         if case.foreseen.declined is None
         for outcome in OUTCOMES

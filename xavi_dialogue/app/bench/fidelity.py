@@ -8,7 +8,6 @@ a rollout did not react to the ego, and what the foil's name alone lets one expe
 """
 
 from collections.abc import Callable, Sequence
-from functools import partial
 
 import msgspec
 
@@ -37,7 +36,6 @@ from xavi_dialogue.app.bench.ranging import (
 )
 from xavi_dialogue.app.bench.rivals import by_name
 from xavi_dialogue.app.bench.runs import in_processes
-from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.explain.causes.ranges import Ranges, table
 
 KINDS = ("stop", "exit", "manoeuvre")  # of foils
@@ -174,7 +172,7 @@ def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
         outcomes=by_outcome(cases),
         calibration={
             "rollouts": calibration(cases),
-            "told": calibration(cases, partial(calibrated, model_error=ranges.model_error)),
+            "told": calibration(cases, ranges.trusted),
         },
         wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
         failed=_failed(found),

@@ -5,12 +5,10 @@ from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 import msgspec
-import numpy as np
-from scipy.optimize import minimize_scalar
 
-from planner.trace import OUTCOMES
 from xavi_dialogue.app.bench.cases import Case, Compared
 from xavi_dialogue.app.bench.figures import in_columns, mean
+from xavi_dialogue.app.bench.model_errors import Known, fitted
 from xavi_dialogue.causal.conformal import COVERAGE, reach
 from xavi_dialogue.explain.causes.ranges import Error, Ranges, Source, group_errors
 
@@ -78,35 +76,30 @@ def learn(found: Sequence[Compared], command: str) -> Ranges:
         low, high = worlds.get(one.scenario, (one.seed, one.seed))
         worlds[one.scenario] = (min(low, one.seed), max(high, one.seed))
     missed = sum(case.later is None for case in cases)
-    outcomes = [
-        case.foreseen.outcomes.get(case.happened.outcome, 0.0)
-        for one in rides
-        for case in one.cases
-        if case.foreseen.declined is None
-    ]
+    outcomes = _outcomes(rides)
+    wrong = fitted(outcomes)
     return Ranges(
         COVERAGE,
         round(pooled, 3),
         group_errors(errors),
-        Source(command, worlds, len(rides), len(cases), missed, len(outcomes)),
-        model_error(outcomes),
+        Source(command, worlds, len(rides), len(cases), missed, len(outcomes), wrong.mean),
+        wrong.bound,
+        wrong.unforeseen,
     )
 
 
-def model_error(given: Sequence[float]) -> float:
-    """Fit the probability that rollouts tell nothing of the outcome, by the log likelihood.
-
-    Args:
-        given: the probabilities among rollouts of the outcomes that happened.
-    """
-    known = np.array(given)
-
-    def loss(share: float) -> float:
-        mixed = (1.0 - share) * known + share / len(OUTCOMES)
-        return -float(np.sum(np.log(np.maximum(mixed, 1e-12))))
-
-    found = minimize_scalar(loss, bounds=(0.0, 0.9), method="bounded")
-    return round(float(found.x), 4) if given else 0.0
+def _outcomes(rides: Sequence[Compared]) -> list[Known]:
+    """What came of the foils whose outcomes were foreseen."""
+    return [
+        Known(
+            f"{case.scenario}-{case.seed}",
+            case.happened.outcome,
+            case.foreseen.outcomes.get(case.happened.outcome, 0.0),
+        )
+        for one in rides
+        for case in one.cases
+        if case.foreseen.declined is None
+    ]
 
 
 def error_of(case: Case) -> float:

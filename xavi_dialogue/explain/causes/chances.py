@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from planner.trace import Outcome
 from xavi_dialogue.causal.model import Mixture
-from xavi_dialogue.domain.evidence import OutcomeEstimate, calibrated
-from xavi_dialogue.explain.causes.ranges import table
+from xavi_dialogue.domain.evidence import OutcomeEstimate
+from xavi_dialogue.explain.causes.ranges import Ranges, table
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,12 +18,12 @@ class Chances:
     """How probable the outcomes are, by a mixture of rollouts and how far these are trusted."""
 
     rollouts: Mixture
-    model_error: float  # probability that the rollouts tell nothing of the outcome
+    known: Ranges  # with the error of the model behind them
 
     def of(self, outcome: Outcome) -> float:
         """Give the probability of an outcome; where roads lead (dead) is no guess."""
         found = min(self.rollouts.outcomes[outcome], 1.0)
-        return found if outcome == "dead" else calibrated(found, self.model_error)
+        return found if outcome == "dead" else self.known.trusted(outcome, found)
 
     @property
     def collision(self) -> float:
@@ -33,7 +33,7 @@ class Chances:
     def collision_with(self, vehicle: int) -> float:
         """Give the probability of a collision with a vehicle, as if errors struck it alone."""
         found = self.rollouts.collisions().get(vehicle, 0.0)
-        return calibrated(min(found, 1.0), self.model_error)
+        return self.known.trusted("collision", min(found, 1.0))
 
     @property
     def struck(self) -> int | None:
@@ -64,4 +64,4 @@ def surely(probability: float) -> float:
 
 def chances(plan: Mixture) -> Chances:
     """Estimate how probable the outcomes of an option are."""
-    return Chances(plan, table().model_error)
+    return Chances(plan, table())

@@ -13,12 +13,12 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
 
-from planner.trace import PlanTrace
+from planner.trace import Outcome, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.conformal import COVERAGE, reach
 from xavi_dialogue.causal.effects import ComponentEffect
 from xavi_dialogue.causal.model import CausalModel, Intervention
-from xavi_dialogue.domain.evidence import TimeRange
+from xavi_dialogue.domain.evidence import TimeRange, calibrated
 from xavi_dialogue.explain.causes.actions import EXITS
 
 FoilKind: TypeAlias = Literal["stop", "exit", "manoeuvre"]
@@ -56,6 +56,7 @@ class Source(msgspec.Struct, frozen=True):
     cases: int
     missed: int  # of these, foils that never came to the destination
     foils: int = 0  # of which outcomes were foreseen
+    model_error: float | None = None  # as fitted, without the margin of the bound
 
 
 class Ranges(msgspec.Struct, frozen=True):
@@ -65,7 +66,14 @@ class Ranges(msgspec.Struct, frozen=True):
     constant: float  # [s] half the width of one range for all, a rival in the bench
     groups: tuple[Group, ...]
     source: Source
-    model_error: float = 0.0  # probability that the rollouts tell nothing of the outcome
+    model_error: float = 0.0  # probability that rollouts tell nothing of the outcome, at most
+    unforeseen: dict[Outcome, float] = {}  # how probable each is then; without any, all alike
+
+    def trusted(self, outcome: Outcome, probability: float) -> float:
+        """Give the probability of an outcome, of that among the rollouts, as far as they go."""
+        if not self.unforeseen:
+            return calibrated(probability, self.model_error)
+        return calibrated(probability, self.model_error, self.unforeseen.get(outcome, 0.0))
 
     def group(self, foil: FoilKind, road: RoadKind) -> Group | None:
         """Find the group of a kind of case; None where too few rides had it."""

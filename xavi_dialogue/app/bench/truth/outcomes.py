@@ -29,7 +29,7 @@ def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         return
     decision, foil = found
     sides = [[side.chance("termination") for side in pair] for pair in decision.pairs(foil)]
-    if not any(is_likely(match["adverb"], trusted(min(pair))) for pair in sides):
+    if not any(is_likely(match["adverb"], trusted(min(pair), "termination")) for pair in sides):
         yield Fault("outcome of both", f"{match[0]}: {percents([x for p in sides for x in p])}")
     yield from _looked(decision, match)
 
@@ -103,11 +103,12 @@ def _outcome(
     part = match.groupdict()
     if part.get("both") is not None:
         return  # it is told which side has more of it, or that the roads have it so: `way_ahead`
-    told = map(trusted, values) if outcomes == ("termination",) else iter(values)
+    if outcomes == ("termination",):
+        values = [trusted(value, "termination") for value in values]
     if part.get("chance"):
-        right = any(is_chance(match, value) for value in told)
+        right = any(is_chance(match, value) for value in values)
     else:
-        right = any(is_likely(match["adverb"], value) for value in told)
+        right = any(is_likely(match["adverb"], value) for value in values)
     if not right:
         yield Fault("outcome of a foil", f"{match[0]}: {percents(values)} for {', '.join(foil)}")
 

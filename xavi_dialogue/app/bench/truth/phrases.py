@@ -3,10 +3,11 @@
 import re
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 import msgspec
 
-from planner.trace import Action
+from planner.trace import Action, Outcome
 
 ACTS: tuple[tuple[str, frozenset[Action]], ...] = (
     (r"turn(?:ed|ing|s)? right", frozenset({"exit-right"})),
@@ -86,17 +87,21 @@ def is_likely(adverb: str | None, value: float) -> bool:
     return low - SLACK <= value <= high + SLACK
 
 
-def trusted(value: float) -> float:
+def trusted(value: float, outcome: Outcome = "collision") -> float:
     """Return what may be told of an outcome with a probability among rollouts.
 
-    In a measured share of foils the model of the rollouts is wrong; then each of the four
-    outcomes is as likely. The share is recorded with the ranges that answers give. Where roads
-    lead is no guess, and told as the rollouts have it.
+    In a share of foils that was bounded by measurement the model of the rollouts is wrong; then
+    each outcome comes as often as it did then, or, where that is not recorded, as often as the
+    others. Both are recorded with the ranges that answers give. Where roads lead is no guess, and
+    told as the rollouts have it.
     """
-    return value + _model_error() * (0.25 - value)
+    known = _ranges()
+    error, shares = float(known["model_error"]), known.get("unforeseen") or {}
+    return value + error * (float(shares.get(outcome, 0.0) if shares else 0.25) - value)
 
 
 @cache
-def _model_error() -> float:
+def _ranges() -> dict[str, Any]:
     text = (files("xavi_dialogue.explain.causes") / "ranges.json").read_bytes()
-    return float(msgspec.json.decode(text)["model_error"])
+    found: dict[str, Any] = msgspec.json.decode(text)
+    return found
