@@ -63,6 +63,7 @@ class Leg:
     hindrances: Hindrances
     stops: Stops
     end: Situation
+    ahead: tuple[tuple[str, float], ...]  # lanes yet to be driven, and how much [m] of each
     traffic: Traffic  # the others, as they have reacted and go on
 
 
@@ -131,8 +132,10 @@ def _leg(
         outcome = "done"
     elif not _reachable(task, end.location):
         outcome = "dead"
+    elif driven.finished:
+        outcome = None
     else:
-        outcome = None if driven.finished else "termination"
+        outcome = "termination" if _leads_on(task, plan) else "dead"
     return Leg(
         plan.action,
         driven.first,
@@ -148,8 +151,33 @@ def _leg(
         driven.hindrances.before(driven.first + count),
         driven.stops.before(driven.first + count),
         end,
+        _ahead(plan, arc) if outcome == "termination" else (),
         traffic,
     )
+
+
+def _leads_on(task: Task, plan: ActionPlan) -> bool:
+    """Whether the goal can still be reached when an action that is under way is over."""
+    if plan.stops or plan.goal is not None:
+        return True
+    lane, begin = plan.path.lane_at(plan.end)
+    return _reachable(task, Location(lane, plan.end - begin, 0.0))
+
+
+def _ahead(plan: ActionPlan, arc: float) -> tuple[tuple[str, float], ...]:
+    """The lanes from an arc [m] to the end of a plan, and how much [m] of each that is.
+
+    There are none where it reaches the goal or stops.
+    """
+    if plan.stops or plan.goal is not None:
+        return ()
+    lanes = plan.path.lanes
+    bounds = [*(start for _, start in lanes[1:]), math.inf]
+    parts = [
+        (lane, min(bound, plan.end) - max(start, arc))
+        for (lane, start), bound in zip(lanes, bounds, strict=True)
+    ]
+    return tuple((lane, length) for lane, length in parts if length > 0.0)
 
 
 def _situation(task: Task, plan: ActionPlan, motion: Motion, step: int) -> Situation:

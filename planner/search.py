@@ -33,7 +33,7 @@ from planner.trace import (
 )
 from planner.traffic_lights import HeldByLight, LightSample
 from planner.tree import Edge, Node, Tree
-from planner.waypoints import cost_left
+from planner.waypoints import cost_by, cost_left
 from sim.network import Location
 
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
@@ -253,9 +253,12 @@ class Search:
         return effort + plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
 
     def _left(self, legs: Sequence[Leg]) -> float:
-        """What is left to the goal [s] after these legs, where nobody is in the way."""
-        end = legs[-1].end if legs else self.root.here
-        return cost_left(self.task.roads, end.location, self.task.goal)
+        """What is left to the goal [s] after these legs, where nobody is in the way.
+
+        Out of time within an action, that is the rest of it and the way from its end.
+        """
+        end, ahead = (legs[-1].end, legs[-1].ahead) if legs else (self.root.here, ())
+        return cost_by(self.task.roads, end.location, ahead, self.task.goal)
 
     def _options(
         self, samples: Samples, node: Node, legs: Sequence[Leg]

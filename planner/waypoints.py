@@ -125,6 +125,26 @@ def cost_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
     return cost + _costs_to(roads, goal.edge).get(edge, math.inf)
 
 
+def cost_by(
+    roads: Roads, here: Location, lanes: tuple[tuple[str, float], ...], goal: EgoGoal
+) -> float:
+    """What free driving costs [s] along some lanes, and from their end to a goal.
+
+    Args:
+        roads: to drive on.
+        here: where it begins, on the first of the lanes.
+        lanes: connected lanes, and how much [m] is driven of each; () for the shortest way.
+        goal: to reach.
+    """
+    if not lanes:
+        return cost_left(roads, here, goal)
+    known = roads.network.lanes
+    driven = sum(part / known[lane].length * toll(roads, lane).cost for lane, part in lanes)
+    lane, part = lanes[-1]
+    offset = part if len(lanes) > 1 else here.offset + part
+    return driven + cost_left(roads, Location(lane, offset, 0.0), goal)
+
+
 def _costs_to(roads: Roads, edge: str) -> Mapping[str, float]:
     """The cost [s] from the end of each edge to the start of one, where a way leads there."""
     found = roads.costs.get(edge)

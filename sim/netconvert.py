@@ -54,11 +54,15 @@ class ConversionFailed(NetconvertError):
 def compile_plain(folder: Path, name: str, target: Path) -> None:
     """Compile `<name>.nod.xml`, `.edg.xml` and `.con.xml` of a folder into a SUMO net.
 
+    Traffic lights follow the programmes in `<name>.tll.xml` where that is there.
+
     Raises:
         NetconvertMissing: netconvert is not installed.
         ConversionFailed: netconvert did not accept the sources.
     """
     sources = {"-n": ".nod.xml", "-e": ".edg.xml", "-x": ".con.xml"}
+    if (folder / f"{name}.tll.xml").is_file():
+        sources["-i"] = ".tll.xml"
     arguments = [part for key, end in sources.items() for part in (key, str(folder / (name + end)))]
     _run(*arguments, *GEOMETRY, "--junctions.corner-detail", "10", "-o", str(target))
     # netconvert heads the file with the time and its own paths.
