@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from planner.reward import WEIGHTS
 from planner.trace import COMPONENTS, UNITS, Component
-from xavi_dialogue.causal.model import Intervention, Joint
+from xavi_dialogue.causal.mixtures import Joint
+from xavi_dialogue.causal.model import Intervention
 
 DRIVE = 10.0  # [s] a drive as long as rollouts typically are
 #: What the planner holds worth a second of time on such a drive, in the unit of each component:

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from planner.trace import HeldUp, HoldUp
-from xavi_dialogue.causal.model import Choice, Intervention, Result
+from xavi_dialogue.causal.mixtures import Result
+from xavi_dialogue.causal.model import Choice, Intervention
 
 
 @dataclass(frozen=True, slots=True)

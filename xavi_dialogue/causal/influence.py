@@ -19,13 +19,15 @@ told to have one is kept to 5 % by the step-down procedure of Holm (1979). Withi
 choices are ordered by the measure of XAVI (Gyevnar et al. 2022, Equation 9), smoothed.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from xavi_dialogue.causal.model import CausalModel, Choice, Intervention, Joint
+from xavi_dialogue.causal.mixtures import Joint
+from xavi_dialogue.causal.model import CausalModel, Choice, Intervention
 
 Array = NDArray[np.float64]
 
@@ -79,7 +81,8 @@ def influence(
         options = [intervention for intervention in found if intervention is not None]
     if len(options) < 2:
         return ()
-    draws = [_Draws(model, option) for option in options]
+    numbers = cache(partial(_keys, model))
+    draws = [_Draws(model, option, numbers) for option in options]
     measured = [_measure(model, vehicle, draws) for vehicle in model.vehicles]
     adjusted = holm([one.chance for one in measured])
     tested = [replace(one, adjusted=p) for one, p in zip(measured, adjusted, strict=True)]
@@ -119,7 +122,9 @@ class _Draws:
     fitting all N draws; only the permutations are of draws.
     """
 
-    def __init__(self, model: CausalModel, option: Intervention) -> None:
+    def __init__(
+        self, model: CausalModel, option: Intervention, keys: Callable[[Joint, int], Array]
+    ) -> None:
         joints = [result.joint for result in option.results]
         draws = np.array([result.draws for result in option.results])
         self.rewards: Array = np.array([result.rollout.reward for result in option.results])
@@ -128,16 +133,24 @@ class _Draws:
             vehicle: _one_hot(joints, vehicle, tuple(model.choices(vehicle)))
             for vehicle in model.vehicles
         }
-        keys = [_keys(model, joint, int(n)) for joint, n in zip(joints, draws, strict=True)]
-        shuffled = np.argsort(np.vstack(keys), axis=0)
+        self._keys, self._joints = keys, joints
+        self._designs: dict[int, Array] = {}  # of the others, by vehicle
+        self._counts: NDArray[np.int64] = draws  # [K]
         self._draws: Array = draws[:, None]  # [K, 1]
         self._firsts: NDArray[np.int64] = np.cumsum(draws) - draws  # [K] first draw of each
-        self._sources = np.repeat(np.arange(len(draws)), draws)[shuffled]  # [N, PERMUTATIONS]
+
+    @cached_property
+    def _sources(self) -> NDArray[np.int64]:
+        """Which sample [N, PERMUTATIONS] each draw's reward is taken from in each shuffle."""
+        draws = self._counts
+        pairs = zip(self._joints, draws, strict=True)
+        shuffled = np.argsort(np.vstack([self._keys(j, int(n)) for j, n in pairs]), axis=0)
+        return np.asarray(np.repeat(np.arange(len(draws)), draws)[shuffled], dtype=np.int64)
 
     def fit(self, vehicle: int) -> _Fit:
         """The additive model, with what one vehicle's choices add to the others'."""
         mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
-        if wanted.shape[1] == 1:  # it has no choice
+        if wanted.shape[1] == 1 or not np.ptp(self.rewards):  # it has no choice, or all is one
             return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
         design, root = self._others(vehicle), self.root[:, None]
         targets = np.hstack([wanted, self.rewards[:, None]])
@@ -152,9 +165,12 @@ class _Draws:
 
     def _others(self, vehicle: int) -> Array:
         """The choices of the other vehicles [K, M], and a constant."""
-        others = [columns for name, columns in self.columns.items() if name != vehicle]
-        varied = (columns for columns in others if columns.shape[1] > 1)
-        return np.hstack([np.ones((len(self.rewards), 1)), *varied])
+        if vehicle not in self._designs:
+            others = [columns for name, columns in self.columns.items() if name != vehicle]
+            varied = [columns for columns in others if columns.shape[1] > 1]
+            design = np.concatenate([np.ones((len(self.rewards), 1)), *varied], axis=1)
+            self._designs[vehicle] = design
+        return self._designs[vehicle]
 
     def plain(self, vehicle: int) -> _Fit:
         """Fit the others' choices alone, and take means of the rest; each draw counts as one."""
@@ -168,7 +184,12 @@ class _Draws:
 
     def permuted(self, residual: Array) -> Array:
         """Residuals [K] shuffled among the draws, in the mean of each sample [K, P]."""
-        found: Array = np.add.reduceat(residual[self._sources], self._firsts, axis=0)
+        if not np.any(residual):
+            return np.zeros((len(residual), PERMUTATIONS))
+        drawn: Array = residual[self._sources]
+        if len(drawn) == len(residual):  # each sample once
+            return drawn
+        found: Array = np.add.reduceat(drawn, self._firsts, axis=0)
         return found / self._draws
 
 

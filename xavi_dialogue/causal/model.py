@@ -15,20 +15,19 @@ Errors:
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
-from planner.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout
+from planner.trace import Action, PlanTrace, Rollout
+from xavi_dialogue.causal.mixtures import Joint, Mixture, Result
 
 #: One vehicle's goal and trajectory, as indices into its prediction.
 Choice: TypeAlias = tuple[int, int]
-#: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory), and
-#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0).
-Joint: TypeAlias = tuple[tuple[int, int, int], ...]
 #: A sequence of macro actions: from the root of the search on.
 Actions: TypeAlias = tuple[Action, ...]
+Name = TypeVar("Name", bound=Hashable)
 
 #: A continuation must be known for this share of the best-known one's prior mass.
 SUPPORT = 0.5
@@ -41,75 +40,6 @@ class CausalError(Exception):
 
 class InconsistentTrace(CausalError):
     """A rollout refers to what its trace does not predict."""
-
-
-@dataclass(frozen=True, slots=True)
-class Result:
-    """What came of one action sequence under one joint sample."""
-
-    joint: Joint
-    rollout: Rollout  # the first one recorded
-    draws: int  # how often it was recorded
-    searched: int  # of these, those that the search drew by itself: not forced
-
-
-@dataclass(frozen=True)
-class Mixture:
-    """p(R, O): results with their weights."""
-
-    results: tuple[Result, ...]  # each (actions, sample) once, in order of first record
-    weights: tuple[float, ...]  # of the results; they sum to 1
-
-    @property
-    def draws(self) -> int:
-        """Recorded rollouts behind it, repeats included."""
-        return sum(result.draws for result in self.results)
-
-    @cached_property
-    def outcomes(self) -> dict[Outcome, float]:
-        """p(O): exclusive, sums to 1."""
-        found = dict.fromkeys(OUTCOMES, 0.0)
-        for result, weight in zip(self.results, self.weights, strict=True):
-            found[result.rollout.outcome] += weight
-        return found
-
-    @cached_property
-    def value(self) -> float:
-        """Expected reward."""
-        pairs = zip(self.results, self.weights, strict=True)
-        return sum(weight * result.rollout.reward for result, weight in pairs)
-
-    @property
-    def likeliest(self) -> Outcome:
-        """The likeliest outcome; ties go to the earlier one in the order of OUTCOMES."""
-        return max(OUTCOMES, key=lambda outcome: self.outcomes[outcome])
-
-    def present(self, component: Component) -> list[tuple[Joint, float, float]]:
-        """(sample, weight, value) of the results in which a component is present."""
-        return [
-            (result.joint, weight, value)
-            for result, weight in zip(self.results, self.weights, strict=True)
-            if (value := result.rollout.components.get(component)) is not None
-        ]
-
-    def presence(self, component: Component) -> float:
-        """p(R_c is present)."""
-        return sum(weight for _, weight, _ in self.present(component))
-
-    def expectation(self, component: Component) -> float | None:
-        """E[R_c] over the results in which c is present; None where it never is."""
-        present = self.present(component)
-        mass = sum(weight for _, weight, _ in present)
-        return sum(weight * value for _, weight, value in present) / mass if mass > 0.0 else None
-
-    def collisions(self) -> dict[int, float]:
-        """Probability of a collision with each vehicle, by vehicle."""
-        found: dict[int, float] = {}
-        for result, weight in zip(self.results, self.weights, strict=True):
-            vehicle = result.rollout.collided_with
-            if result.rollout.outcome == "collision" and vehicle is not None:
-                found[vehicle] = found.get(vehicle, 0.0) + weight
-        return dict(sorted(found.items()))
 
 
 @dataclass(frozen=True)
@@ -159,6 +89,7 @@ class CausalModel:
         self._choices = _choices(trace, self.given)
         self._lights = {one.controller: -1 - k for k, one in enumerate(trace.lights)}
         self._followed: dict[Actions, Intervention | None] = {}
+        self._shared: dict[Actions, dict[int, float]] = {}
 
     @property
     def vehicles(self) -> tuple[int, ...]:
@@ -171,13 +102,24 @@ class CausalModel:
 
     def prior(self, joint: Joint) -> float:
         """p(S), the product over vehicles of goal times trajectory probability."""
-        return self._index.priors[joint]
+        index = self._index
+        return index.priors[index.numbers[joint]]
 
     def options(self, node: Actions = ()) -> Actions:
         """The actions recorded at a node of the search, in order of first record."""
-        reached = self._index.reached if self.given else map(plan_of, self.trace.rollouts)
+        if not node and not self.given:  # the commonest question, of decisions that are many
+            return tuple({r.actions[0].action: None for r in self.trace.rollouts if r.actions})
+        reached = self._index.reached if self.given else self._plans
         depth = len(node)
         return tuple({p[depth]: None for p in reached if len(p) > depth and p[:depth] == node})
+
+    @cached_property
+    def _plans(self) -> dict[Actions, int]:
+        """The distinct action sequences, in order of first record."""
+        found: dict[Actions, int] = {}
+        for rollout in self.trace.rollouts:
+            found.setdefault(plan_of(rollout), len(found))
+        return found
 
     def recorded(self) -> Iterator[tuple[Actions, Result]]:
         """Every distinct (actions, sample) with what came of it."""
@@ -209,22 +151,35 @@ class CausalModel:
 
     @cached_property
     def _index(self) -> "_Index":
-        drawn: dict[tuple[Actions, Joint], list[Rollout]] = {}
-        for rollout in self.trace.rollouts:
-            drawn.setdefault((plan_of(rollout), self._joint(rollout)), []).append(rollout)
-        index = _Index({}, {(): {}}, {})
-        for (plan, joint), rollouts in drawn.items():
-            if any((goal, way) not in self.given[v] for v, goal, way in joint if v in self.given):
+        index, given = _Index({}, [], {(): {}}, {}), self.given
+        joints, drawn = self._drawn()
+        nodes: dict[Actions, list[dict[int, int]]] = {}
+        for (plan, number), rollouts in drawn.items():
+            joint, count = joints[number], len(rollouts)
+            if given and any((g, way) not in given[v] for v, g, way in joint if v in given):
                 continue
-            if joint not in index.priors:
-                index.priors[joint] = self._probability(joint, rollouts[0].index)
-            for depth in range(len(plan) + 1):
-                reached = index.reached.setdefault(plan[:depth], {})
-                reached[joint] = reached.get(joint, 0) + len(rollouts)
-            searched = sum(not rollout.forced for rollout in rollouts)
-            found = Result(joint, rollouts[0], len(rollouts), searched)
-            index.ended.setdefault(plan, {})[joint] = found
+            if joint not in index.numbers:
+                index.numbers[joint] = len(index.priors)
+                index.priors.append(self._probability(joint, rollouts[0].index))
+            known = index.numbers[joint]
+            if plan not in nodes:
+                parts = (plan[:depth] for depth in range(len(plan) + 1))
+                nodes[plan] = [index.reached.setdefault(part, {}) for part in parts]
+            for reached in nodes[plan]:
+                reached[known] = reached.get(known, 0) + count
+            searched = sum([not rollout.forced for rollout in rollouts])
+            found = Result(joint, rollouts[0], count, searched)
+            index.ended.setdefault(plan, {})[known] = found
         return index
+
+    def _drawn(self) -> tuple[list[Joint], dict[tuple[Actions, int], list[Rollout]]]:
+        """The samples, and the rollouts of each (actions, number of a sample), in their order."""
+        numbers: dict[Joint, int] = {}
+        found: dict[tuple[Actions, int], list[Rollout]] = {}
+        for rollout in self.trace.rollouts:
+            number = numbers.setdefault(self._joint(rollout), len(numbers))
+            found.setdefault((plan_of(rollout), number), []).append(rollout)
+        return list(numbers), found
 
     def _probability(self, joint: Joint, index: int) -> float:
         product = 1.0
@@ -257,34 +212,44 @@ class CausalModel:
         index = self._index
         if index.reached[plan].keys() - index.ended[plan].keys():
             return None
-        mass = 1.0
         results: list[Result] = []
         weights: list[float] = []
         for depth in range(len(plan) + 1):
-            ended, reached = index.ended.get(plan[:depth], {}), index.reached[plan[:depth]]
-            priors = {joint: index.priors[joint] for joint in reached}
-            shares = shared_out(priors, sum(reached.values()), mass)
-            for joint, result in ended.items():
+            shares = self._shares(plan[:depth])
+            for number, result in index.ended.get(plan[:depth], {}).items():
                 results.append(result)
-                weights.append(shares[joint])
-            mass = sum(share for joint, share in shares.items() if joint not in ended)
+                weights.append(shares[number])
         total = sum(weights)
         if total <= 0.0:
             return None
-        coverage = sum(index.priors[result.joint] for result in results)
-        return Intervention(tuple(results), tuple(w / total for w in weights), plan, coverage)
+        coverage = sum(index.priors[index.numbers[result.joint]] for result in results)
+        return Intervention(tuple(results), tuple([w / total for w in weights]), plan, coverage)
+
+    def _shares(self, node: Actions) -> dict[int, float]:
+        """The weights of the samples that reach a node of the search, of the mass that goes on."""
+        if node not in self._shared:
+            index, mass = self._index, 1.0
+            if node:
+                ended = index.ended.get(node[:-1], {})
+                before = self._shares(node[:-1])
+                mass = sum([share for number, share in before.items() if number not in ended])
+            reached = index.reached[node]
+            priors = {number: index.priors[number] for number in reached}
+            self._shared[node] = shared_out(priors, sum(reached.values()), mass)
+        return self._shared[node]
 
 
 @dataclass(frozen=True, slots=True)
 class _Index:
-    """The rollouts by the actions that they pass through."""
+    """The rollouts by the actions that they pass through; samples by their number."""
 
-    priors: dict[Joint, float]
-    reached: dict[Actions, dict[Joint, int]]  # node -> sample -> draws
-    ended: dict[Actions, dict[Joint, Result]]
+    numbers: dict[Joint, int]
+    priors: list[float]  # of each sample
+    reached: dict[Actions, dict[int, int]]  # node -> sample -> draws
+    ended: dict[Actions, dict[int, Result]]
 
 
-def shared_out(priors: dict[Joint, float], draws: int, mass: float = 1.0) -> dict[Joint, float]:
+def shared_out(priors: dict[Name, float], draws: int, mass: float = 1.0) -> dict[Name, float]:
     """The weights of drawn samples, which stand for a population of some prior mass.
 
     Args:
@@ -295,11 +260,12 @@ def shared_out(priors: dict[Joint, float], draws: int, mass: float = 1.0) -> dic
     missing = max(mass - sum(priors.values()), 0.0)
     if missing <= 1e-9:
         return priors
-    odds = {joint: _undrawn(prior / mass, draws) for joint, prior in priors.items()}
-    total = sum(odds.values())
+    odds = [_undrawn(prior / mass, draws) for prior in priors.values()]
+    total = sum(odds)
     if total <= 0.0:
         return priors
-    return {joint: prior + missing * odds[joint] / total for joint, prior in priors.items()}
+    shares = zip(priors.items(), odds, strict=True)
+    return {name: prior + missing * odd / total for (name, prior), odd in shares}
 
 
 def _undrawn(prior: float, draws: int) -> float:

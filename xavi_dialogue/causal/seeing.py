@@ -13,16 +13,8 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from planner.trace import Action, Outcome
-from xavi_dialogue.causal.model import (
-    Actions,
-    CausalModel,
-    Choice,
-    Joint,
-    Mixture,
-    Result,
-    plan_of,
-    shared_out,
-)
+from xavi_dialogue.causal.mixtures import Joint, Mixture, Result
+from xavi_dialogue.causal.model import Actions, CausalModel, Choice, plan_of, shared_out
 
 Value = TypeVar("Value", bound=Hashable)
 

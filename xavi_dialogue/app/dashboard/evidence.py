@@ -21,7 +21,8 @@ from xavi_dialogue.app.dashboard.words import (
     plan_words,
     way_words,
 )
-from xavi_dialogue.causal.model import Actions, Result, plan_of
+from xavi_dialogue.causal.mixtures import Result
+from xavi_dialogue.causal.model import Actions, plan_of
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Cause

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from planner.trace import SAMPLE_PERIOD, PlanTrace, Rollout, TrajectoryPrediction
 from xavi_dialogue.app.dashboard import roads
-from xavi_dialogue.causal.model import Mixture
+from xavi_dialogue.causal.mixtures import Mixture
 from xavi_dialogue.transports.web.documents import Drive
 
 CHANCES = 4  # decimals of probabilities

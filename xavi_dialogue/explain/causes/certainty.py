@@ -3,7 +3,8 @@
 import numpy as np
 
 from planner.trace import Outcome
-from xavi_dialogue.causal.model import Actions, Intervention, Joint
+from xavi_dialogue.causal.mixtures import Joint
+from xavi_dialogue.causal.model import Actions, Intervention
 from xavi_dialogue.domain.answers import Certainty, NeedRollout
 from xavi_dialogue.explain.causes.chances import chances, either_way, surely
 from xavi_dialogue.explain.causes.contrast import alone, contrast, decided, evidence, factual

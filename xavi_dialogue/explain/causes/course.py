@@ -1,8 +1,10 @@
 """Course: when things happen in the rollouts of a plan, read off their lines."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import overload
 
 import numpy as np
 
@@ -35,18 +37,49 @@ class Expected:
     high: float  # [s] 95 % point
 
 
-def lines(trace: PlanTrace) -> dict[int, Motion]:
+class Lines(Mapping[int, Motion]):
     """The motion of the ego in each rollout whose line is recorded, by the rollout's index.
 
-    Also those that share another's line; sample k lies k periods after the decision.
+    Also in those that share another's line; sample k lies k periods after the decision. Each line
+    is read when it is asked for.
     """
-    own = {r.index: _motion(trace, r) for r in trace.rollouts if r.path and r.speed}
-    shared = {
-        r.index: own[r.same_as]
-        for r in trace.rollouts
-        if r.same_as is not None and r.same_as in own
-    }
-    return own | shared
+
+    def __init__(self, trace: PlanTrace) -> None:
+        """Lines of the rollouts of a decision."""
+        self._start = trace.sim_time
+        drawn = {r.index: r for r in trace.rollouts if r.path and r.speed}
+        self._drawn = drawn | {
+            r.index: drawn[r.same_as] for r in trace.rollouts if r.same_as in drawn
+        }
+        self._read: dict[int, Motion] = {}
+        self._times: tuple[float, ...] = ()
+
+    def __getitem__(self, index: int) -> Motion:
+        """Read a line; raises KeyError where it is not recorded."""
+        rollout = self._drawn[index]
+        if rollout.index not in self._read:
+            self._read[rollout.index] = self._motion(rollout)
+        return self._read[rollout.index]
+
+    def __iter__(self) -> Iterator[int]:
+        """Yield the indices of the rollouts."""
+        return iter(self._drawn)
+
+    def __len__(self) -> int:
+        """Count the rollouts."""
+        return len(self._drawn)
+
+    def _motion(self, rollout: Rollout) -> Motion:
+        path, speed = rollout.path or (), rollout.speed or ()
+        count = min(len(path), len(speed))
+        for k in range(len(self._times), count):
+            self._times += (round(self._start + k * SAMPLE_PERIOD, 3),)
+        return Motion(self._times[:count], path[:count], Headings(path[:count]), speed[:count])
+
+
+def lines(trace: PlanTrace) -> Lines:
+    """The motion of the ego in each rollout whose line is recorded."""
+    return Lines(trace)
 
 
 def expected(
@@ -94,7 +127,7 @@ def begins(
 def speed_mark(motion: Motion, action: ActionName) -> float | None:
     """When [s] a change of speed begins; of a stop, when the vehicle stands."""
     wanted = "stop" if action == "give-way" else action
-    return next((s.start for s in motion.sightings() if s.action == wanted), None)
+    return motion.first(wanted)
 
 
 def moves_on(_: Rollout, motion: Motion) -> float | None:
@@ -151,11 +184,28 @@ def _turning(motion: Motion, start: float, end: float) -> float:
     return motion.time[begun]
 
 
-def _motion(trace: PlanTrace, rollout: Rollout) -> Motion:
-    path, speed = rollout.path or (), rollout.speed or ()
-    count = min(len(path), len(speed))
-    times = tuple(round(trace.sim_time + k * SAMPLE_PERIOD, 3) for k in range(count))
-    return Motion(times, path[:count], _headings(path[:count]), speed[:count])
+class Headings(Sequence[float]):
+    """The heading [rad] at each position of a line, worked out when it is first asked for."""
+
+    def __init__(self, path: tuple[Point, ...]) -> None:
+        """Headings along a line of positions [m]."""
+        self._path = path
+
+    @cached_property
+    def _found(self) -> tuple[float, ...]:
+        return _headings(self._path)
+
+    @overload
+    def __getitem__(self, index: int) -> float: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[float, ...]: ...
+    def __getitem__(self, index: int | slice) -> float | tuple[float, ...]:
+        """Give one heading, or those of a part."""
+        return self._found[index]
+
+    def __len__(self) -> int:
+        """Count the positions."""
+        return len(self._path)
 
 
 def _headings(path: tuple[Point, ...]) -> tuple[float, ...]:

@@ -6,7 +6,8 @@ because what it does decides between the two. A vehicle of which none of this ho
 and none is where the foil leaves the way to the goal: that is nobody's doing.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 
 from planner.trace import HoldUp
 from sim.scene import EGO
@@ -26,6 +27,21 @@ SURELY = 0.9  # ... in this share of the rollouts that have it
 SLOWER = 0.5  # [s] by which the foil must arrive later to be called slower
 
 
+class _Measured:
+    """The influence of each vehicle, measured when it is first asked for."""
+
+    def __init__(self, measure: Callable[[], Sequence[Influence]]) -> None:
+        self._measure = measure
+
+    @cached_property
+    def known(self) -> dict[int, Influence]:
+        """The influence by vehicle."""
+        return {found.vehicle: found for found in self._measure()}
+
+
+NOTHING = _Measured(tuple)
+
+
 def contrastive_causes(
     model: CausalModel,
     foil: Intervention,
@@ -35,11 +51,11 @@ def contrastive_causes(
     """Find the causes of a contrast, most important first, each vehicle once."""
     if foil.likeliest == "dead":
         return ()
-    measured = {found.vehicle: found for found in influence(model, (fact, foil))}
+    measured = _Measured(lambda: influence(model, (fact, foil)))
     struck = _struck(model, foil, fact, measured)
     slowed = _slowed(model, foil, fact, effects, measured)
     halts = foil.plan[:1] == ("stop",) and fact.plan[:1] != ("stop",)  # slower in any case
-    decided = [] if halts else _deciding(model, measured.values())
+    decided = [] if halts else _deciding(model, measured.known.values())
     first, second = (struck, slowed) if foil.likeliest == "collision" else (slowed, struck)
     found: dict[int, Cause] = {}
     for cause in (*first, *second, *decided):
@@ -71,8 +87,8 @@ def held_by(model: CausalModel, held: VehicleHoldUp) -> Cause:
 
 def slowing(model: CausalModel, foil: Intervention, fact: Intervention) -> tuple[int, ...]:
     """List who is collided with or holds the ego up longer under a foil, most important first."""
-    struck = _struck(model, foil, fact, {})
-    return tuple(dict.fromkeys(c.vehicle for c in (*struck, *_longer(model, foil, fact, {}))))
+    struck = _struck(model, foil, fact, NOTHING)
+    return tuple(dict.fromkeys(c.vehicle for c in (*struck, *_longer(model, foil, fact, NOTHING))))
 
 
 def against(model: CausalModel, vehicle: int) -> Cause:
@@ -99,7 +115,7 @@ def expected_actions(model: CausalModel, vehicle: int, choice: Choice) -> tuple[
 
 
 def _struck(
-    model: CausalModel, foil: Intervention, fact: Intervention, measured: dict[int, Influence]
+    model: CausalModel, foil: Intervention, fact: Intervention, measured: _Measured
 ) -> list[Cause]:
     before, found = fact.collisions(), []
     for vehicle, share in sorted(foil.collisions().items(), key=lambda item: -item[1]):
@@ -108,7 +124,7 @@ def _struck(
             continue
         mechanism = Mechanism("collision", None, None, None, share)
         actions, probability = expected_actions(model, vehicle, choice)
-        bits = _bits(measured.get(vehicle))
+        bits = _bits(measured.known.get(vehicle))
         found.append(Cause(vehicle, actions, probability, mechanism, bits, None))
     return found
 
@@ -118,7 +134,7 @@ def _slowed(
     foil: Intervention,
     fact: Intervention,
     effects: Sequence[ComponentEffect],
-    measured: dict[int, Influence],
+    measured: _Measured,
 ) -> list[Cause]:
     later = any(e.component == "time" and e.delta >= SLOWER for e in effects)
     stuck = foil.outcomes["termination"] - fact.outcomes["termination"] >= MORE_OFTEN
@@ -126,7 +142,7 @@ def _slowed(
 
 
 def _longer(
-    model: CausalModel, foil: Intervention, fact: Intervention, measured: dict[int, Influence]
+    model: CausalModel, foil: Intervention, fact: Intervention, measured: _Measured
 ) -> list[Cause]:
     """Those who hold the ego up longer under the foil, longest first."""
     before = hold_ups(fact)
@@ -136,7 +152,7 @@ def _longer(
     ]
     gains = [(gain, held) for gain, held in gains if gain >= LONGER]
     gains.sort(key=lambda item: (-item[0], item[1].vehicle))
-    return [_by_hold_up(model, held, measured.get(held.vehicle)) for _, held in gains]
+    return [_by_hold_up(model, held, measured.known.get(held.vehicle)) for _, held in gains]
 
 
 def _deciding(model: CausalModel, measured: Iterable[Influence]) -> list[Cause]:

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from planner.trace import COMPONENTS, Costs, Outcome
-from xavi_dialogue.causal.model import CausalModel, Intervention, Mixture, Result, plan_of
+from xavi_dialogue.causal.mixtures import Mixture, Result
+from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import Share, Term, Weighing
 from xavi_dialogue.explain.causes.chances import chances
 

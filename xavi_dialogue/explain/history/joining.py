@@ -100,7 +100,7 @@ def _reaching(motion: Motion, time: float, state: VehicleState) -> Motion:
     return Motion(
         motion.time + tuple(round(since + s * (time - since), 3) for s in shares) + (time,),
         motion.position + tuple((a, b) for a, b, _, _ in between) + ((x, y),),
-        motion.heading + tuple(h for _, _, h, _ in between) + (heading,),
+        tuple(motion.heading) + tuple(h for _, _, h, _ in between) + (heading,),
         motion.speed + tuple(v for _, _, _, v in between) + (speed,),
     )
 
@@ -183,7 +183,7 @@ class _Part:
             motion = Motion(
                 motion.time + tuple(self._time),
                 motion.position + tuple(self._position),
-                motion.heading + tuple(self._heading),
+                tuple(motion.heading) + tuple(self._heading),
                 motion.speed + tuple(self._speed),
             )
         return Seen(motion, tuple(self._lights), tuple(self._hidden))

@@ -6,7 +6,7 @@ lane's width and heads the same way again has changed lanes; one that heads else
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -64,7 +64,7 @@ class Motion:
 
     time: tuple[float, ...]  # [s] [N]
     position: tuple[Point, ...]  # [m] [N]
-    heading: tuple[float, ...]  # [rad] [N]
+    heading: Sequence[float]  # [rad] [N]
     speed: tuple[float, ...]  # [m/s] [N]
 
     def until(self, time: float) -> "Motion":
@@ -112,6 +112,21 @@ class Motion:
     def times(self, action: ActionName) -> tuple[Sighting, ...]:
         """All times that something was done, oldest first."""
         return tuple(s for s in self.sightings() if s.action in _means(action))
+
+    def first(self, action: ActionName) -> float | None:
+        """When [s] something of just this name was first done; None: never.
+
+        Changes of speed and stops are told without reading lane changes and turns.
+        """
+        found: Iterable[Sighting]
+        if action in ("slow-down", "speed-up"):
+            sign = -1.0 if action == "slow-down" else 1.0
+            found = (s for part in self.parts() for s in part._changes_of_speed(action, sign))
+        elif action == "stop":
+            found = (s for part in self.parts() for s in part._stops())
+        else:
+            found = (s for s in self.sightings() if s.action == action)
+        return min((s.start for s in found), default=None)
 
     def last(self, action: ActionName) -> Sighting | None:
         """The last time that something was done."""
