@@ -32,7 +32,7 @@ from planner.walkers import AROUND, passing_speed, with_walkers
 from sim.scene import EGO, Scene, VehicleState
 
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
-CERTAIN = 0.5  # the same for people once the ego has stood for a while: else it never sets off
+CERTAIN = 0.5  # the same for people once they have kept the ego for a while: else it never goes
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
 SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
 INSIDE = 1.0  # [m] beyond its line from which the ego is in the way of those who may go first
@@ -153,7 +153,7 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle
     if around.outlook is None:
         return found
     elapsed, seen = round((around.scene.time - around.outlook.time) / DT), around.seen
-    lingering = bool(driving.plan.crossings) and _lingers(around)
+    lingering = _kept(driving, around) if driving.plan.crossings else False
     for vehicle, beliefs in around.outlook.beliefs.items():
         here = seen.get(vehicle)
         if here is not None and _waits_for_us(driving, around, vehicle):
@@ -178,7 +178,7 @@ def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
     if not _crossing(driving):
         arc = driving.motion.arc
         at_line = any(-SPARE < line.stop - arc < SPARE for line in driving.plan.lines)
-        if not at_line or not _lingers(around) or _just_green(driving, around):
+        if not at_line or not _kept(driving, around):
             return False
     return _stands(around, vehicle)
 
@@ -187,6 +187,11 @@ def _stands(around: Around, vehicle: int) -> bool:
     """Whether a vehicle has stood for a while."""
     speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
     return len(speeds) == PATIENCE and max(speeds) < STANDING
+
+
+def _kept(driving: Driving, around: Around) -> bool:
+    """Whether the ego has hardly moved for a while, and not for a light."""
+    return _lingers(around) and not _just_green(driving, around)
 
 
 def _lingers(around: Around) -> bool:

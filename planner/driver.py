@@ -14,7 +14,7 @@ from planner.decide import Decision, Frame, Moment, decide, root_at
 from planner.events import Event, EventKind, LightPlace
 from planner.forward import DT, Keeping, Lane, Motion, advance
 from planner.lights import lights
-from planner.lookout import changed, lookout
+from planner.lookout import as_foreseen, changed, lookout
 from planner.memory import Memory
 from planner.routes import Refusal
 from planner.search import Root
@@ -28,7 +28,6 @@ from sim.scene import EGO, Command, Scene, Signal
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 PAUSE = 0.3  # [s] between decisions at least
 NEAR = 60.0  # [m] within which surprises count
-SURPRISE = 1.2  # [m/s] by which a speed must differ from all that was foreseen
 STANDING = 0.1  # [m/s]
 END_GAP = 1.0  # [m] before the end of the road at which to stop
 
@@ -199,12 +198,11 @@ class Driver:
             return False
         step = round((scene.time - self._last.trace.sim_time) / DT)
         for vehicle, beliefs in self._last.beliefs.items():
-            state = scene.vehicles.get(vehicle)
+            state = scene.vehicles.get(vehicle) or scene.people.get(vehicle)
             if state is None or math.dist(state.position, scene.ego.position) > NEAR:
                 continue
             ways = (way.motion for belief in beliefs for way in belief.trajectories)
-            speeds = [float(m.speed[min(step, len(m.speed) - 1)]) for m in ways]
-            if all(abs(speed - state.speed) > SURPRISE for speed in speeds):
+            if not any(as_foreseen(state, motion, step) for motion in ways):
                 return True
         return False
 

@@ -13,7 +13,7 @@ from sim.network import Crossing, Link, cumulative, point_at, project
 
 BEFORE = 1.0  # [m] before a crossing at which to wait for people on it
 ROOM = 5.5  # [m] between two crossings that a car needs to wait there
-PASSED = 0.5  # [m] beyond a line from which on a vehicle has set out over the crossing
+PASSED = BEFORE + 0.5  # [m] beyond a line from which on one has set out over the crossing
 SAMPLING = 0.25  # [m] at which places along a way are tried
 BEYOND = 1.0  # [m] beyond the ends of a crossing's line that still belongs to it
 

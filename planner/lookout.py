@@ -1,5 +1,6 @@
-"""Which traffic lights matter to a drive, what they show, and how they may go on."""
+"""What is looked out for on a drive: lights, how they may go on, and others who surprise."""
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -8,10 +9,14 @@ import numpy as np
 from planner.cycles import Watched, foresee
 from planner.kernels.driving import GAP_HORIZON, OPEN
 from planner.manoeuvres import ActionPlan
+from planner.obstacles import Obstacle
 from planner.signals import MEANING, STEP, Lights
 from planner.traffic_lights import LightPrediction
 from planner.trajectory import Roads
-from sim.scene import Scene, Signal
+from sim.scene import PersonState, Scene, Signal, VehicleState
+
+SURPRISE = 1.2  # [m/s] by which a speed must differ from what was foreseen
+STRAY = 2.0  # [m] by which a place on foot must, more than who sets off or stops explains
 
 
 def lookout(
@@ -65,3 +70,12 @@ def changed(plan: ActionPlan, scene: Scene, known: Sequence[LightPrediction]) ->
         if light.state.value != then.state(ahead.signal.index):
             return True
     return False
+
+
+def as_foreseen(state: VehicleState | PersonState, motion: Obstacle, step: int) -> bool:
+    """Whether somebody moves as a motion says: as fast; on foot, about there."""
+    at = min(step, len(motion.speed) - 1)
+    if isinstance(state, PersonState):
+        x, y = motion.position[at].tolist()
+        return math.dist((x, y), state.position) <= STRAY
+    return abs(float(motion.speed[at]) - state.speed) <= SURPRISE
