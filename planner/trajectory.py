@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.easing import curvature_of, eased
+from planner.shifts import shifted
 from sim.network import Network, angle_between
 from sim.scene import Point
 
@@ -236,7 +237,7 @@ def _along(points: Array) -> Array:
 
 
 def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Array]:
-    """Corners that are tighter than a car can turn, made wider.
+    """Jogs led over gently, and corners that are tighter than a car can turn made wider.
 
     Args:
         arc, points: of a line with even spacing.
@@ -245,7 +246,7 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
     Returns:
         Arc, points and starts of the line that can be driven; the same where it is one already.
     """
-    bent, loose = points, ~_hairpins(points)
+    bent, loose = shifted(points, starts[1:] / max(arc[1], 1e-9)), ~_hairpins(points)
     for _ in range(ROUNDS):
         steps = np.diff(bent, axis=0)
         heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
