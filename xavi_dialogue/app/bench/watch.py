@@ -9,6 +9,7 @@ import msgspec
 
 from sim.boxes import Box, overlap
 from sim.goal import Goal
+from sim.levels import apart
 from sim.network import Network
 from sim.scene import EGO, Scene
 from xavi_dialogue.app.bench.blame import KEPT, caused_by_ego, provoked_by_ego
@@ -80,7 +81,9 @@ class Observer:
     def _touched(self, scene: Scene) -> Iterator[Hit]:
         everybody: dict[int, Box] = {**scene.vehicles, **scene.people}
         for name, other in everybody.items():
-            if name != EGO and overlap(scene.ego, other):
+            if name == EGO or not overlap(scene.ego, other):
+                continue
+            if not apart(self.network, scene.ego, other):
                 caused = caused_by_ego(self._recent, scene, name, self.network)
                 yield Hit(name, round(scene.time, 3), caused)
 
