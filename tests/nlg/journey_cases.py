@@ -26,6 +26,12 @@ def near(attribute: str, value: float) -> Measure:
     return Measure(attribute, E, 9.0, value, to=Vehicle(1))  # type: ignore[arg-type]
 
 
+def lost(value: float, until: float | None) -> Measure:
+    """Make the time [s] that was lost from 9 s on, up to a time [s] or still."""
+    on = until is None
+    return Measure("delay", E, 9.0, value, until=NOW if on else until, at_least=on)
+
+
 CASES: tuple[Answer, ...] = (
     Course("way", (LEFT,), left=200.0),
     Course("way", (LEFT,), holds=True),
@@ -52,6 +58,10 @@ CASES: tuple[Answer, ...] = (
     Summit("slowness", 9.0, (), near("speed", 5.0)),
     Summit("speed", 9.0, (), near("speed", 13.0)),
     Summit("braking", 9.0, (YIELD,), near("deceleration", 3.0)),
+    Summit("slowing", 9.0, (YIELD,), near("speed-change", 10.0)),
+    Summit("delay", 9.0, (YIELD,), lost(12.0, 21.0), (BLUE,)),
+    Summit("delay", 9.0, (YIELD,), lost(12.0, 21.0)),
+    Summit("delay", 9.0, (), lost(8.0, None), (BLUE,)),
     Summit("waiting", 9.0, (YIELD,), near("duration", 3.0)),
     Summit("waiting", 9.0, (YIELD,), near("duration", 0.5)),
     Summit("closeness", 9.0, (), near("distance", 2.0), (BLUE,)),
@@ -61,6 +71,8 @@ CASES: tuple[Answer, ...] = (
     Summit("difficulty", 9.0),
     Summit("waiting"),
     Summit("braking"),
+    Summit("slowing"),
+    Summit("delay"),
     Summit("closeness"),
     BEFORE,
     AFTER,

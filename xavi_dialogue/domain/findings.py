@@ -84,6 +84,7 @@ class Lasted(Value, frozen=True):
     end: float | None = None  # [s] None while it goes on
     now: float = 0.0  # [s]
     at_least: bool = False  # it held from when the record begins
+    held: float | None = None  # [s] since when we slowed down or waited before it
 
 
 class Staying(Value, frozen=True):
@@ -197,6 +198,20 @@ class Priority(Value, frozen=True):
     claim: bool = False  # it answers a claim
     ring: bool = False  # at a roundabout, asked of nobody in particular
     grounds: bool = False  # asked how we know it
+    after: tuple[int, ...] = ()  # who has to let us go first, where others go before us
+    #: On what it rests that they go first: they come from the right, or we turn across their way.
+    why: Literal["right", "across"] | None = None
+    apart: tuple[int, ...] = ()  # who was named as well, and whose way does not meet ours
+    number: bool = False  # it is asked how many go first
+
+
+class Unblocking(Value, frozen=True):
+    """Who has to move first so that we can go: who is at the head of the row that we are in."""
+
+    time: float  # [s]
+    head: int
+    going: bool = False  # it has set off
+    waits: tuple[int, ...] = ()  # whom it lets go first, as was foreseen
 
 
 class Comfort(Value, frozen=True):
@@ -215,7 +230,34 @@ class Closeness(Value, frozen=True):
     closest: Measure | None  # distance at the closest
     ttc: Measure | None = None  # shortest time to collision
     risk: float | None = None  # of a collision under the plan, as foreseen
-    asked: Literal["safe", "dangerous", "close", "hit", "room"] = "safe"
+    asked: Literal["safe", "dangerous", "close", "hit", "room", "grounds"] = "safe"
     time: float = 0.0
     past: bool = True
     overall: bool = True  # it was never closer so far
+    grounds: "Assurance | None" = None  # why no collision is expected, where that is asked
+
+
+class Assurance(Value, frozen=True):
+    """Why no collision is expected with a vehicle, or with anybody."""
+
+    situations: int = 0  # that were simulated under the plan
+    struck: int = 0  # in how many of them we collide
+    belief: Belief | None = None  # what is expected of the vehicle
+    stands: bool = False
+    yields: Literal["we", "they"] | None = None  # who has to let the other one go first
+    behind: bool = False  # it drives behind us
+
+
+class PullingUp(Value, frozen=True):
+    """Whether somebody stops in time: "will he manage to stop?", "can you stop in time?"."""
+
+    vehicle: int  # the other one
+    how: Literal["stands", "brakes", "owes", "goes-first", "able", "unable", "apart"]
+    ours: bool = False  # it is asked of us, who come up to the vehicle
+    behind: bool = False  # it comes up behind us
+    braking: Episode | None = None  # that goes on
+    distance: Measure | None = None  # between the bodies, now
+    speed: Measure | None = None  # of who is asked about
+    needed: float | None = None  # [m] to come down to the speed of the one in front, braking hard
+    risk: float | None = None  # of a collision under the plan
+    chance: float | None = None  # that it lets us go first

@@ -130,8 +130,10 @@ class Listing(Value, frozen=True):
 class Peak(Value, frozen=True):
     """The moment at which something was at its most: "the hardest moment", "the closest call"."""
 
-    of: Literal["danger", "difficulty", "closeness", "braking", "slowness", "speed", "waiting"]
+    of: Literal["danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed",
+                "waiting", "delay"]  # fmt: skip
     time: Time = Unsaid()
+    number: int = 1  # how many of them: "the three times we slowed down the most"
 
 
 class Changed(Value, frozen=True):
@@ -280,6 +282,7 @@ class Social(Value, frozen=True):
         "who-are-you", "are-you-human", "feelings", "agree", "disagree", "acknowledge", "laugh",
         "wish", "address", "caution",
     ]  # fmt: skip
+    about: Proposition | Thing | None = None  # of "feelings": what is to have stirred us
 
 
 class AskHelp(Value, frozen=True):

@@ -14,12 +14,15 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Elliptic,
     HowKnow,
+    HowMany,
     HowMuch,
     Identify,
     Listing,
+    Peak,
     Repair,
     Request,
     WhatIf,
+    When,
     Where,
     Whether,
     Which,
@@ -36,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
+    Exit,
     Happens,
     Is,
     Measured,
@@ -47,6 +51,7 @@ from xavi_dialogue.domain.terms import (
     That,
     Unsaid,
     Vehicle,
+    Wanted,
     WholeRide,
 )
 from xavi_dialogue.nlu.blaming import why_held
@@ -81,7 +86,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
             found.append(None)
             continue
         if before is not None:
-            act = _linked(before, act)
+            act = _of_exits(before, _linked(before, act))
         alone = asked[index] and isinstance(act, Elliptic)  # "and the bus?"
         found.append(_setting(act) if index < questions[-1] and not alone else act)
     return found
@@ -159,6 +164,18 @@ def _linked(before: Act, act: Act) -> Act:
     return Ask(structs.replace(question, of=of))
 
 
+def _of_exits(before: Act, act: Act) -> Act:
+    """Count exits where exits were asked for: "which is ours, and how many have we passed?"."""
+    match before, act:
+        case Ask(question=HowMuch(of=Measured(attribute="exit-number"))), Ask(
+            question=HowMany(
+                of=Described(doing=Event(action="overtake" | "pass", actor=Ego(), tense=tense))
+            )
+        ):
+            return Ask(HowMany(Event("pass", object=Exit(), tense=tense)))
+    return act
+
+
 def _asks_grounds(act: Act | None) -> bool:
     """Say whether it is asked on what something rests: "explain that" behind it adds nothing."""
     return isinstance(act, Ask) and isinstance(act.question, HowKnow)
@@ -191,6 +208,13 @@ def _is_told(before: Act, act: Act) -> bool:
             question=HowMuch(of=Measured(attribute="distance", thing=Pronoun(form="it")))
         ):
             return True  # "which exit, and how far is it?"
+        case Ask(question=Peak()), Ask(
+            question=Identify(thing=Pronoun(form="it" | "that"))
+            | Which(such=Happens(event=Event(object=Wanted())))
+            | When(of=That())
+            | Where(of=Pronoun())
+        ):
+            return True  # "what was the hardest braking, and who was it for?"
         case Ask(question=Which(among=())), Elliptic(form="same", event=None, besides=False):
             return act.thing is not None  # "who is he waiting for? us?"
     return False

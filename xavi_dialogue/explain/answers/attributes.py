@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Happens,
+    Junction,
     Measured,
     Vehicle,
 )
@@ -57,6 +58,7 @@ from xavi_dialogue.explain.answers.naming import (
 )
 from xavi_dialogue.explain.answers.occasions import did_not_happen, occasion
 from xavi_dialogue.explain.answers.onward import which_way
+from xavi_dialogue.explain.answers.passages import cost_of_passage
 from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.options import options_at
@@ -109,6 +111,9 @@ def _delay(of: Measured, asked: Asked) -> Answer:
             gained = _gained(explained)
             return explained if gained is None else Measures((gained,))
     event = of.event
+    spent = cost_of_passage(asked, of.thing) if isinstance(of.thing, Junction) else None
+    if spent is not None:
+        return Measures((spent,))
     if event is None and number(of.thing) is not None:
         event = held_for(asked, of.thing)
     return Measures((cost_of(asked, event, window(asked, of.time)),))

@@ -33,6 +33,7 @@ from xavi_dialogue.explain.answers.naming import (
 )
 from xavi_dialogue.explain.answers.occasions import merged, within
 from xavi_dialogue.explain.answers.onward import WAYS, junctions_left, turns_left
+from xavi_dialogue.explain.answers.passages import exits_passed
 from xavi_dialogue.explain.answers.places import told
 from xavi_dialogue.explain.answers.plans import plan_ahead
 from xavi_dialogue.explain.history.thresholds import TURNED
@@ -48,6 +49,8 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
     """
     if isinstance(question.of, Event):
         event = question.of
+        if isinstance(event.object, Exit) and event.action == "pass":
+            return exits_passed(event, asked)
         if event.tense == "future" and event.action in WAYS and is_us(event.actor):
             return turns_left(asked, event)
         if event.tense == "future" and event.action in CHANGES and is_us(event.actor):

@@ -56,6 +56,10 @@ def _trails(asked: Asked, episode: Episode) -> bool:
         return False
     end = asked.now if episode.end is None else episode.end
     middle = (episode.begin + end) / 2.0
+    leader = number(episode.object)
+    look = None if leader is None else asked.world.look(leader, middle)
+    if look is not None and look.distance > NEAR:
+        return False
     speed = asked.world.measure("speed", episode.object or Ego(), middle).value
     limit = asked.world.measure("limit", Ego(), middle).value
     return speed is not None and limit is not None and speed < HELD * limit

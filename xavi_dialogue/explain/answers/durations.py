@@ -30,6 +30,7 @@ PAUSE = 3.0  # [s] between two slowings that make one
 JOINED = 0.5  # [s] between what belongs together
 #: What costs time.
 HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
+HALTED: tuple[ActionName, ...] = ("wait", "stand", "stop")
 WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
 
 
@@ -65,8 +66,8 @@ def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
     """List the halts of ours that belong to one: with a little creeping between, or of the ride."""
     if not is_us(event.actor) or event.object is not None or event.action not in HALTS:
         return []
-    every = asked.world.episodes(actor=Ego(), actions=WAITS)
-    stood = merged(asked, [e for e in every if duration(asked, e) > 0.0])
+    every = asked.world.episodes(actor=Ego(), actions=HALTED)
+    stood = merged(asked, [e for e in every if e.action in HALTED and duration(asked, e) > 0.0])
     if isinstance(event.time, WholeRide):
         return list(stood)
     rows: list[list[Episode]] = []

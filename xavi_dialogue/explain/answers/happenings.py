@@ -104,6 +104,8 @@ def doing(question: Doing, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is unknown, or not in the record.
     """
+    if question.actor is None and is_ahead(asked, question.time, question.tense):
+        return plan_ahead(asked)
     if question.actor is None:
         about = window(asked, question.time, question.tense)
         if question.tense == "present" and about.end >= asked.now:

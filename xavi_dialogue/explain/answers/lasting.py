@@ -23,6 +23,7 @@ from xavi_dialogue.explain.answers.durations import event_lasting, halted, remai
 from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS, chance
 from xavi_dialogue.explain.answers.moments import UNSAID, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us
+from xavi_dialogue.explain.answers.passages import taken
 from xavi_dialogue.explain.answers.places import time_to_go
 from xavi_dialogue.explain.answers.plans import MOVES, steps
 from xavi_dialogue.explain.answers.weighing import weigh
@@ -92,6 +93,8 @@ def state_lasting(of: Proposition, asked: Asked) -> Answer:
     """
     if isinstance(of, Happens):
         return event_lasting(of.event, asked)
+    if (through := taken(of, asked)) is not None:
+        return through
     time = getattr(of, "time", UNSAID)
     tense = getattr(of, "tense", "present")
     about = window(asked, time, "perfect")

@@ -8,7 +8,7 @@ from xavi_dialogue.domain.answers import (
     NotRecorded,
 )
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Compare, HowMuch
+from xavi_dialogue.domain.meaning import Compare, HowMuch, Peak
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
@@ -36,6 +36,7 @@ from xavi_dialogue.explain.answers.naming import (
 from xavi_dialogue.explain.answers.occasions import did_not_happen, taken_place
 from xavi_dialogue.explain.answers.places import told
 from xavi_dialogue.explain.answers.rivals import rivals
+from xavi_dialogue.explain.answers.summits import peak
 
 #: Attributes that change from moment to moment and are numbers.
 NUMBERS: frozenset[Attribute] = frozenset(
@@ -73,6 +74,8 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)
     if of.attribute == "gap" and question.extreme == "lowest" and isinstance(of.to, Vehicle):
         of = replace(of, attribute="distance")  # beside one another too, not only in line
+    if of.attribute == "delay" and question.extreme == "highest" and of.event is None:
+        return peak(Peak("delay", of.time), asked)
     special = SPECIAL.get(of.attribute)
     if special is not None:
         return special(of, asked)

@@ -2,16 +2,17 @@
 
 from collections.abc import Callable, Mapping
 
-from xavi_dialogue.domain.answers import Answer, Summit
+from xavi_dialogue.domain.answers import Answer, Happenings, Summit
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.meaning import Peak
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.closeness import closest_approach, nearest_vehicle, shortest_time
+from xavi_dialogue.explain.answers.delays import for_whom, held_up
 from xavi_dialogue.explain.answers.moments import Window, window
-from xavi_dialogue.explain.answers.naming import first_look
-from xavi_dialogue.explain.answers.occasions import duration, overlaps
+from xavi_dialogue.explain.answers.naming import first_look, number
+from xavi_dialogue.explain.answers.occasions import duration, merged, overlaps
 
 AROUND = 1.0  # [s] about a moment within which what we did belongs to it
 SHORTEST = 3.0  # [s] of time to a collision from which on it was not dangerous
@@ -22,6 +23,7 @@ TELLING: tuple[ActionName, ...] = (
     "leave", "stop", "stand", "brake", "slow-down", "follow",
 )  # fmt: skip
 YIELDING: tuple[ActionName, ...] = ("give-way", "wait", "let-go")
+SLOWING: tuple[ActionName, ...] = ("brake", "slow-down")
 HALTING: tuple[ActionName, ...] = ("stand", "stop", "wait")
 
 
@@ -35,7 +37,38 @@ def peak(question: Peak, asked: Asked) -> Answer:
     if about.instant:
         about = Window(asked.world.begin, asked.now)
     about = Window(max(about.begin, asked.world.begin), min(about.end, asked.now))
+    if question.number > 1 and question.of in RANKS:
+        return _several(question, asked, about)
     return FINDERS[question.of](question.of, asked, about)
+
+
+def _several(question: Peak, asked: Asked, about: Window) -> Happenings:
+    """List the times at which something was at its most, in order of time, and for whom."""
+    actions, rank = RANKS[question.of]
+    found = merged(asked, asked.world.episodes(Ego(), actions, about.begin, about.end))
+    most = sorted(found, key=lambda e: (-rank(asked, e), e.begin))[: question.number]
+    told = tuple(for_whom(asked, e) for e in sorted(most, key=lambda e: e.begin))
+    event = Event(actions[0])
+    return Happenings("list", told, Ego(), about.begin, about.end, asked=event)
+
+
+def _drop(asked: Asked, deed: Episode) -> float:
+    """Tell by how much [m/s] we slowed down."""
+    del asked
+    if deed.speed_from is None or deed.speed_to is None:
+        return 0.0
+    return deed.speed_from - deed.speed_to
+
+
+def _peak(asked: Asked, deed: Episode) -> float:
+    """Tell how hard [m/s2] we braked."""
+    del asked
+    return deed.peak or 0.0
+
+
+def _loss(asked: Asked, deed: Episode) -> float:
+    """Tell how much time [s] a slowing down cost, until we were as fast again."""
+    return asked.world.delay(deed).value or 0.0
 
 
 def _at(asked: Asked, of: str, measure: Measure, vehicle: int | None = None) -> Summit:
@@ -51,7 +84,7 @@ def deeds_at(asked: Asked, at: float) -> tuple[Episode, ...]:
     """List what we did at a time [s], the most telling first."""
     near = Window(at - AROUND, at + AROUND)
     found = [e for e in asked.world.episodes(actor=Ego()) if overlaps(asked, e, near)]
-    told = [e for e in found if e.action in TELLING]
+    told = [for_whom(asked, e) for e in found if e.action in TELLING]
     return tuple(sorted(told, key=lambda e: (TELLING.index(e.action), e.begin)))
 
 
@@ -88,12 +121,38 @@ def _braking(of: str, asked: Asked, about: Window) -> Summit:
     return _at(asked, of, found)
 
 
+def _slowing(of: str, asked: Asked, about: Window) -> Summit:
+    """Give the slowing down in which we lost most speed."""
+    found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
+    if not found:
+        return Summit(of)
+    most = for_whom(asked, max(found, key=lambda e: (_drop(asked, e), -e.begin)))
+    drop = Measure("speed-change", Ego(), most.begin, value=_drop(asked, most))
+    return Summit(of, most.begin, (most,), drop)
+
+
+def _losing(of: str, asked: Asked, about: Window) -> Summit:
+    """Give the slowing down that cost most time, and all who held us up in it."""
+    found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
+    costs = [(asked.world.delay(e), e) for e in found]
+    told = [(m, e) for m, e in costs if m.value]
+    if not told:
+        return Summit(of)
+    cost, deed = max(told, key=lambda one: (one[0].value or 0.0, -one[1].begin))
+    held = held_up(asked, Window(deed.begin, cost.until or asked.now))
+    named = dict.fromkeys(number(e.object) for e in held.episodes)
+    seen = (first_look(asked, v, deed.begin) for v in named if v is not None)
+    return Summit(of, deed.begin, (for_whom(asked, deed),), cost,
+                  tuple(look for look in seen if look is not None))  # fmt: skip
+
+
 def _waiting(of: str, asked: Asked, about: Window) -> Summit:
     """Give the longest time that we stood, else that we gave way."""
     for actions in (HALTING, YIELDING):
-        found = asked.world.episodes(Ego(), actions, about.begin, about.end)
+        every = asked.world.episodes(Ego(), actions, about.begin, about.end)
+        found = [e for e in every if e.action in actions]
         if found:
-            longest = max(found, key=lambda e: (duration(asked, e), -e.begin))
+            longest = max(found, key=lambda e: (duration(asked, e), bool(e.object), -e.begin))
             return _of_deed(asked, of, longest)
     return Summit(of)
 
@@ -136,6 +195,13 @@ def _of_deed(asked: Asked, of: str, deed: Episode) -> Summit:
     return Summit(of, deed.begin, (deed, *rest), length, looks)
 
 
+#: What is ranked where several are asked for, and by what.
+RANKS: Mapping[str, tuple[tuple[ActionName, ...], Callable[[Asked, Episode], float]]] = {
+    "slowing": (SLOWING, _drop),
+    "braking": (SLOWING, _peak),
+    "delay": (SLOWING, _loss),
+    "waiting": (HALTING, duration),
+}
 FINDERS: Mapping[str, Callable[[str, Asked, Window], Summit]] = {
     "closeness": _closest,
     "danger": _dangerous,
@@ -143,5 +209,7 @@ FINDERS: Mapping[str, Callable[[str, Asked, Window], Summit]] = {
     "speed": _fastest,
     "braking": _braking,
     "waiting": _waiting,
+    "slowing": _slowing,
+    "delay": _losing,
     "difficulty": _hardest,
 }

@@ -40,6 +40,7 @@ def plan_lasted(answer: Lasted, context: SpeechContext) -> Plan:
             "HELD", length=Quantity(until - answer.begin, "s"), on=answer.end is None,
             whole=answer.at_least, begin=Moment(answer.begin),
             end=Moment(until),
+            held=None if answer.held is None else Quantity(until - answer.held, "s"),
         ),
     ))  # fmt: skip
 

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Event,
     Everyone,
+    Exit,
     Has,
     Is,
     Nobody,
@@ -31,6 +32,7 @@ from xavi_dialogue.nlg.content.facts import fact_message
 from xavi_dialogue.nlg.content.measures import STANDING
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.propositions import clause_of, eventful
+from xavi_dialogue.nlg.content.routes import exits_passed
 from xavi_dialogue.nlg.content.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -196,6 +198,8 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         plan = plan_counted(msgspec.structs.replace(answer, said=None), context)
         rule = "YES" if answer.said else "NO"
         return replace(plan, core=(message(rule, it=plan.core[0]), *plan.core[1:]))
+    if isinstance(answer.of, Event) and isinstance(answer.of.object, Exit):
+        return Plan((exits_passed(answer),))
     facts = tuple(fact_message(f, context) for f in answer.facts)
     span = _span(answer, context)
     if isinstance(answer.of, Event):

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from planner.trace import Action
+from xavi_dialogue.domain.answers import Counted
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Junction
 from xavi_dialogue.nlg.content.clauses import doing
@@ -12,11 +13,19 @@ from xavi_dialogue.nlg.content.tenses import PRESENT
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.ordinals import ordinal
-from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Clause, Number, Quantity, Who
 
 AT_HAND = 4.0  # [m] below which a place is just ahead
 SAME = 2.0  # [m] by which two distances to one place may differ
 TURNS = frozenset(("exit-left", "exit-right", "exit-straight"))
+
+
+def exits_passed(answer: Counted) -> Message:
+    """Make a clause of how many exits of a roundabout we went past."""
+    return message(
+        "EXITS_PASSED", none=answer.count == 0, on=answer.until is None,
+        number=Number(answer.count, "exit"),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

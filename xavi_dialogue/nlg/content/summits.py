@@ -14,7 +14,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Who
 
 UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": "s",
-         "deceleration": "m/s2"}  # fmt: skip
+         "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
 YIELDING = frozenset(("give-way", "wait", "let-go"))
 NAMED = 3  # vehicles that are named
 LONG = 1.5  # [s] from which it is told how long something took
@@ -24,11 +24,14 @@ def plan_summit(answer: Summit, context: SpeechContext) -> Plan:
     """Plan the moment at which something was at its most."""
     if answer.time is None:
         return Plan((message("SUMMIT_NONE", of=answer.of),))
-    deed = next(iter(answer.deeds), None)
+    deed = next((e for e in answer.deeds if answer.of != "braking" or _tells(e)), None)
     measure = answer.measure
     value = None if measure is None or measure.value is None else measure.value
     several = len(answer.others) > 1 and deed is not None and deed.action in YIELDING
-    others = tuple(Who(Vehicle(x.vehicle), answer.time) for x in answer.others[:NAMED])
+    spread = answer.of == "delay"  # they came one after another
+    others = tuple(
+        Who(Vehicle(x.vehicle), x.time if spread else answer.time) for x in answer.others[:NAMED]
+    )
     slots: dict[str, object] = {
         "of": answer.of,
         "when": Moment(answer.time),
@@ -37,11 +40,19 @@ def plan_summit(answer: Summit, context: SpeechContext) -> Plan:
         "standing": measure is not None and measure.attribute == "speed" and (value or 0.0) < 0.3,
         "attribute": None if measure is None else measure.attribute,
         "deed": None if deed is None else _then(deed, context),
+        "until": None if measure is None or measure.until is None else Moment(measure.until),
+        "going_on": measure is not None and measure.at_least,
+        "held": others or None,
         "long": measure is not None and measure.attribute == "duration" and (value or 0.0) >= LONG,
     }
     if measure is not None and value is not None:
         slots["value"] = Quantity(value, UNITS.get(measure.attribute, "m"))  # type: ignore[arg-type]
     return Plan((message("SUMMIT", **slots),))
+
+
+def _tells(deed: Episode) -> bool:
+    """Say whether a deed tells more of a braking than that there was one."""
+    return deed.object is not None or deed.action not in ("brake", "slow-down")
 
 
 def _then(deed: Episode, context: SpeechContext) -> Clause:

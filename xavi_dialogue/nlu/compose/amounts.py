@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exit,
     Happens,
     Is,
     Junction,
@@ -83,6 +84,8 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
     if isinstance(question, HowMany) and isinstance(question.of, Junction) and driven:
         ring = question.of.form == "roundabout"  # "how many roundabouts was that?"
         return HowMany(Event("enter" if ring else "cross", object=question.of))
+    if isinstance(question, HowMany) and isinstance(question.of, Exit) and driven:
+        return HowMany(Event("pass", object=Exit(), tense=cast(Any, clause.tense)))
     if isinstance(question, HowMany):
         return HowMany(_restricted(question.of, value))
     return question or measured("count", clause, actor)

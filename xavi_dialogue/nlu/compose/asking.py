@@ -4,6 +4,7 @@ from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
     Changed,
+    Doing,
     HowAvoid,
     HowDecide,
     HowKnow,
@@ -27,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Next,
     Not,
     Passenger,
     Pronoun,
@@ -45,7 +47,7 @@ from xavi_dialogue.nlu.compose.nominal import propose
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.trends import believed
-from xavi_dialogue.nlu.compose.wh import Wh, content_of, deed_of, fact, is_that, time_of
+from xavi_dialogue.nlu.compose.wh import NEXT, Wh, content_of, deed_of, fact, is_that, time_of
 from xavi_dialogue.nlu.compose.what import What
 from xavi_dialogue.nlu.compose.which import WhichOne
 
@@ -90,6 +92,8 @@ class Asking(What, WhichOne):
     def where(self, wh: Wh, clause: Clause, value: Any) -> Question:
         """Ask for a place, a way to go or an origin."""
         actor = as_thing(clause.subject) or Ego()
+        if actor == NEXT and clause.verb is None:
+            return Doing(Ego(), Next(), "future")  # "where next?"
         source = (
             wh.key == "whence"
             or wh.preposition == "from"

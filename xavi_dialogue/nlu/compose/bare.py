@@ -35,7 +35,7 @@ from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.suppositions import Suppositions
 from xavi_dialogue.nlu.compose.tree import leaves_of
-from xavi_dialogue.nlu.compose.wh import Wh, is_that
+from xavi_dialogue.nlu.compose.wh import NEXT, Wh, is_that
 from xavi_dialogue.nlu.compose.whys import pace_asked, sided
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 
@@ -64,9 +64,10 @@ class BareQuestions(Suppositions):
             return self._bare_which(wh, clause, thing)
         if wh.besides or clause.else_:
             return [((Elliptic(besides=True),), 0.0)]
+        free = wh.kind in ("what", "where") and thing in (None, NEXT) and event is None
+        if free and _onward(unit, clause):
+            return [((_next(unit),), 0.0)]
         if wh.kind == "what":
-            if _onward(unit, clause) and thing is None and event is None:
-                return [((_next(unit),), 0.0)]
             if clause.verb is None and thing is None and isinstance(clause.time, Unsaid):
                 return [((Repair("repeat"),), 0.1)]
             if not isinstance(clause.time, Unsaid) and thing is None and event is None:
@@ -74,7 +75,7 @@ class BareQuestions(Suppositions):
                     "future" if type(clause.time).__name__ in ("Next", "Within", "Back") else "past"
                 )
                 return [((Ask(Doing(Ego(), clause.time, tense)),), _BARE)]
-        if wh.key == "whither" and thing is None and event is None:
+        if wh.key == "whither" and thing in (None, NEXT) and event is None:
             return [((Ask(Whither()),), 0.0)]
         form: Any = _FORMS.get(wh.kind, "same")
         if thing is not None and event is None and wh.kind in ("what", "who", "where"):

@@ -31,7 +31,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.extents import SLOWING, extent_of
 from xavi_dialogue.nlu.compose.lights import light_of
-from xavi_dialogue.nlu.compose.peaks import quality_of
+from xavi_dialogue.nlu.compose.peaks import deed_peak, done_most, quality_of
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
@@ -47,6 +47,7 @@ from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+PEAKS = 3  # of "the hardest brakings" that are told
 _PLACES: dict[str, Thing] = {
     "destination": Destination(),
     "own-lane": Lane("own"),
@@ -264,8 +265,8 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
 def _deed(head: Leaf, traits: Traits) -> Sem:
     if head.key == "do" and traits.ordinal in (-1, 1) and traits.determiner == "def":
         return Noun("deed", word=head.words[-1], quality="last" if traits.ordinal < 0 else "first")
-    if head.key in ("stop", "wait", "stand") and traits.extreme in ("biggest", "highest"):
-        return Noun("peak", word=head.words[-1], quality="waiting")
+    if most := deed_peak(head.key, traits.extreme):
+        return _peaks(head, traits, most)
     if head.key == "do" and traits.extreme and quality_of(traits.extreme, traits.adjectives):
         quality = quality_of(traits.extreme, traits.adjectives)
         return Noun("peak", word=head.words[-1], quality=quality)
@@ -274,7 +275,7 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     action = head.key
     if traits.kind and action in SLOWING | {"wait", "stand"}:
         actor = described(traits.kind, traits)  # "made the bus wait"
-    if action == "brake" and traits.extreme in ("highest", "lowest"):
+    if action == "brake" and traits.extreme == "lowest":
         return Measure(Measured("deceleration", actor), cast(Any, traits.extreme))
     if action in ("change-lane", "turn") and side in ("left", "right"):
         action = ("change-" if action == "change-lane" else "exit-") + side
@@ -291,6 +292,12 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     return Event(cast(Any, action), actor, obj, side, cast(Any, manners), rank)
 
 
+def _peaks(head: Leaf, traits: Traits, quality: str) -> Noun:
+    """Name the moments at which something was at its most: "the three hardest brakings"."""
+    number = traits.fields.get("number", PEAKS if head.form == "plural" else 1)
+    return Noun("peak", word=head.words[-1], quality=quality, number=number)
+
+
 def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     if head.key == "side" and traits.side:
         return SideOf(traits.side)
@@ -301,6 +308,9 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     quality = quality_of(traits.extreme, traits.adjectives)
     if quality and (head.key in ("peak", "event") or "call" in head.words):
         return Noun("peak", word=" ".join(head.words), quality=quality)
+    deed = traits.clause.event if isinstance(traits.clause, Happens) else None
+    if head.key in ("time", "moment") and deed and (most := done_most(deed, traits.gerund)):
+        return _peaks(head, traits, most)
     about = next((s for k, s in traits.about), None)
     extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
     owner = traits.owner

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
     Measured,
     Not,
     Passenger,
@@ -94,6 +95,9 @@ def _round(clause: Clause) -> bool:
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
+    place = _passed_through(clause, event or _deed_in(value), actor)
+    if place is not None:
+        return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
     if isinstance(clause.time, Relative) and _is_awaited(clause.time):
         return until(clause.time.anchor)
     behind = [c.sem for c in clause.complements if c.key == "bearing-behind"]
@@ -104,7 +108,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
             return until(as_thing(phrase.sem))
     if isinstance(value, Special) and value.name in ("cost", "delay", "save", "gain"):
         return measured("delay", clause, actor)
-    if isinstance(value, Special) and value.name in ("take-time", "last"):
+    if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
         return _taking(clause, value, actor)
     if isinstance(value, Special) and value.name in _SEEING:
         return HowLong(_seen(value))
@@ -130,6 +134,29 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     if isinstance(actor, Pronoun) or (isinstance(actor, Ego) and clause.bearings):
         return measured("duration", clause, actor)
     return measured("size", clause, actor) if actor is not None else HowMuch(Measured("time-to-go"))
+
+
+_THROUGH = DRIVING | {"cross", "pass", "circle"}
+_SPENDING = frozenset({"take", "spend", "need", "last", "get"})
+
+
+def _passed_through(clause: Clause, event: Event | None, actor: Thing | None) -> Junction | None:
+    """Find the junction of "how long did that roundabout take us", "... to get round it"."""
+    if clause.tense not in ("past", "perfect") or clause.verb is None:
+        return None
+    if isinstance(actor, Junction):
+        return actor if clause.verb.key in _SPENDING else None
+    if clause.verb.key not in _SPENDING or (event is not None and event.action not in _THROUGH):
+        return None
+    time = clause.time if event is None else event.time
+    named = (time.anchor if isinstance(time, Relative) else None, getattr(event, "object", None))
+    return next((place for place in named if isinstance(place, Junction)), None)
+
+
+def _deed_in(value: Any) -> Event | None:
+    """Find the deed of "it took us ... to get through the roundabout"."""
+    content = value.content if isinstance(value, Special) else None
+    return content.event if isinstance(content, Happens) else None
 
 
 def _is_awaited(time: Relative) -> bool:

@@ -178,7 +178,7 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
         case "deed":
             return Doing(Ego(), Rank(-1 if sem.quality == "last" else 1), "past")
         case "peak":
-            return Peak(cast(Any, sem.quality), time)
+            return Peak(cast(Any, sem.quality), time, sem.number)
         case "plan":
             actor = as_thing(sem.owner) or as_thing(sem.of) or Ego()
             return Doing(actor, time, "future")

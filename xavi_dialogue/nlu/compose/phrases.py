@@ -27,7 +27,7 @@ from xavi_dialogue.nlu.compose.clause import (
 from xavi_dialogue.nlu.compose.lights import on_light
 from xavi_dialogue.nlu.compose.positions import place_of, placeless
 from xavi_dialogue.nlu.compose.sem import Notes, Sem, SideOf
-from xavi_dialogue.nlu.compose.tally import often
+from xavi_dialogue.nlu.compose.tally import frequency
 from xavi_dialogue.nlu.compose.things import Nouns
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
@@ -155,7 +155,7 @@ class Phrases(Adjuncts):
         clause.comma = node.end
 
     def _on_frequency(self, node: Node, clause: Clause) -> None:
-        clause.times = often(node)
+        frequency(node, clause)
 
     def _on_lone_number(self, node: Node, clause: Clause) -> None:
         clause.objects.append((Quantity(number_of(node)), node))

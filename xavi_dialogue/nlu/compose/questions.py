@@ -32,6 +32,7 @@ from xavi_dialogue.nlu.compose.sem import (
     Notes,
     Noun,
     Sem,
+    Specified,
     as_thing,
     is_thing,
 )
@@ -44,6 +45,8 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
 EMPHATIC = 0.6  # cost of "who did stop"
+#: What may ask for a moment or a thing that stands out.
+_POINTING = frozenset({"where", "when", "what", "who", "which", "count"})
 
 
 class Questions(Options):
@@ -87,7 +90,10 @@ class Questions(Options):
         inner = node_of(node, "np", "group")
         if inner is not None:
             return cast(Sem, self.phrases.nouns.read(inner))
-        return self._asked_noun(node) or Pronoun("one")
+        amount = leaf_of(node, "AMOUNT")
+        alone = amount is not None and amount.key == "many"
+        many = Described(plural=True, definite=False)  # "how many are coming?"
+        return self._asked_noun(node) or (many if alone else Pronoun("one"))
 
     def _asked_noun(self, node: Node) -> Sem | None:
         inner = node_of(node, "of")
@@ -159,7 +165,8 @@ class Questions(Options):
         """Build the questions that a question word asks of a clause."""
         wh, clause = cleft(wh, clause)
         most = peak_of(clause)
-        if most is not None and wh.kind in ("where", "when", "what", "who", "which", "count"):
+        named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
+        if most is not None and (named or wh.kind in _POINTING):
             return [(most, 0.0)]
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
             # "what is he doing, braking like that?"
@@ -243,8 +250,8 @@ class Questions(Options):
         governed = clause.that or clause.infinitive or clause.gerund
         if governed is not None:
             governed.subject = governed.subject or Ego()
-            plain = cast("Proposition | None", self.propositions.plain(governed))
-            return plain or self.weighed_deed(governed)
+            weighed = self.weighed_deed(governed)
+            return weighed or cast("Proposition | None", self.propositions.plain(governed))
         for phrase in clause.complements:
             sem = phrase.sem
             if isinstance(sem, Noun):
@@ -267,7 +274,9 @@ def _is_lost(wh: Wh, clause: Clause, value: Any, question: Question) -> bool:
     why = wh.kind == "why" and clause.subject is not None
     governing = wh.kind in ("what", "who") and clause.that is not None
     governed = clause.that or clause.infinitive or clause.gerund
-    unsure = question == HowSure(None, clause.time) and governed is not None
+    unsure = question == HowSure(None, clause.time) and (
+        governed is not None or isinstance(clause.subject, Specified)
+    )
     return unsure or (value is None and (why or governing))
 
 

@@ -46,6 +46,7 @@ class Noun:
     word: str = ""
     clause: Proposition | None = None
     quality: str = ""  # of a moment: what was at its most then, as `Peak.of`
+    number: int = 1  # how many such moments
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,8 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.sem import Sem
-from xavi_dialogue.nlu.compose.tree import node_of, number_of
+from xavi_dialogue.nlu.compose.sem import Moment, Sem
+from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, number_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 
 #: What is done to each of several: "we waited for four cars".
@@ -70,10 +70,14 @@ def counts(clause: Clause) -> Proposition | None:
     return among(*clause.objects[-1])
 
 
-def often(node: Node) -> int | None:
-    """Tell how often: "three times", "twice"."""
+def frequency(node: Node, clause: Clause) -> None:
+    """Note how often it is said to be, "three times"; "the most time" is an amount."""
     said = node_of(node, "num")
-    return None if said is None else int(number_of(said))
+    many = leaf_of(node, "DET")
+    if many is not None and many.words[-1] == "most":
+        clause.objects.append((Moment("s"), node))
+    else:
+        clause.times = None if said is None else int(number_of(said))
 
 
 def _compared(measured: Measured, number: int) -> Compares:

@@ -26,6 +26,8 @@ from xavi_dialogue.nlu.compose.nominal import done_by, event_in
 from xavi_dialogue.nlu.compose.sem import Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.specials import proposition_of
 
+NEXT = Described(rank=1)  # "next" by itself
+
 
 @dataclass(frozen=True, slots=True)
 class Wh:

@@ -165,12 +165,17 @@ def standing_within(states: States, vehicle: int, begin: float, end: float) -> f
     return total
 
 
+def _free(states: States, vehicle: int, free: float, index: int) -> float:
+    """Tell how fast [m/s] one may drive on at a moment: at a speed, at most the limit there."""
+    place = states.place(vehicle, states.motion(vehicle).time[index])
+    return free if place is None else min(free, place.limit)
+
+
 def _behind(states: States, vehicle: int, free: float, steps: range) -> float:
     """Tell how much longer [s] a stretch took than at a speed, at most the limit of each place."""
     motion, lost = states.motion(vehicle), 0.0
     for k in steps:
-        place = states.place(vehicle, motion.time[k])
-        pace = free if place is None else min(free, place.limit)
+        pace = _free(states, vehicle, free, k)
         driven = motion.arc[k + 1] - motion.arc[k]
         lost += motion.time[k + 1] - motion.time[k] - driven / pace
     return lost
@@ -201,9 +206,10 @@ def delay(states: States, episode: Episode) -> Measure:
     over = states.ride.now if episode.end is None else episode.end
     while end + 1 < len(motion.time):
         end += 1
-        if motion.time[end] >= over and motion.speed[end] >= 0.95 * free:
+        regained = motion.speed[end] >= 0.95 * _free(states, vehicle, free, end)
+        if motion.time[end] >= over and regained:
             break
     lost = max(_behind(states, vehicle, free, range(first, end)), 0.0)
-    going_on = motion.speed[end] < 0.95 * free
+    going_on = motion.speed[end] < 0.95 * _free(states, vehicle, free, end)
     found = asked.found(round(lost, 1), time=episode.begin)
     return replace(found, until=motion.time[end], at_least=going_on)

@@ -1,6 +1,7 @@
 """Events: who did what, and when: matched with the episodes of the record."""
 
 from collections.abc import Callable
+from dataclasses import replace as replaced
 from typing import Final
 
 from msgspec.structs import replace
@@ -27,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.facts.lead_in import held_since
 from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
@@ -37,6 +39,7 @@ from xavi_dialogue.nlu.grounding.things.pronouns import apart
 SIDEWAYS: Final[dict[ActionName, ActionName]] = {
     "exit-left": "change-left", "exit-right": "change-right",
 }  # fmt: skip
+_HELD: Final = frozenset(("wait", "stand", "stop", "give-way", "brake", "slow-down", "let-go"))
 _HALTS: Final = frozenset(("stand", "stop", "wait"))
 UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
@@ -113,7 +116,20 @@ def _window(spoken: Event, mode: Mode, g: Grounder, outer: Window | None) -> Win
     if outer is not None and outer.said and isinstance(spoken.time, Unsaid):
         return outer
     tense = "past" if spoken.tense == "perfect" and mode != "asked" else spoken.tense
-    return g.window(spoken.time, tense)
+    found = g.window(spoken.time, tense)
+    match spoken.time:
+        case Relative(relation="during", anchor=Junction()) if spoken.action in _HELD:
+            return _before_entering(found, g)
+    return found
+
+
+def _before_entering(found: Window, g: Grounder) -> Window:
+    """Add to the time of a junction how we came to it: who waits there has not entered it yet."""
+    since = held_since(g.context.deeds(Ego(), g.context.begin, found.begin), found.begin)
+    if since == found.begin:
+        return found
+    search = (since, found.search[1])
+    return replaced(found, begin=since, search=search, term=Between(since, found.end))
 
 
 def _pictured(thing: Thing) -> bool:

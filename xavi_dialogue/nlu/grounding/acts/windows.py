@@ -255,6 +255,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _of_ours(g)
         case Event(tense="present") if tense != "past" and time.relation in ("before", "until"):
             return None  # "can he come out before we pass?"
+        case Event(tense="present" | "perfect") if tense != "past" and time.relation == "after":
+            return None  # "which way do we go once he moves?"
         case Event() as event:
             return _of_event(event, tense, g)
         case Junction() as spoken:
@@ -265,8 +267,14 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _of_visits(visits(g.context, "roundabout"), ahead=tense != "past")
         case Destination():
             return None
+        case Ego() if tense != "past" and time.relation == "after":
+            return None  # "once we are off this thing, where do we go?"
         case thing:
-            return _of_thing(g.thing(thing, whole), g.context)
+            found = g.thing(thing, whole)
+            seen = isinstance(found, Vehicle) and found.number in g.context.world.in_view(whole.end)
+            if seen and tense != "past" and time.relation == "after":
+                return None  # "once the orange car is past"
+            return _of_thing(found, g.context)
 
 
 def _of_ours(g: Grounder) -> tuple[Interval, ...]:
