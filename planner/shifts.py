@@ -6,6 +6,7 @@ People lead over early, within the room that their lane leaves them.
 
 import math
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ ASIDE = (1.2, 3.6)  # [m] to the side, from a jog that is driven as it is drawn 
 ALIKE = 0.05  # [rad] by which the directions before and after may differ
 WITHIN = (4, 6, 8)  # path points to each side of its middle within which a jog lies
 LASTING = (32, 28, 24, 20, 16, 14, 12, 10)  # path points to each side in which to lead over
+MOVED = (0, 1, -1, 2, -2, 3, -3)  # path points by which its middle may lie elsewhere
 ROOM = 0.7  # [m] by which a car may be off the middle of its lane
 
 
@@ -35,8 +37,8 @@ def shifted(points: Array, joints: Array) -> Array:
     for middle in _middles(points):
         if not np.any(np.abs(joints - middle) <= WITHIN[-1]):
             continue
-        for reach in LASTING:
-            low, high = middle - reach, middle + reach
+        for reach, moved in product(LASTING, MOVED):
+            low, high = middle + moved - reach, middle + moved + reach
             over = _over(points, low, high) if low >= 0 and high + 1 < len(points) else None
             if over is not None:
                 found = found.copy() if found is points else found
