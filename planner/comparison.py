@@ -12,12 +12,14 @@ import random
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
+from planner.hidden_areas import Phantom, PhantomSample
 from planner.recognise import Belief
 from planner.signals import DARK, Outlook
 from planner.trace import Sample
 from planner.traffic_lights import LightPrediction, LightSample
 
-Samples: TypeAlias = tuple[Sample | LightSample, ...]  # of vehicles, then of lights
+#: Of vehicles, then of lights, then of those who are imagined.
+Samples: TypeAlias = tuple[Sample | LightSample | PhantomSample, ...]
 
 COVERED = 0.99  # probability from which on what is left is left out
 INEXACT = 0.5  # of the bound: joint samples where that does not suffice to cover enough
@@ -27,12 +29,13 @@ def draw(
     beliefs: Mapping[int, Sequence[Belief]],
     draws: Mapping[int | str, random.Random],
     lights: Outlook = DARK,
+    phantoms: Sequence[Phantom] = (),
 ) -> Samples:
     """Draw a goal and a trajectory for every other vehicle, and a course for every controller.
 
-    Each is drawn from its own generator.
+    Of everybody who is imagined, draw whether he comes. Each is drawn from its own generator.
     """
-    found: list[Sample | LightSample] = []
+    found: list[Sample | LightSample | PhantomSample] = []
     for vehicle, known in beliefs.items():
         rng = draws[vehicle]
         goal = _drawn(rng, [belief.probability for belief in known])
@@ -41,7 +44,15 @@ def draw(
     for one in lights.varying:
         shares = [course.probability for course in one.courses]
         found.append(LightSample(one.controller, _drawn(draws[one.controller], shares)))
+    for k, phantom in enumerate(phantoms):
+        chance = phantom.probability
+        found.append(PhantomSample(k, _drawn(draws[source_of(k)], [1.0 - chance, chance]) == 1))
     return tuple(found)
+
+
+def source_of(phantom: int) -> str:
+    """The name of the generator of one who is imagined."""
+    return f"phantom {phantom}"
 
 
 def _drawn(rng: random.Random, probabilities: Sequence[float]) -> int:
@@ -53,6 +64,7 @@ def weighted(
     drawn: Sequence[Samples],
     most: int,
     lights: Outlook = DARK,
+    phantoms: Sequence[Phantom] = (),
 ) -> list[tuple[Samples, float]]:
     """Joint samples with weights that sum to 1; the likeliest first.
 
@@ -64,10 +76,11 @@ def weighted(
         drawn: by the search, independently of one another.
         most: joint samples that are enumerated at most.
         lights: how they may go on.
+        phantoms: who might come out of what is hidden.
     """
     found: dict[Samples, float] = {}
     mass = [0.0]  # of the first 0, 1, 2, ... of them
-    for samples, probability in itertools.islice(likeliest(beliefs, lights), most):
+    for samples, probability in itertools.islice(likeliest(beliefs, lights, phantoms), most):
         found[samples] = probability
         mass.append(mass[-1] + probability)
         if mass[-1] >= COVERED:
@@ -83,7 +96,9 @@ def weighted(
 
 
 def likeliest(
-    beliefs: Mapping[int, Sequence[Belief]], lights: Outlook = DARK
+    beliefs: Mapping[int, Sequence[Belief]],
+    lights: Outlook = DARK,
+    phantoms: Sequence[Phantom] = (),
 ) -> Iterator[tuple[Samples, float]]:
     """Yield the joint samples of others that are independent, with probabilities, likeliest first.
 
@@ -91,6 +106,7 @@ def likeliest(
     """
     choices: list[_Choices] = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
     choices += [_courses(one) for one in lights.varying]
+    choices += [_comings(k, one) for k, one in enumerate(phantoms)]
     ranks = (0,) * len(choices)
     waiting = [(-math.prod(own[0][1] for own in choices), ranks, 0)]
     while waiting:
@@ -103,7 +119,15 @@ def likeliest(
                 heapq.heappush(waiting, (after, (*ranks[:i], k, *ranks[i + 1 :]), i))
 
 
-_Choices: TypeAlias = list[tuple[Sample | LightSample, float]]
+_Choices: TypeAlias = list[tuple[Sample | LightSample | PhantomSample, float]]
+
+
+def _comings(index: int, one: Phantom) -> _Choices:
+    """Whether somebody who is imagined comes, the likelier first."""
+    chance = one.probability
+    found: _Choices = [(PhantomSample(index, True), chance)]
+    found.append((PhantomSample(index, False), 1.0 - chance))
+    return sorted((pair for pair in found if pair[1] > 0.0), key=lambda pair: -pair[1])
 
 
 def _courses(known: LightPrediction) -> _Choices:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from planner.caution import allowed_speed
 from planner.clearance import first_touch
 from planner.decide import observed
 from planner.everybody import everybody_in, going_on
@@ -24,6 +25,7 @@ from planner.lookout import shown_now
 from planner.manoeuvres import ActionPlan, GiveWay
 from planner.memory import Memory
 from planner.obstacles import Obstacle, Traffic, occupancy
+from planner.phantoms import View
 from planner.recognise import Belief
 from planner.trace import ON_FOOT
 from planner.tracks import aligned
@@ -95,7 +97,32 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
         ego.length,
         dt,
     )
-    return _clear(driving, around, _beside(driving, around, chosen, dt), dt)
+    chosen = _beside(driving, around, chosen, dt)
+    return _clear(driving, around, _careful(driving, around, chosen, dt), dt)
+
+
+def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
+    """What is seen now, and what is hidden."""
+
+    def rate(edge: str) -> float:
+        return memory.counts.rate(edge, scene.time)
+
+    return View(roads, scene.vehicles, scene.unseen, rate, shown_now(scene))
+
+
+def _careful(
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Come slowly to a line where somebody may come, with priority, from where one sees not."""
+    if not around.scene.unseen:
+        return chosen
+    motion = driving.motion
+    view = view_of(around.roads, around.memory, around.scene)
+    allowed = allowed_speed(view, driving.plan, motion.arc)
+    if allowed >= motion.speed + COMFORT * dt:
+        return chosen
+    braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
+    return (min(chosen[0], braking), chosen[1])
 
 
 def _beside(

@@ -7,17 +7,20 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from planner.actions import Situation
+from planner.caution import cautious
 from planner.fitting import fitted
 from planner.footways import crossings_along
 from planner.forward import DT
+from planner.hidden_areas import Phantom
 from planner.people import concerned
 from planner.recognise import Belief, Trajectory, recognise
 from planner.relevance import relevant
 from planner.reward import COSTS
 from planner.road_facts import road_facts
 from planner.rollout import Task
-from planner.search import Root, Search, Simulated
+from planner.search import Root, Search
 from planner.signals import Outlook
+from planner.simulated import Simulated
 from planner.trace import (
     ON_FOOT,
     SCHEMA,
@@ -71,6 +74,7 @@ class Moment:
     unseen: Mapping[int, float] = field(default_factory=dict)  # [s] hidden ones were seen last
     unpaced: frozenset[int] = frozenset()  # whose pace was that of somebody who is not there
     lights: tuple[LightPrediction, ...] = ()
+    phantoms: tuple[Phantom, ...] = ()
 
     @property
     def outlook(self) -> Outlook:
@@ -146,9 +150,11 @@ def prepare(
         round(frame.settings.horizon / DT),
         frame.settings.view_radius,
         reacting=frame.settings.reacting is True,
+        slow=cautious(moment.phantoms),
     )
     seed = f"{frame.seed}/{moment.number}{salt}"
-    return Search(task, moment.root, beliefs, frame.settings, seed, moment.outlook)
+    outlook, phantoms = moment.outlook, moment.phantoms
+    return Search(task, moment.root, beliefs, frame.settings, seed, outlook, phantoms)
 
 
 def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
@@ -197,6 +203,7 @@ def record(
         ),
         costs=COSTS,
         lights=moment.lights,
+        phantoms=moment.phantoms,
     )
     return fitted(trace)
 
@@ -233,6 +240,8 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 braking=one.braking,
                 lights=one.lights,
                 held_by_lights=one.held_by_lights,
+                phantoms=one.phantoms,
+                held_by_hidden=one.held_by_hidden,
             )
         )
     return tuple(found)

@@ -9,13 +9,15 @@ from dataclasses import dataclass, replace
 import msgspec
 
 from planner.actions import STANDING_TIME, ActionPlan, Situation, expand
-from planner.control import Around, Driving, Outlook, control
+from planner.control import Around, Driving, Outlook, control, view_of
 from planner.decide import Decision, Frame, Moment, decide, root_at
 from planner.events import Event, EventKind, LightPlace
 from planner.forward import DT, Keeping, Lane, Motion, advance
+from planner.hidden_areas import Phantom
 from planner.lights import lights
 from planner.lookout import as_foreseen, changed, lookout
 from planner.memory import Memory
+from planner.phantoms import imagined, ways_ahead
 from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
@@ -136,9 +138,13 @@ class Driver:
             Root(self._situation(scene), under_way),
             self._memory.unseen,
             lights=self._lookout(scene),
+            phantoms=self._imagined(scene),
         )
         decision = decide(self._frame, moment)
         self._last, self._moment, self._decided = decision, moment, scene.time
+        if scene.unseen and decision.trace.road is not None:
+            places = decision.trace.road.places
+            self._memory.counts.note({v: at.edge for v, at in places.items() if v != EGO})
         self._number += 1
         if not committed:
             self._adopt(decision, moment, events)
@@ -150,6 +156,14 @@ class Driver:
         edges = way(roads, (here.location.lane,), goal)
         horizon, now = self._frame.settings.horizon, round(scene.time, 3)
         return lookout(roads, self._memory.watched, now, horizon, edges)
+
+    def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
+        """Who might come out of what is hidden, at the junction ahead."""
+        if not scene.unseen:
+            return ()
+        here = self._situation(scene)
+        links = ways_ahead(self._frame.roads, here.location, here.speed)
+        return imagined(view_of(self._frame.roads, self._memory, scene), links)
 
     def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
         """Take up the first action of the plan, unless it is being driven already."""

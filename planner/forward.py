@@ -114,7 +114,7 @@ def drive(
     traffic: Traffic,
     size: tuple[float, float],
     horizon: int,
-    pace: float = math.inf,
+    pace: float | Array = math.inf,
 ) -> Drive:
     """Drive an action plan until it ends.
 
@@ -125,7 +125,7 @@ def drive(
         traffic: the other vehicles, in the common time base.
         size: length and width [m] of the vehicle.
         horizon: the last step.
-        pace: [m/s] faster than which it does not want to drive.
+        pace: [m/s] faster than which it does not want to drive, or [N] at every metre of the path.
     """
     others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
     motion, held, finished, goal_time = driving.drive(

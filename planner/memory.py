@@ -15,11 +15,13 @@ from planner.cycles import Watched, watch
 from planner.everybody import everybody_in, going_on
 from planner.forward import DT
 from planner.obstacles import Obstacle
+from planner.phantoms import Counts
 from planner.road import LightChange
+from planner.sightlines import between, middle
 from planner.trace import ON_FOOT, Track
 from planner.tracks import Observed
 from planner.trajectory import Roads
-from sim.scene import EGO, Point, Scene, VehicleState
+from sim.scene import EGO, Scene, VehicleState
 
 HISTORY = 10.0  # [s]
 HIDDEN = 5.0  # [s] for which a hidden vehicle is remembered
@@ -59,6 +61,7 @@ class Memory:
         self._lost: dict[int, Lost] = {}
         self._watched: dict[str, Watched] = {}
         self._controllers: frozenset[str] = frozenset()  # in view
+        self.counts = Counts()  # of vehicles on the roads that lead out of what is hidden
 
     def observe(self, scene: Scene) -> None:
         """Take down what is seen now."""
@@ -142,31 +145,9 @@ class Memory:
 
 def hidden(state: VehicleState, scene: Scene) -> bool:
     """Whether a tall vehicle stands between the middles of the ego and of another vehicle."""
-    here, there = _middle(scene.ego), _middle(state)
+    here, there = middle(scene.ego), middle(state)
     tall = (other for name, other in scene.vehicles.items() if name != EGO and other.kind in TALL)
-    return any(_between(here, there, other) for other in tall)
-
-
-def _middle(state: VehicleState) -> Point:
-    x, y = state.position
-    half = 0.5 * state.length
-    return x - half * math.cos(state.heading), y - half * math.sin(state.heading)
-
-
-def _between(a: Point, b: Point, body: VehicleState) -> bool:
-    """Whether the line from a to b crosses a body: clipped to it in its own frame."""
-    (x, y), cos, sin = _middle(body), math.cos(body.heading), math.sin(body.heading)
-    begin, end = 0.0, 1.0
-    for along_x, along_y, size in ((cos, sin, body.length), (-sin, cos, body.width)):
-        start = (a[0] - x) * along_x + (a[1] - y) * along_y
-        move = (b[0] - a[0]) * along_x + (b[1] - a[1]) * along_y
-        if abs(move) < 1e-9:
-            if abs(start) > 0.5 * size:
-                return False
-            continue
-        first, second = (-0.5 * size - start) / move, (0.5 * size - start) / move
-        begin, end = max(begin, min(first, second)), min(end, max(first, second))
-    return begin < end
+    return any(between(here, there, other) for other in tall)
 
 
 def _rounded(state: VehicleState) -> VehicleState:

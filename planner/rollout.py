@@ -8,13 +8,14 @@ too where that leaves a follower less than the safe distance.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from planner.actions import ActionPlan, Situation
-from planner.forward import DT, Drive, Hindrances, Motion, Stops, drive
+from planner.caution import Careful, careful_steps, caution
+from planner.forward import DT, Drive, Hindrances, Lane, Motion, Stops, drive
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit, moved_in
 from planner.kernels.driving import RIGHT_OF_WAY
@@ -44,6 +45,8 @@ class Task:
     yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
     pace: float = math.inf  # [m/s] faster than which it does not want to drive
     reacting: bool = False  # whether the others brake for who drives
+    #: links to come slowly to, and where [m] behind their lines to be slow: see planner.caution
+    slow: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,6 +69,7 @@ class Leg:
     end: Situation
     ahead: tuple[tuple[str, float], ...]  # lanes yet to be driven, and how much [m] of each
     traffic: Traffic  # the others, as they have reacted and go on
+    careful: Careful  # where hidden parts of the road made it slower
 
 
 def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Leg:
@@ -105,7 +109,10 @@ def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> b
 
 
 def _drive(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Drive:
-    return drive(plan, motion, first, traffic, task.size, task.horizon, task.pace)
+    pace: float | Array = task.pace
+    if task.slow and plan.give_ways:
+        pace = np.minimum(pace, caution(plan, task.slow, len(Lane(plan.path).caps)))
+    return drive(plan, motion, first, traffic, task.size, task.horizon, pace)
 
 
 def _placed(task: Task, plan: ActionPlan, driven: Drive) -> tuple[Array, Array]:
@@ -120,9 +127,7 @@ def _leg(
     """What came of a drive."""
     careless = plan.changes_lane and not task.yielding
     braking = FIRM if task.reacting else 0.0
-    hit, who = first_hit(
-        states, task.size, driven.first, traffic.states, traffic.sizes, careless, braking
-    )
+    hit, who = first_hit(states, task.size, driven.first, *_real(traffic), careless, braking)
     if who < 0 and careless and task.reacting:
         hit, who = moved_in(states, task.size[0], driven.first, traffic.states, FIRM)
     count = len(states) if who < 0 else hit + 1
@@ -156,7 +161,16 @@ def _leg(
         end,
         _ahead(plan, arc) if outcome == "termination" else (),
         traffic,
+        careful_steps(plan, task.slow, driven, count) if task.slow else (),
     )
+
+
+def _real(traffic: Traffic) -> tuple[Array, Array]:
+    """The motions and sizes of those who can be collided with: who is imagined would brake."""
+    if min(traffic.vehicles, default=0) >= 0:
+        return traffic.states, traffic.sizes
+    there = np.array(traffic.vehicles) >= 0  # who is imagined comes last
+    return traffic.states[there], traffic.sizes[there]
 
 
 def _leads_on(task: Task, plan: ActionPlan) -> bool:
@@ -232,6 +246,11 @@ def held_up(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
     A leader that brakes while it is in the way is recorded as leader even where it cut in
     before: what costs time then is its braking.
     """
+    return tuple(stretch for stretch in hindered(legs, start) if stretch.vehicle >= 0)
+
+
+def hindered(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
+    """Do the same of everybody, those among them who are imagined: their names are negative."""
     known = [leg.hindrances for leg in legs]
     step = np.concatenate([h.step for h in known]) if known else np.empty(0, np.int64)
     if len(step) == 0:

@@ -10,28 +10,37 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from planner.actions import ActionPlan, Situation, expand
-from planner.comparison import Samples, draw, weighted
+from planner.caution import coming, held_by_hidden, name_of
+from planner.comparison import Samples, draw, source_of, weighted
 from planner.forward import Motion
+from planner.hidden_areas import HeldByHidden, Phantom, PhantomSample
 from planner.kernels.driving import GAP_HORIZON
-from planner.obstacles import Traffic
+from planner.obstacles import Obstacle, Pool, Traffic
 from planner.recognise import Belief
 from planner.reward import EFFORT, absent, reward, terms
-from planner.rollout import Leg, Task, held_by_lights, held_up, summarise, take
+from planner.rollout import (
+    Leg,
+    Task,
+    held_by_lights,
+    held_up,
+    hindered,
+    summarise,
+    take,
+)
 from planner.routes import Refusal
 from planner.signals import DARK, Lights, Outlook
+from planner.simulated import Simulated
 from planner.trace import (
     ACTIONS,
     Action,
     Component,
-    HeldUp,
     NotApplicable,
     Outcome,
     PlannedAction,
-    RewardTerm,
     Sample,
     Settings,
 )
-from planner.traffic_lights import HeldByLight, LightSample
+from planner.traffic_lights import LightSample
 from planner.tree import Edge, Node, Tree
 from planner.waypoints import cost_by, cost_left
 from sim.network import Location
@@ -50,46 +59,6 @@ class Root:
     under_way: tuple[ActionPlan, Motion] | None = None  # must be finished first
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Simulated:
-    """One rollout."""
-
-    drawn: Samples
-    legs: tuple[Leg, ...]
-    outcome: Outcome
-    components: dict[Component, float | None]
-    reward: float
-    terms: dict[RewardTerm, float]  # [s] that the reward is made of
-    held_up: tuple[HeldUp, ...]
-    held_by_lights: tuple[HeldByLight, ...]
-    forced: bool = False
-    weight: float | None = None  # in the comparison of the first actions
-
-    @property
-    def samples(self) -> tuple[Sample, ...]:
-        """The goals and trajectories drawn for the others."""
-        return tuple(one for one in self.drawn if isinstance(one, Sample))
-
-    @property
-    def lights(self) -> tuple[LightSample, ...]:
-        """The courses drawn for the lights."""
-        return tuple(one for one in self.drawn if isinstance(one, LightSample))
-
-    @property
-    def braking(self) -> tuple[int, ...]:
-        """Who brakes for the ego, or for one that does, in increasing order."""
-        if not self.legs:
-            return ()
-        traffic = self.legs[-1].traffic
-        pairs = zip(traffic.vehicles, traffic.braking.tolist(), strict=True)
-        return tuple(sorted(vehicle for vehicle, brakes in pairs if brakes))
-
-    @property
-    def actions(self) -> Node:
-        """The macro actions, in order."""
-        return tuple(leg.action for leg in self.legs)
-
-
 @dataclass
 class Search:
     """One search, from which rollouts are drawn until the budget is spent."""
@@ -100,6 +69,7 @@ class Search:
     settings: Settings
     seed: str  # of all that is drawn
     lights: Outlook = DARK
+    phantoms: tuple[Phantom, ...] = ()
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
@@ -110,20 +80,23 @@ class Search:
     _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
     _motions: dict[Samples, Traffic] = field(default_factory=dict)
     _lit: dict[tuple[int, ...], Lights] = field(default_factory=dict)  # by courses
-    # By vehicle and controller: nobody shifts another's.
+    _pool: Pool = field(default_factory=dict)
+    _imagined: dict[int, Obstacle] = field(default_factory=dict)  # by index
+    # By vehicle, controller and who is imagined: nobody shifts another's.
     _draws: dict[int | str, random.Random] = field(init=False)
 
     def __post_init__(self) -> None:
         names: tuple[int | str, ...] = (
             *self.beliefs,
             *(one.controller for one in self.lights.varying),
+            *(source_of(k) for k in range(len(self.phantoms))),
         )
         self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
 
     def run(self) -> None:
         """Draw the rollouts of the search; then compare the first actions, and force the rest."""
         for _ in range(self.settings.rollouts):
-            drawn = draw(self.beliefs, self._draws, self.lights)
+            drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
             self._learn(self.tree, drawn, (), forced=False)
         self._compare()
         tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
@@ -137,7 +110,7 @@ class Search:
         """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
-            drawn = draw(self.beliefs, self._draws, self.lights)
+            drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
             self._learn(apart, drawn, actions, forced=True)
 
     def _compare(self) -> None:
@@ -150,7 +123,8 @@ class Search:
         if len(rivals) < 2:
             return
         drawn = [rollout.drawn for rollout in self.rollouts]
-        common = weighted(self.beliefs, drawn, self.settings.comparisons, self.lights)
+        most = self.settings.comparisons
+        common = weighted(self.beliefs, drawn, most, self.lights, self.phantoms)
         for action in rivals:
             self.compared[action] = 0.0
             for samples, weight in common:
@@ -232,8 +206,10 @@ class Search:
             gained = round(reward(spent), 3)
             stretches = held_up(legs, self.task.start)
             stops = held_by_lights(legs, self.task.start)
+            slow = self._held_by_hidden(legs)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
-            found = Simulated(samples, tuple(legs), outcome, shown, gained, spent, stretches, stops)
+            row = tuple(legs)
+            found = Simulated(samples, row, outcome, shown, gained, spent, stretches, stops, slow)
             self._known[key] = found
         return found
 
@@ -318,9 +294,28 @@ class Search:
                 for s in samples
                 if isinstance(s, Sample)
             ]
+            motions += [
+                self._comes(s.phantom) for s in samples if isinstance(s, PhantomSample) and s.comes
+            ]
             if courses not in self._lit:
                 self._lit[courses] = self.lights.lights(courses, self.task.horizon + GAP_HORIZON)
-            found = self._motions[samples] = Traffic.of(motions, self._lit[courses])
+            found = self._motions[samples] = Traffic.of(motions, self._lit[courses], self._pool)
+        return found
+
+    def _held_by_hidden(self, legs: Sequence[Leg]) -> tuple[HeldByHidden, ...]:
+        if not self.phantoms:
+            return ()
+        careful = tuple(pair for leg in legs for pair in leg.careful)
+        start = self.task.start
+        return held_by_hidden(self.phantoms, hindered(legs, start), careful, start)
+
+    def _comes(self, phantom: int) -> Obstacle:
+        """How somebody who is imagined would come."""
+        found = self._imagined.get(phantom)
+        if found is None:
+            steps = self.task.horizon + GAP_HORIZON
+            one, roads = self.phantoms[phantom], self.task.roads
+            found = self._imagined[phantom] = coming(roads, one, name_of(phantom), steps)
         return found
 
 

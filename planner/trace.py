@@ -12,6 +12,7 @@ from typing import Literal
 
 import msgspec
 
+from planner.hidden_areas import HeldByHidden, Phantom, PhantomSample
 from planner.road import LightChange, RoadFacts
 from planner.traffic_lights import HeldByLight, LightPrediction, LightSample, LightSupposed
 from sim.scene import Point, VehicleState
@@ -200,6 +201,8 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     braking: tuple[int, ...] = ()  # who brakes for the ego, or for one that does
     lights: tuple[LightSample, ...] = ()  # how the traffic lights were drawn to go on
     held_by_lights: tuple[HeldByLight, ...] = ()
+    phantoms: tuple[PhantomSample, ...] = ()  # who was drawn to come out of what is hidden
+    held_by_hidden: tuple[HeldByHidden, ...] = ()
 
 
 class NotApplicable(msgspec.Struct, frozen=True):
@@ -229,6 +232,7 @@ class WhatIf(msgspec.Struct, frozen=True):
     rollouts: int = 40  # drawn with the ego's forced actions
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET
+    seen_past: tuple[int, ...] | msgspec.UnsetType = msgspec.UNSET  # phantoms that are not there
 
     @property
     def gone(self) -> frozenset[int]:
@@ -262,6 +266,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
     costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
     lights: tuple[LightPrediction, ...] = ()  # the traffic lights in view, by controller
+    phantoms: tuple[Phantom, ...] = ()  # who might come out of hidden parts of the road
 
     @property
     def reckoned(self) -> Costs:
@@ -330,6 +335,7 @@ def fault_of(trace: PlanTrace) -> str | None:
     told = () if trace.road is None else {fact.vehicle for fact in trace.road.priority}
     for vehicle in {*known, *told} - trace.scene.keys():
         return f"vehicle {vehicle} is on the road and not in the scene"
+    hidden = len(trace.phantoms)
     for rollout in trace.rollouts:
         for s in rollout.samples:
             counts = ways.get(s.vehicle, [])
@@ -338,4 +344,7 @@ def fault_of(trace: PlanTrace) -> str | None:
         for drawn in rollout.lights:
             if not 0 <= drawn.course < courses.get(drawn.controller, 0):
                 return f"rollout {rollout.index} samples what is not predicted of a light"
+        imagined = {drawn.phantom for drawn in rollout.phantoms}
+        if not imagined.union(x.phantom for x in rollout.held_by_hidden) <= {*range(hidden)}:
+            return f"rollout {rollout.index} names somebody who is not imagined"
     return None

@@ -85,6 +85,7 @@ class Roads:
         self.classes: dict[str, Roads] = {}  # by kind of vehicle, kept by planner.classes
         self.footways: dict[tuple[str, int], Any] = {}  # by link, kept by planner.footways
         self.kerbs: Array | None = None  # kept by planner.kerbs
+        self.meetings: dict[tuple[str, int, int], float] = {}  # kept by planner.phantoms
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
         self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions

@@ -33,6 +33,7 @@ from planner.decide import (
     root_at,
 )
 from planner.fitting import fitted
+from planner.hidden_areas import Phantom
 from planner.recognise import Belief
 from planner.resume import resume
 from planner.routes import Refusal
@@ -81,7 +82,8 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
     _check(trace, network, request)
     frame, moment = _restore(trace, Roads(network), request)
     beliefs = _beliefs(frame, moment, request, trace.predictions)
-    changed = bool(request.gone) or request.vehicle is not None or bool(supposed_lights(request))
+    changed = bool(request.gone or supposed_lights(request) or seen_past(request))
+    changed = changed or request.vehicle is not None
     if changed:
         search = prepare(frame, moment, beliefs)
         search.run()
@@ -155,6 +157,14 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
         if light.place not in next(places, ()):
             where = f"place {light.place} of the light {light.controller!r}"
             raise NotInView(f"{where} was not in view at {trace.sim_time} s")
+    if not seen_past(request) <= frozenset(range(len(trace.phantoms))):
+        raise NotInView(f"nobody of that number was imagined at {trace.sim_time} s")
+
+
+def changes_world(request: WhatIf) -> bool:
+    """Whether what was inferred of the others is kept, though the world is another."""
+    hastened = isinstance(request.faster, float)
+    return bool(request.gone or hastened or supposed_lights(request) or seen_past(request))
 
 
 def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
@@ -187,8 +197,22 @@ def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Mo
         {vehicle: since for vehicle, since in trace.unseen.items() if vehicle not in gone},
         frozenset(_followers(trace, gone)),
         _lit(roads, trace, request),
+        _imagined(trace, request),
     )
     return frame, moment
+
+
+def seen_past(request: WhatIf) -> frozenset[int]:
+    """The indices of the imagined road users that are not there."""
+    return frozenset(request.seen_past if isinstance(request.seen_past, tuple) else ())
+
+
+def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
+    """Who may come out of what is hidden: not out of what one sees past, or from behind nobody."""
+    away, gone = seen_past(request), request.gone
+    return tuple(
+        one for k, one in enumerate(trace.phantoms) if k not in away and one.behind not in gone
+    )
 
 
 def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPrediction, ...]:
@@ -236,7 +260,7 @@ def _beliefs(
 ) -> dict[int, Sequence[Belief]]:
     """What the others may be up to, with what is supposed of one of them."""
     beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
-    if request.gone or isinstance(request.faster, float) or supposed_lights(request):
+    if changes_world(request):
         known_goals = {known.vehicle: known for known in recorded}
         beliefs = {
             one: _as_inferred(found, known_goals[one]) if one in known_goals else found

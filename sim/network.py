@@ -69,6 +69,10 @@ class Network:
         """The links that begin at the end of a lane (not of an internal one)."""
         return self._links_from.get(lane, ())
 
+    def links_to(self, lane: str) -> tuple[Link, ...]:
+        """The links that end at the beginning of a lane (not of an internal one)."""
+        return self._links_to.get(lane, ())
+
     def link_via(self, lane: str) -> Link | None:
         """The link that an internal lane belongs to."""
         return self._link_via.get(lane)
@@ -152,6 +156,13 @@ class Network:
         result: dict[str, tuple[Link, ...]] = {}
         for link in self.links:
             result[link.from_lane] = (*result.get(link.from_lane, ()), link)
+        return result
+
+    @cached_property
+    def _links_to(self) -> dict[str, tuple[Link, ...]]:
+        result: dict[str, tuple[Link, ...]] = {}
+        for link in self.links:
+            result[link.to_lane] = (*result.get(link.to_lane, ()), link)
         return result
 
     @cached_property

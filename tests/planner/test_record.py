@@ -18,7 +18,8 @@ from planner.decide import (
     rollouts,
     root_at,
 )
-from planner.search import Root, Simulated
+from planner.search import Root
+from planner.simulated import Simulated
 from planner.trace import EgoGoal, Sample, Settings, Track
 from sim.network import Location
 from sim.scene import VehicleState
@@ -48,6 +49,7 @@ def simulated(*legs: Part, samples: tuple[Sample, ...] = (), **more: Any) -> Sim
         "terms": {"time": 4.44444, "effort": 0.55556},
         "held_up": (),
         "held_by_lights": (),
+        "held_by_hidden": (),
     }  # fmt: skip
     one = Simulated(samples, (), **{**known, **more})
     return replace(one, legs=cast("Any", legs)) if legs else one

@@ -6,7 +6,8 @@ import pytest
 from planner.comparison import likeliest
 from planner.decide import predict, prepare
 from planner.forward import Motion
-from planner.search import Root, Search, Simulated
+from planner.search import Root, Search
+from planner.simulated import Simulated
 from planner.trace import ACTIONS, Settings
 from planner.tree import Tree
 from tests.planner.worlds import (
