@@ -26,8 +26,9 @@ def fitted(trace: PlanTrace) -> PlanTrace:
     holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
     what rollouts came to, and why, always stays.
     """
-    if len(encode(trace)) > MAX_BYTES:
-        trace = _without_past(trace)
+    if len(encode(trace)) <= MAX_BYTES:
+        return trace
+    trace = _without_past(trace)
     for below in IMPROBABLE:
         if len(encode(trace)) > MAX_BYTES:
             trace = _without_lines(trace, below)

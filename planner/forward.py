@@ -16,7 +16,7 @@ from planner.kernels import driving
 from planner.kernels.along import braking_caps
 from planner.kernels.course import Codes, Course, Ints
 from planner.manoeuvres import GiveWay
-from planner.obstacles import HOW, Occupancy, Traffic, occupancy
+from planner.obstacles import HOW, Occupancy, Traffic, meeting
 from planner.signals import Lights
 from planner.trace import SAMPLE_PERIOD, HoldUp
 from planner.trajectory import Array, Path
@@ -127,7 +127,8 @@ def drive(
         horizon: the last step.
         pace: [m/s] faster than which it does not want to drive, or [N] at every metre of the path.
     """
-    others = occupancy(plan.path, traffic, size[1], first, horizon + driving.GAP_HORIZON)
+    last = horizon + driving.GAP_HORIZON
+    others = meeting(plan.path, plan.lines, traffic, size[1], first, last)
     motion, held, finished, goal_time = driving.drive(
         _course(plan, np.minimum(Lane(plan.path).caps, pace), traffic.lights, size[0]),
         float(plan.end),

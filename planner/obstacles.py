@@ -3,12 +3,13 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
 from planner.kernels.course import Bools
 from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
-from planner.kernels.projection import SIDE_MARGIN, Stretches, project
+from planner.kernels.projection import SIDE_MARGIN, Stretches, project, select
 from planner.kernels.reaction import Ints, react
 from planner.manoeuvres import Foe, GiveWay, LetCross
 from planner.signals import NO_LIGHTS, Lights
@@ -64,11 +65,24 @@ class Traffic:
     braking: Bools  # [M] who has braked for the ego, or for one that did
     spaces: Array  # [M, 2] length and width [m] with what is kept free beside them
     on_foot: Bools  # [M]
+    tags: tuple[object, ...]  # [M] the same where a motion is the same one, to the same step
     lights: Lights = field(default=NO_LIGHTS)
+    pool: "Pool" = field(default_factory=dict)
 
     @classmethod
-    def of(cls, obstacles: Sequence[Obstacle], lights: Lights = NO_LIGHTS) -> "Traffic":
-        """The motions of obstacles; one that ends sooner than others stays as it is then."""
+    def of(
+        cls,
+        obstacles: Sequence[Obstacle],
+        lights: Lights = NO_LIGHTS,
+        pool: "Pool | None" = None,
+    ) -> "Traffic":
+        """The motions of obstacles; one that ends sooner than others stays as it is then.
+
+        Args:
+            obstacles: the others.
+            lights: what they show.
+            pool: shared with traffic in which some of the motions are the same.
+        """
         total = max((len(obstacle.speed) for obstacle in obstacles), default=1)
         states = np.empty((len(obstacles), total, 4))
         for m, obstacle in enumerate(obstacles):
@@ -87,7 +101,9 @@ class Traffic:
             np.zeros(len(obstacles), np.bool_),
             sizes + np.array(wider).reshape(-1, 2),
             np.array([o.on_foot for o in obstacles], np.bool_),
+            tuple(obstacles),
             lights,
+            {} if pool is None else pool,
         )
 
     def reacting(self, own: Array, size: tuple[float, float], first: int) -> "Traffic":
@@ -103,15 +119,51 @@ class Traffic:
         )
         if states is self.states and np.array_equal(noticed, self.noticed):
             return self
-        return replace(self, states=states, noticed=noticed, braking=braking)
+        tags = self.tags
+        if states is not self.states:  # only who brakes moves otherwise than before
+            late = zip(tags, braking.tolist(), strict=True)
+            tags = tuple(object() if brakes else tag for tag, brakes in late)
+        return replace(self, states=states, noticed=noticed, braking=braking, tags=tags)
 
     def since(self, step: int) -> "Traffic":
         """The same motions, with a later step as step 0."""
         states = np.ascontiguousarray(self.states[:, step:])
-        return replace(self, states=states, lights=self.lights.since(step))
+        tags = tuple((tag, step) for tag in self.tags)
+        return replace(self, states=states, tags=tags, lights=self.lights.since(step))
+
+    def only(self, which: Sequence[int]) -> "Traffic":
+        """Some of the others, by their indices in increasing order."""
+        if len(which) == len(self.vehicles):
+            return self
+        at = np.array(which, np.int64)
+        return Traffic(
+            tuple(self.vehicles[m] for m in which),
+            self.states[at],
+            self.sizes[at],
+            tuple(self.links[m] for m in which),
+            self.noticed[at],
+            self.braking[at],
+            self.spaces[at],
+            self.on_foot[at],
+            tuple(self.tags[m] for m in which),
+            self.lights,
+            self.pool,
+        )
 
 
 NOBODY = Traffic.of(())
+
+
+@dataclass(slots=True, eq=False)
+class Met:
+    """The stretches of one path that motions occupy, as far as these have been projected."""
+
+    stretches: Stretches | None = None
+    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
+
+
+#: What has been projected onto paths: by path, width, first and last step, and steps in all.
+Pool: TypeAlias = dict[tuple[Path, float, int, int, int], Met]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -177,6 +229,56 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
         path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
     )
     return Occupancy(traffic, stretches)
+
+
+def meeting(
+    path: Path,
+    lines: Sequence[GiveWay | LetCross],
+    traffic: Traffic,
+    width: float,
+    first: int,
+    last: int,
+) -> Occupancy:
+    """Project onto a path what comes onto it; what has been projected before is looked up.
+
+    Args:
+        path: the line that is driven.
+        lines: on it; who goes first at one of them counts, wherever it is.
+        traffic: the other vehicles.
+        width: [m] of the vehicle that drives along the path.
+        first, last: steps from which, and up to which, the occupancy is needed.
+    """
+    if not traffic.vehicles:
+        return occupancy(path, traffic, width, first, last)
+    key = (path, width, first, last, traffic.states.shape[1])
+    met = traffic.pool.get(key)
+    if met is None:
+        met = traffic.pool[key] = Met()
+    fresh = [m for m, tag in enumerate(traffic.tags) if tag not in met.rows]
+    if fresh or met.stretches is None:
+        _add(met, path, traffic.only(fresh), width, first, last)
+    assert met.stretches is not None
+    firsts: set[tuple[str, int]] = set()
+    for line in lines:
+        firsts.update(line.yields_to, (foe.key for foe in line.foes))
+    rows = [met.rows[tag] for tag in traffic.tags]
+    there = [m for m, own in enumerate(traffic.links) if rows[m] >= 0 or not firsts.isdisjoint(own)]
+    some = traffic.only(there)
+    chosen = np.array([rows[m] for m in there], np.int64)
+    return Occupancy(some, select(met.stretches, chosen, some.states))
+
+
+def _add(met: Met, path: Path, traffic: Traffic, width: float, first: int, last: int) -> None:
+    """Project motions that have not been projected onto a path yet."""
+    found = project(
+        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
+    )
+    known = 0 if met.stretches is None else len(met.stretches.last)
+    for m, (tag, last_on) in enumerate(zip(traffic.tags, found.last.tolist(), strict=True)):
+        met.rows[tag] = known + m if last_on >= 0 else -1
+    if met.stretches is not None:
+        found = Stretches(*map(np.concatenate, zip(met.stretches, found, strict=True)))
+    met.stretches = found
 
 
 def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:

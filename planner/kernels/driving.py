@@ -40,6 +40,7 @@ FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
 LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 
 _jit = njit(cache=True, error_model="numpy")
+_inline = njit(cache=True, error_model="numpy", inline="always")  # spares counting references
 
 
 @_jit
@@ -66,7 +67,7 @@ def _cap(caps: Floats, arc: float) -> float:
     return float(caps[k] if k < len(caps) else caps[-1])
 
 
-@_jit
+@_inline
 def accelerate(
     course: Course,
     motion: Motion,
@@ -129,7 +130,7 @@ def accelerate(
     return (chosen, -1, LEADER, -1) if wanted > free - HINDERED else (chosen, who, how, light)
 
 
-@_jit
+@_inline
 def _shut(course: Course, motion: Motion, step: int) -> tuple[int, float]:
     """The next light at which one can stop (at amber, gently; -1: none), and how far [m] it is."""
     arc, speed, acceleration = motion
@@ -155,7 +156,7 @@ def _queues(others: Stretches, who: int, how: int, step: int, stop: float) -> bo
     return bool(others.low[who, t] < stop and others.speed[who, t] < JAM)
 
 
-@_jit
+@_inline
 def _follow(
     motion: Motion, step: int, others: Stretches, ignored: Bools, length: float, wanted: float
 ) -> tuple[float, float, int]:
@@ -175,14 +176,14 @@ def _follow(
     return wanted, hardest, who
 
 
-@_jit
+@_inline
 def _make_room(
     motion: Motion, step: int, others: Stretches, length: float, wanted: float
 ) -> tuple[float, int]:
     """The wanted speed [m/s] behind those about to move in, as if they had led, and for whom."""
     arc, who, last = motion[0], -1, others.low.shape[1] - 1
     for m in range(len(others.low)):
-        if not math.isnan(others.low[m, min(step, last)]):
+        if others.last[m] < step or not math.isnan(others.low[m, min(step, last)]):
             continue
         for t in range(min(step + 1, last), min(step + FORESIGHT, last) + 1):
             if not math.isnan(others.low[m, t]) and others.cosine[m, t] > ALIGNED:
@@ -202,7 +203,7 @@ def _near(speed: float) -> float:
     return speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
 
 
-@_jit
+@_inline
 def _keep_clear(
     motion: Motion, step: int, others: Stretches, ignored: Bools, rooms: Floats, wanted: float
 ) -> tuple[float, int]:
@@ -231,15 +232,17 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
     return found if found >= 0 and others.speed[found, t] < JAM else -1
 
 
-@_jit
+@_inline
 def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
     """The speed [m/s] at which to come to a line while somebody with priority stands there."""
-    slow = crossing.speed[:, min(step, crossing.low.shape[1] - 1)] < JAM
-    found, t = math.inf, min(step, firsts.shape[2] - 1)
+    speed, found = crossing.speed, math.inf
+    now, t = min(step, speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
-        if gap > 0.0 and lines[line, 2] > 0.0 and np.any(firsts[line, :, t] & slow):
-            found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
+        if gap > 0.0 and lines[line, 2] > 0.0:
+            for m in range(len(speed)):
+                if firsts[line, m, t] and speed[m, now] < JAM:
+                    found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
     return found
 
 

@@ -8,10 +8,15 @@ from numba import njit
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
 FOREVER = 1 << 30  # a step that never comes
+SLACK = 1e-3  # [m] of error in distances, at most
+PATIENCE = 5  # steps after which it is measured again how far from the path a vehicle is
+
+Box = tuple[float, float, float, float]
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -64,6 +69,8 @@ def project(
     """
     count, total = states.shape[0], states.shape[1]
     found = _empty(count, total)
+    if count == 0:
+        return found
     line = _line(points, arc, heading)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     corridor = 0.5 * width + SIDE_MARGIN
@@ -73,6 +80,32 @@ def project(
         _note_entries(found.low[m], found.entered[m])
         _widen(found, m)
     return found
+
+
+@_jit
+def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
+    """Some rows of what was found, in order; -1 for a vehicle that is never on the path.
+
+    Args:
+        found: the stretches of several vehicles.
+        rows: [M] of these.
+        states: [M, T, 4] of the vehicles wanted.
+    """
+    count, total = states.shape[0], states.shape[1]
+    some = _empty(count, total)
+    for m in range(count):
+        k = rows[m]
+        some.speed[m] = states[m, :, 3]
+        if k < 0:
+            _note_entries(some.low[m], some.entered[m])
+            some.last[m], some.top[m] = -1.0, -math.inf
+            continue
+        some.low[m], some.high[m] = found.low[k], found.high[k]
+        some.wide_low[m], some.wide_high[m] = found.wide_low[k], found.wide_high[k]
+        some.along[m], some.cosine[m] = found.along[k], found.cosine[k]
+        some.entered[m] = found.entered[k]
+        some.last[m], some.top[m] = found.last[k], found.top[k]
+    return some
 
 
 @_jit
@@ -115,17 +148,54 @@ def _occupied(
     m: int,
     start: int,
 ) -> None:
-    """Fill in the steps of one vehicle, from step `start` on."""
+    """Fill in the steps of one vehicle, from step `start` on.
+
+    How far it is from the path is measured now and then; until it has come so far it is not on it.
+    """
     low, high = found.low[m, start:], found.high[m, start:]
     along, cosine = found.along[m, start:], found.cosine[m, start:]
-    near = 0
+    points, length = line.points, size[0]
+    widest = corridor + 0.5 * (length + size[1])
+    reach = widest + 1.5 * length + SLACK  # [m] from its front within which the path must lie
+    behind = 0.5 * length + SLACK
+    near, room, again = 0, 0.0, 0
     for t in range(len(states)):
+        x, y = states[t, 0], states[t, 1]
         if t > 0 and _alike(states[t], states[t - 1]):
             low[t], high[t], cosine[t] = low[t - 1], high[t - 1], cosine[t - 1]
             along[t] = states[t, 3] * cosine[t]
-        elif math.isfinite(states[t, 0]):
-            near, low[t], high[t], cosine[t] = _stretch(line, states[t], size, corridor, near)
-            along[t] = states[t, 3] * cosine[t]
+            continue
+        if not math.isfinite(x):
+            room = 0.0
+            continue
+        if t > 0 and room > 0.0:
+            room -= _distance(x, y, states[t - 1, 0], states[t - 1, 1])
+        dx, dy = x - points[0, 0], y - points[0, 1]
+        ahead = dx * line.cos[0] + dy * line.sin[0]
+        aside = dy * line.cos[0] - dx * line.sin[0]
+        if ahead >= behind or abs(aside) >= widest + behind:  # does not follow
+            if not room > 0.0 and t >= again:
+                room = _clearance(points, line.box, x, y, line.spacing, reach) - reach
+                again = t + PATIENCE
+            if room > 0.0:
+                continue
+        near, low[t], high[t], cosine[t] = _stretch(line, states[t], size, corridor, near)
+        along[t] = states[t, 3] * cosine[t]
+
+
+@_jit
+def _clearance(points: Floats, box: Box, x: float, y: float, spacing: float, reach: float) -> float:
+    """A distance [m] that (x, y) keeps to a path at least; one beyond `reach` where that holds."""
+    off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
+    if off > reach:
+        return off
+    best = 2.0 * reach
+    k = 0
+    while k < len(points) and best > reach:
+        d = _distance(points[k, 0], points[k, 1], x, y)
+        best = min(best, d)
+        k += max(1, int((d - best) / spacing))
+    return best
 
 
 @_jit

@@ -42,7 +42,8 @@ class Drivers(NamedTuple):
     """The others, as they go on."""
 
     paths: Floats  # [M, T, 4] predicted states
-    arcs: Floats  # [m] [M, T] along them
+    arcs: Floats  # [m] [M, T] along them; filled in for those that are measured
+    measured: Bools  # [M] whose arcs are filled in
     sizes: Floats  # [m] [M, 2] length and width
     at: Floats  # [M] step of the prediction that each has come to; behind the time once it is late
     pace: Floats  # [m/s] [M]
@@ -89,16 +90,18 @@ def react(
     count, total = states.shape[:2]
     pace = states[:, min(first, total - 1), 3].copy()
     at, late = np.full(count, float(first)), braking.copy()
-    them = Drivers(states, _arcs(states), sizes, at, pace, noticed.copy(), late)
+    arcs, measured = np.empty((count, total)), np.zeros(count, np.bool_)
+    them = Drivers(states, arcs, measured, sizes, at, pace, noticed.copy(), late)
     moved, ends = states, min(first + len(own), total) - 1
+    pushes = np.empty(count)  # [m/s2] left to each
     for t in range(first, total - 1):
         if t >= ends and moved is states:
             break  # nobody reacts
-        pushes = np.full(count, math.inf)  # [m/s2] left to each
+        pushes[:] = math.inf
         if t < ends:
             _mind(them, pushes, _ego(own, t - first, size), moved, t)
         for m in range(count):
-            if at[m] == t and not _brakes(them, m, pushes[m]):
+            if at[m] == t and (pushes[m] == math.inf or not _brakes(them, m, pushes[m])):
                 at[m], pace[m] = float(t + 1), states[m, t + 1, 3]
                 continue
             moved = states.copy() if moved is states else moved
@@ -131,31 +134,35 @@ def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> 
     very first step on knows of it.
     """
     paths, sizes, at, pace = them.paths, them.sizes, them.at, them.pace
+    noticed, late = them.noticed, them.late
     for m in range(len(pushes)):
-        push, k = math.inf, int(at[m])
         x, y = moved[m, t, 0], moved[m, t, 1]
-        if _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], ego):
+        if not _near(x, y, pace[m], sizes[m, 0], ego):
+            noticed[m] = 0
+            continue
+        push = math.inf
+        if _concerns(paths, m, int(at[m]), x, y, pace[m], sizes[m, 0], ego):
             push = _push(them, m, moved, t, ego)
         if push == math.inf:
-            them.noticed[m] = 0
+            noticed[m] = 0
         else:
-            them.noticed[m] += DELAY + 1 if t == 0 else 1
-            if them.noticed[m] > DELAY:
+            noticed[m] += DELAY + 1 if t == 0 else 1
+            if noticed[m] > DELAY:
                 pushes[m] = push
     for n in range(len(pushes)):
-        if them.late[n]:
-            leader = _leader(moved[n, t], (them.sizes[n, 0], them.sizes[n, 1]), 0.0)
-            for m in range(len(pushes)):
-                x, y, k = moved[m, t, 0], moved[m, t, 1], int(at[m])
-                if n != m and _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], leader):
-                    pushes[m] = min(pushes[m], _push(them, m, moved, t, leader))
+        if not late[n]:
+            continue
+        leader = _leader(moved[n, t], (sizes[n, 0], sizes[n, 1]), 0.0)
+        for m in range(len(pushes)):
+            x, y, k = moved[m, t, 0], moved[m, t, 1], int(at[m])
+            near = n != m and _near(x, y, pace[m], sizes[m, 0], leader)
+            if near and _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], leader):
+                pushes[m] = min(pushes[m], _push(them, m, moved, t, leader))
 
 
 @_jit
 def _brakes(them: Drivers, m: int, push: float) -> bool:
     """Whether a driver that is as predicted now brakes harder than that, so that it shows."""
-    if push == math.inf:
-        return False
     k = int(them.at[m])
     planned = (them.paths[m, k + 1, 3] - them.pace[m]) / STEP
     least = planned if them.late[m] else min(planned, 0.0) - NOTICEABLE
@@ -174,6 +181,14 @@ def _drive_on(them: Drivers, m: int, t: int, push: float, state: Floats) -> None
     them.at[m] = min(_onward(path, at, room), float(t + 1))
     them.pace[m] = faster
     _put(path, them.at[m], faster, state)
+
+
+@_jit
+def _near(x: float, y: float, pace: float, length: float, leader: Leader) -> bool:
+    """Whether a leader may be near enough to concern a driver at (x, y), told without a root."""
+    dx, dy = leader.x - x, leader.y - y
+    reach = _wished(pace, pace) + leader.length + length + 1e-6
+    return bool(dx * dx + dy * dy <= reach * reach)
 
 
 @_jit
@@ -243,6 +258,9 @@ def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[flo
         point lies, and the sample there.
     """
     path, arcs, start = them.paths[m], them.arcs[m], int(them.at[m])
+    if not them.measured[m]:
+        _measure(path, arcs)
+        them.measured[m] = True
     mine = arcs[start] + _norm(here[0] - path[start, 0], here[1] - path[start, 1])
     wanted = mine + _norm(x - here[0], y - here[1])
     k = min(start + np.searchsorted(arcs[start:], wanted), len(path) - 1)
@@ -261,15 +279,12 @@ def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[flo
 
 
 @_jit
-def _arcs(states: Floats) -> Floats:
-    """How far [m] each has come along its path by each step [M, T]."""
-    found = np.zeros(states.shape[:2])
-    for m in range(len(states)):
-        for k in range(1, states.shape[1]):
-            dx, dy = states[m, k, 0] - states[m, k - 1, 0], states[m, k, 1] - states[m, k - 1, 1]
-            step = _norm(dx, dy)
-            found[m, k] = found[m, k - 1] + (0.0 if math.isnan(step) else step)
-    return found
+def _measure(path: Floats, arcs: Floats) -> None:
+    """Fill in how far [m] [T] a driver has come along its path [T, 4] by each step."""
+    arcs[0] = 0.0
+    for k in range(1, len(path)):
+        step = _norm(path[k, 0] - path[k - 1, 0], path[k, 1] - path[k - 1, 1])
+        arcs[k] = arcs[k - 1] + (0.0 if math.isnan(step) else step)
 
 
 @_jit
