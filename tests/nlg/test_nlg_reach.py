@@ -12,12 +12,14 @@ from msgspec import Struct, structs
 from tests.nlg import (
     answer_cases,
     causal_cases,
+    danger_cases,
     dialogue_cases,
     journey_cases,
     light_cases,
     measure_cases,
     rare_cases,
     supposed_cases,
+    turn_cases,
 )
 from tests.nlg.scenery import CONTEXT
 from tests.nlg.test_nlg_properties import check
@@ -34,6 +36,8 @@ CASES = (
     *answer_cases.CASES,
     *causal_cases.CASES,
     *dialogue_cases.CASES,
+    *danger_cases.CASES,
+    *turn_cases.CASES,
     *journey_cases.CASES,
     *light_cases.CASES,
     *rare_cases.CASES,

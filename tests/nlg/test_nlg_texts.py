@@ -5,7 +5,15 @@ from typing import get_args
 
 import pytest
 
-from tests.nlg import answer_cases, dialogue_cases, journey_cases, light_cases, measure_cases
+from tests.nlg import (
+    answer_cases,
+    danger_cases,
+    dialogue_cases,
+    journey_cases,
+    light_cases,
+    measure_cases,
+    turn_cases,
+)
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Answer, Measures
 from xavi_dialogue.domain.traffic_lights import LightAnswer
@@ -40,6 +48,16 @@ def test_an_answer_about_our_way_is_said(answer, text):
     assert say(answer, CONTEXT).text == text
 
 
+@pytest.mark.parametrize(("answer", "text"), table("danger", danger_cases.CASES))
+def test_an_answer_about_danger_is_said(answer, text):
+    assert say(answer, CONTEXT).text == text
+
+
+@pytest.mark.parametrize(("answer", "text"), table("turn", turn_cases.CASES))
+def test_an_answer_about_turns_is_said(answer, text):
+    assert say(answer, CONTEXT).text == text
+
+
 def test_every_attribute_has_a_case():
     cases = {m.attribute for case in measure_cases.CASES for m in case}
     assert cases == set(get_args(Attribute))
@@ -51,6 +69,8 @@ def test_every_kind_of_factual_answer_has_a_case():
         for case in (
             *answer_cases.CASES,
             *dialogue_cases.CASES,
+            *danger_cases.CASES,
+            *turn_cases.CASES,
             *journey_cases.CASES,
             *light_cases.CASES,
         )

@@ -40,7 +40,9 @@ from xavi_dialogue.domain.findings import (
     Options,
     PlanAhead,
     Priority,
+    PullingUp,
     Staying,
+    Unblocking,
     Verdict,
 )
 from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit, Wavered
@@ -74,9 +76,10 @@ __all__ = [
     "Measures", "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout",
     "NoSuchVehicle", "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options",
     "OtherReason", "OutcomeEstimate", "OwnSignal", "Pivot", "PlaceReason", "PlanAhead", "Posed",
-    "Priority", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Sociable", "Staying",
-    "Summit", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle",
-    "Unavailable", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
+    "Priority", "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Sociable",
+    "Staying", "Summit", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle",
+    "Unavailable", "Unblocking", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing",
+    "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -107,6 +110,7 @@ class Sociable(Value, frozen=True):
     """The reply to a social move."""
 
     kind: str  # of `meaning.Social`
+    fact: "Answer | None" = None  # that bears on what is asked about
 
 
 class Helpful(Value, frozen=True):
@@ -303,6 +307,8 @@ Answer: TypeAlias = (
     | Priority
     | Comfort
     | Closeness
+    | PullingUp
+    | Unblocking
     | Course
     | Summit
     | Decided

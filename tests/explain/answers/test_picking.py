@@ -192,23 +192,23 @@ QUEUE = {(1, 0): 4.0, (2, 1): 15.0, (3, 2): 16.0}
 
 
 def test_the_head_of_a_queue_is_the_foremost_of_those_who_stand_close() -> None:
-    assert queues.head(row(QUEUE).asked()) == Vehicle(2)  # 3 stands too far from 2
-    assert queues.head(row({(1, 0): 15.1}).asked()) is None
-    assert queues.head(row(QUEUE, speed=3.0).asked()) == Vehicle(2)
-    assert queues.head(row(QUEUE, speed=3.1).asked()) is None
-    assert queues.head(row(QUEUE, oncoming=True).asked()) is None
-    assert queues.head(row(QUEUE, in_view=False).asked()) is None
-    assert queues.head(row({(1, 0): 9.0, (2, 0): 4.0}).asked()) == Vehicle(2)
+    assert queues.head(row(QUEUE).asked(), NOW) == Vehicle(2)  # 3 stands too far from 2
+    assert queues.head(row({(1, 0): 15.1}).asked(), NOW) is None
+    assert queues.head(row(QUEUE, speed=3.0).asked(), NOW) == Vehicle(2)
+    assert queues.head(row(QUEUE, speed=3.1).asked(), NOW) is None
+    assert queues.head(row(QUEUE, oncoming=True).asked(), NOW) is None
+    assert queues.head(row(QUEUE, in_view=False).asked(), NOW) is None
+    assert queues.head(row({(1, 0): 9.0, (2, 0): 4.0}).asked(), NOW) == Vehicle(2)
 
 
 def test_a_ring_of_vehicles_is_gone_round_once() -> None:
-    assert queues.head(row({(1, 0): 4.0, (2, 1): 4.0, (1, 2): 4.0}).asked()) == Vehicle(2)
+    assert queues.head(row({(1, 0): 4.0, (2, 1): 4.0, (1, 2): 4.0}).asked(), NOW) == Vehicle(2)
 
 
 def test_who_is_close_but_not_ahead_is_not_in_the_queue() -> None:
     given = row(QUEUE)
     given.relations = {("ahead-of", Vehicle(1), Ego()): True}
-    assert queues.head(given.asked()) == Vehicle(1)
+    assert queues.head(given.asked(), NOW) == Vehicle(1)
 
 
 @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ NEEDED = frozenset(("necessary", "worth-it", "better"))
 LISTED = frozenset(("options", "decisions"))
 #: What of ours is for something or somebody.
 HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
-RULED = frozenset(("give-way", "let-go"))
+RULED = frozenset(("give-way", "let-go", "wait"))
 REASONS = frozenset(("causes", "reasons"))
 
 

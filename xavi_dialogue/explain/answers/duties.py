@@ -186,9 +186,13 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     vehicle = number(yielder) or number(other)
     past = is_past(asked, event.time, event.tense)
     about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    ours = is_us(yielder) or (yielder is None and not is_us(other))
+    if vehicle is None and other is None and ours and not past:
+        told = _to_all(asked, about, yielder, other)
+        if told is not None:
+            return Finding(True, answer=replace(told, holds=True))
     if vehicle is None:
         about = where_rule_holds(asked, None, about)
-    ours = is_us(yielder) or (yielder is None and not is_us(other))
     if several or every is not None:
         return _owed_to_all(asked, several or asked.world.in_view(about.end), about, ours=ours)
     found = owed(priority_at(asked, vehicle, about), ours_yield=ours)

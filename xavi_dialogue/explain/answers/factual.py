@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     Listing,
     Peak,
     Request,
+    Social,
     Summarise,
     When,
     Where,
@@ -29,19 +30,17 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.explain.answers.accounts import listing, summarise
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.beliefs import how_sure
-from xavi_dialogue.explain.answers.counting import how_many
 from xavi_dialogue.explain.answers.decisions import changed
 from xavi_dialogue.explain.answers.duties import blamed
 from xavi_dialogue.explain.answers.happenings import doing, when
 from xavi_dialogue.explain.answers.identify import identify
 from xavi_dialogue.explain.answers.lasting import how_long
-from xavi_dialogue.explain.answers.measures import how_much
 from xavi_dialogue.explain.answers.places import where, whither
-from xavi_dialogue.explain.answers.queues import who
 from xavi_dialogue.explain.answers.requests import request
 from xavi_dialogue.explain.answers.rivals import rivals
 from xavi_dialogue.explain.answers.summits import peak
-from xavi_dialogue.explain.answers.talk import feel
+from xavi_dialogue.explain.answers.talk import feel, social
+from xavi_dialogue.explain.answers.turns import how_many, how_much, who
 from xavi_dialogue.explain.answers.verdicts import claim, whether
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
@@ -67,4 +66,4 @@ QUESTIONS: Mapping[type, Explainer] = {
     Compare: rivals,
 }
 #: By type of act beside `Ask`.
-ACTS: Mapping[type, Explainer] = {Claim: claim, Request: request, Feel: feel}
+ACTS: Mapping[type, Explainer] = {Claim: claim, Request: request, Feel: feel, Social: social}

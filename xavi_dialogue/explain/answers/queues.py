@@ -11,6 +11,8 @@ from xavi_dialogue.explain.answers.identify import identified, which
 
 APART: Final = 15.0  # [m] between two who stand in one row
 SLOW: Final = 3.0  # [m/s] up to which somebody is in it
+SETTING_OFF: Final = 0.8  # [m/s] from which the head of it has set off
+SOON: Final = 1.5  # [s] for which a rule that was read off holds
 
 
 def who(question: Which, asked: Asked) -> Answer:
@@ -19,7 +21,7 @@ def who(question: Which, asked: Asked) -> Answer:
     Raises:
         Unanswered: it takes for granted what did not happen.
     """
-    first = head(asked) if is_head(question.such) else None
+    first = head(asked, asked.moment) if is_head(question.such) else None
     return which(question, asked) if first is None else identified(asked, first, asked.moment)
 
 
@@ -31,10 +33,10 @@ def is_head(such: Proposition | None) -> bool:
     return False
 
 
-def head(asked: Asked) -> Vehicle | None:
-    """Find the foremost of those who stand one behind another ahead of us; None: nobody does."""
+def head(asked: Asked, at: float) -> Vehicle | None:
+    """Find who is foremost of the row that stands ahead of us at a time [s]; None: nobody does."""
     row: list[Vehicle] = []
-    while (other := _next(asked, row[-1] if row else Ego(), asked.moment)) is not None:
+    while (other := _next(asked, row[-1] if row else Ego(), at)) is not None:
         if other in row:
             break
         row.append(other)

@@ -6,13 +6,15 @@ from xavi_dialogue.domain.answers import Closeness, Comfort, Priority
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.agreement import verbs
+from xavi_dialogue.nlg.content.dangers import plan_assured
 from xavi_dialogue.nlg.content.facts import episode_message
 from xavi_dialogue.nlg.content.measures import measure_message
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.tenses import PRESENT
+from xavi_dialogue.nlg.content.turns import these
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Number, Quantity, Who
 
 NEAR = 1.0  # [m] closer than which a vehicle came very close
 CLOSE = 2.5  # [m] and close
@@ -37,12 +39,19 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
         "RULE",
         rule=answer.rule,
         ring=answer.ring,
-        all=_COUNTS.get(len(many)) if len(many) >= MANY else None,
+        all=_COUNTS.get(len(many)) if len(many) >= MANY and answer.holds is not None else None,
         who=who,
         kept=_kept(answer),
         asked=answer.holds is not None,
         holds=answer.holds,
         claim=answer.claim,
+        why=answer.why,
+        several=bool(answer.others),
+        after=these(answer.after),
+        after_has="have" if answer.after[1:] else "has",
+        apart=these(answer.apart),
+        numbered=answer.number,
+        number=Number(len(many), "vehicle") if answer.vehicle is not None else None,
         **words,
     )
     if not answer.blame:
@@ -121,6 +130,8 @@ def braked_message(answer: Comfort, context: SpeechContext) -> Message:
 
 def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     """Plan how close a vehicle came, as the answer to whether it was safe."""
+    if answer.grounds is not None:
+        return plan_assured(answer, answer.grounds, context)
     closest = answer.closest if answer.closest and answer.closest.value is not None else None
     vehicle = answer.vehicle
     judged = answer.asked in ("safe", "dangerous")
@@ -141,7 +152,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
         return Plan((risk,))
     left = answer.ttc.value if answer.ttc is not None else None
-    if judged and left is not None and left <= 2 * URGENT:
+    if judged and left is not None and left <= URGENT:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
     elif judged and answer.risk is not None and vehicle is not None:
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))

@@ -6,12 +6,14 @@ from xavi_dialogue.nlg.content import (
     clarifications,
     conduct,
     courses,
+    dangers,
     people,
     quizzes,
     requests,
     safety,
     summits,
     talk,
+    turns,
     whereabouts,
 )
 from xavi_dialogue.nlg.content import traffic_lights as lights
@@ -47,6 +49,8 @@ FACTS: dict[type, Planner] = {
     answers.Priority: safety.plan_priority,
     answers.Comfort: safety.plan_comfort,
     answers.Closeness: safety.plan_closeness,
+    answers.PullingUp: dangers.plan_pulling_up,
+    answers.Unblocking: turns.plan_unblocking,
     answers.Comforting: talk.plan_comforting,
     answers.Declined: requests.plan_declined,
     answers.Sociable: talk.plan_sociable,

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Happens,
     Next,
     Pronoun,
@@ -17,7 +18,7 @@ from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.comparing import BY
 from xavi_dialogue.nlu.compose.effects import Effects
-from xavi_dialogue.nlu.compose.sem import Group, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing, is_thing
 from xavi_dialogue.nlu.compose.wh import Wh, fact
 
 WEAK = 1.0  # cost of a clause of which nothing is said
@@ -56,8 +57,12 @@ class Options(Effects):
         if (others or open_to == Wanted()) and said is not None and not clause.comparisons:
             return Which(Wanted(), said, options)
         match fact(found[0].value) if found else None:
+            case Related(relation="has-priority-over") as related if several(options):
+                return Which(Wanted(), with_fields(related, to=Everyone()), rivals(options))
             case Related(relation="has-priority-over" | "must-yield-to") as related:
                 return Which(Wanted(), with_fields(related, to=other))
+            case Happens(event=event) as order if "first" in event.manner and several(options):
+                return Which(Wanted(), order, rivals(options))
             case Happens(event=event) if event.action in _YIELDS or "first" in event.manner:
                 return Which(Wanted(), Happens(with_fields(event, object=other)))
         if wh.kind == "who" and Ego() in options and other is not None and not clause.comparisons:
@@ -85,6 +90,16 @@ class Options(Effects):
         return None
 
 
+def rivals(options: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Give those of some options who are not us."""
+    return tuple(one for one in options if not isinstance(one, Ego))
+
+
+def several(options: tuple[Any, ...]) -> bool:
+    """Say whether there are others than one among which it is asked who goes first."""
+    return len(rivals(options)) > 1
+
+
 def alternatives(clause: Clause) -> tuple[Any, ...] | None:
     """Take "we or the blue one" out of a clause that asks which of them."""
     named = _named(clause)
@@ -94,9 +109,13 @@ def alternatives(clause: Clause) -> tuple[Any, ...] | None:
 
 
 def _named(clause: Clause) -> tuple[Any, ...] | None:
-    for index, (sem, _) in enumerate(clause.objects):
+    for index, (sem, part) in enumerate(clause.objects):
         if isinstance(sem, Group) and sem.join == "or":
             del clause.objects[index]
+            owned, *others = sem.members
+            if isinstance(owned, Measure) and len(others) > 1:  # "priority, the lorry or us"
+                clause.objects.insert(index, (owned, part))
+                return tuple(_option(member) for member in others)
             return tuple(_option(member) for member in sem.members)
     for index, (join, other) in enumerate(clause.chained):
         if join == "or" and clause.objects and _is_option(other):

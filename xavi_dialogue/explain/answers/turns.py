@@ -1,0 +1,214 @@
+"""Turns: who all goes before us at a junction and who after, and who has to move so that we can.
+
+The rules are those of the record of the road. Who goes before us is told in the order in which
+they are near; at the head of a row that stands, who has to move first.
+"""
+
+from typing import Final, Literal, TypeAlias
+
+from msgspec.structs import replace
+
+from planner.road import RoadFacts
+from xavi_dialogue.domain.answers import Answer, Priority, Unblocking
+from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    Related,
+    Thing,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import counting, measures, queues
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.moments import is_past
+from xavi_dialogue.explain.answers.naming import number, somebodies
+from xavi_dialogue.explain.answers.reasons import why
+
+Grounds: TypeAlias = Literal["right", "across"]
+GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
+LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
+DUTIES: Final = frozenset(("must", "should"))
+WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
+BOTH: Final = 2  # vehicles from which their order is told
+
+
+def who(question: Which, asked: Asked) -> Answer:
+    """Tell of whom something holds; of who goes first, everybody whose way meets ours.
+
+    Raises:
+        Unanswered: it takes for granted what did not happen.
+    """
+    such = question.such
+    if such is not None and _is_now(asked, such):
+        if _asks_mover(such) and (found := unblocking(asked)) is not None:
+            return found
+        if _asks_order(such) and (told := order(asked, question.among)) is not None:
+            return told
+        if _asks_whom(such) and (told := order(asked, ())) is not None:
+            return replace(told, after=()) if told.rule == "give-way" else told
+    found = queues.who(question, asked)
+    if not isinstance(found, Priority):
+        return found
+    if such is not None and found.rule == "none" and _asks_whom(such) and _is_now(asked, such):
+        return unblocking(asked) or why(Why(Not(Happens(Event("go", tense="present")))), asked)
+    return reason(asked, found)
+
+
+def how_much(question: HowMuch, asked: Asked) -> Answer:
+    """Tell a value; of the rule that holds here, for whom it holds and on what it rests.
+
+    Raises:
+        Unanswered: the record does not hold it.
+    """
+    of = question.of
+    if of.attribute == "right-of-way" and number(of.thing) is None and of.tense != "past":
+        told = order(asked, ()) if _is_now(asked, Related("has-priority-over", Wanted())) else None
+        if told is not None:
+            return told
+    found = measures.how_much(question, asked)
+    return reason(asked, found) if isinstance(found, Priority) else found
+
+
+def how_many(question: HowMany, asked: Asked) -> Answer:
+    """Tell how many there are; of those that we still have to let go first, who they are.
+
+    Raises:
+        Unanswered: it is of what the record does not hold.
+    """
+    doing = question.such.doing if isinstance(question.such, Described) else None
+    if doing is None or not _asks_whom(Happens(doing)) or is_past(asked, Unsaid(), doing.tense):
+        return counting.how_many(question, asked)
+    road = asked.world.road(asked.now)
+    if road is None:
+        return counting.how_many(question, asked)
+    before = _in_order(asked, road, "vehicle", ())
+    if not before:
+        return Priority(asked.now, "none", number=True)
+    told = Priority(asked.now, "give-way", before[0].vehicle, others=_numbers(before[1:]))
+    return replace(told, number=True, why=_why(road, before))
+
+
+def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
+    """Tell who all goes before us now, and who has to wait for us; None for fewer than two."""
+    road = asked.world.road(asked.now)
+    if road is None:
+        return None
+    only = tuple(n for t in among for v in somebodies(asked, t, asked.now) if (n := number(v)))
+    before = _in_order(asked, road, "vehicle", only)
+    after = _in_order(asked, road, "ego", only)
+    apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *after)))
+    if len(before) + len(after) < (1 if apart else BOTH):
+        return None
+    if not before:
+        others = _numbers(after[1:])
+        return Priority(asked.now, "priority", after[0].vehicle, others=others, apart=apart)
+    first, *rest = _numbers(before)
+    told = Priority(asked.now, "give-way", first, others=tuple(rest), after=_numbers(after))
+    told = replace(told, apart=apart)
+    return replace(told, why=_why(road, before))
+
+
+def unblocking(asked: Asked) -> Answer | None:
+    """Tell who has to move first so that we can go; None where nobody stands in our way."""
+    head = queues.head(asked, asked.now)
+    if head is None:
+        return order(asked, ())
+    waiting = asked.world.episodes(actor=head, actions=WAITS)
+    whom = (number(e.object) for e in waiting if e.end is None)
+    speed = asked.world.measure("speed", head, asked.now).value
+    going = speed is not None and speed > queues.SETTING_OFF
+    waits = () if going else tuple(dict.fromkeys(n for n in whom if n is not None))
+    return Unblocking(asked.now, head.number, going, waits)
+
+
+def reason(asked: Asked, told: Priority) -> Priority:
+    """Give with a rule that holds now on what it rests, where the record of the road tells it."""
+    road = asked.world.road(asked.now)
+    past = asked.now - told.time > queues.SOON or told.first is not None
+    if road is None or past or told.rule != "give-way" or told.vehicle is None:
+        return told
+    looks = (asked.world.look(v, asked.now) for v in (told.vehicle, *told.others))
+    return replace(told, why=_why(road, tuple(x for x in looks if x is not None)))
+
+
+def _why(road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
+    """Tell on what it rests that they go first: they come from the right, or we turn across."""
+    step = road.route[0] if road.route else None
+    if step is None or not before:
+        return None
+    if step.rule == "equal" and all(x.left < 0.0 and not x.oncoming for x in before):
+        return "right"
+    if step.turn == "exit-left" and step.kind == "junction" and all(x.oncoming for x in before):
+        return "across"
+    return None
+
+
+def _in_order(
+    asked: Asked, road: RoadFacts, who_goes: str, only: tuple[int, ...]
+) -> tuple[Look, ...]:
+    """Find who in view goes before or after us by the rules, the nearest first."""
+    found = [
+        look
+        for fact in road.priority
+        if fact.who == who_goes and (not only or fact.vehicle in only)
+        if (look := asked.world.look(fact.vehicle, asked.now)) is not None and look.in_view
+    ]
+    return tuple(sorted(found, key=lambda look: (look.distance, look.vehicle)))
+
+
+def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
+    return tuple(look.vehicle for look in seen)
+
+
+def _is_now(asked: Asked, such: Proposition) -> bool:
+    """Tell whether it is asked of now, or of what is to come."""
+    of = such.event if isinstance(such, Happens) else such
+    if not isinstance(of, Event | Related | Is) or of.tense not in ("present", "future"):
+        return False
+    try:
+        return not is_past(asked, of.time, "present")
+    except Unanswered:
+        return False
+
+
+def _asks_mover(such: Proposition) -> bool:
+    """Tell whether it is asked who has to move so that we can go."""
+    match such:
+        case Happens(event=Event(actor=Wanted(), object=None) as event):
+            return event.action in GOING and event.modal in DUTIES and not event.where
+        case Happens(event=Event(action="block", actor=Wanted(), object=Everyone())):
+            return True
+    return False
+
+
+def _asks_order(such: Proposition) -> bool:
+    """Tell whether it is asked who goes first, of nobody in particular."""
+    match such:
+        case Related(relation="has-priority-over", thing=Wanted(), to=to):
+            return number(to) is None
+        case Happens(event=Event(actor=Wanted(), modal=None) as event):
+            named = event.object is not None and not isinstance(event.object, Ego)
+            return event.action in GOING and "first" in event.manner and not named
+        case Is(state="first", thing=Wanted()):
+            return True
+    return False
+
+
+def _asks_whom(such: Proposition) -> bool:
+    """Tell whether it is asked whom we have to let go first."""
+    match such:
+        case Happens(event=Event(actor=Ego(), object=Wanted()) as event):
+            return event.action in LETTING and event.modal in DUTIES
+        case Happens(event=Event(actor=Wanted(), object=Ego()) as event):
+            first = event.action in GOING and "first" in event.manner
+            return first and event.modal in DUTIES
+    return False
