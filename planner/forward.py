@@ -99,8 +99,9 @@ class Lane:
     def __init__(self, path: Path, end: float = math.inf) -> None:
         """Prepare a path; where it leads to nowhere, a vehicle stops before `end` [m]."""
         self.caps = braking_caps(path.cap, path.arc, driving.COMFORT)  # [m/s] at every metre
-        room = np.maximum(end - np.arange(len(self.caps)), 0.0)
-        self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
+        if math.isfinite(end):
+            room = np.maximum(end - np.arange(len(self.caps)), 0.0)
+            self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
 
     def speed(self, arc: float) -> float:
         """The highest speed [m/s] at an arc [m]."""
