@@ -104,8 +104,11 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
             return _comfort(now, act, feel, beside)
         case Repair() as repair:
             return _repair(now, repair)
-        case Social(kind=kind):
+        case Social(kind=kind, about=None):
             return (Sociable(kind),)
+        case Social():
+            found = now.mind.explain(act, now.record)
+            return found if isinstance(found, NeedRollout) else (found,)
         case AskHelp():
             return (Helpful(),)
         case Quizzing():

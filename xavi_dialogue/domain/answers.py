@@ -348,3 +348,4 @@ class NeedRollout(Value, frozen=True):
     vehicle_actions: tuple[MacroAction, ...] = ()  # what it does first
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET  # what they show
+    seen_past: tuple[int, ...] | msgspec.UnsetType = msgspec.UNSET  # who is imagined, and not there

@@ -2,14 +2,23 @@
 
 from typing import Literal
 
+from msgspec.structs import replace
+
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import Closeness
 from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.findings import Assurance
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.foreseen import collision_chance
+from xavi_dialogue.explain.answers.foreseen import collision_chance, simulated
 from xavi_dialogue.explain.answers.moments import SHORT, Window
+from xavi_dialogue.explain.answers.priority import rule_between
+from xavi_dialogue.explain.history.thresholds import STANDING
 
-How = Literal["safe", "dangerous", "close", "hit", "room"]
+How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
+#: Who has to let the other one go first by a rule.
+_YIELDS: dict[str, Literal["we", "they"]] = {"give-way": "we", "priority": "they"}
+FADING = 0.3  # [m/s] by which what lies further back counts as further away
 NEARER = 0.5  # [m] by which a vehicle was nearer at another time
 URGENT = 10.0  # [s] beyond which a time to collision says nothing
 
@@ -28,7 +37,8 @@ def closeness(
     """
     near = about.widened() if about.instant else about
     seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
-    who = nearest_vehicle(asked, seen) if vehicle is None else vehicle
+    fading = 0.0 if seen.said else FADING
+    who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
     risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
@@ -38,6 +48,30 @@ def closeness(
     nearer = then is not None and least < then - NEARER
     soon = shortest_time(asked, who, near)
     return Closeness(who, closest, soon, risk, how, about.end, past, overall=not nearer)
+
+
+def assured(asked: Asked, vehicle: int | None) -> Closeness:
+    """Tell why no collision is expected: what is expected of a vehicle, and what was simulated.
+
+    Args:
+        asked: the act and its setting.
+        vehicle: the one asked about; None: anybody.
+    """
+    now = asked.now
+    found = closeness(asked, vehicle, Window(now, now), "grounds", past=False)
+    situations, struck = simulated(asked, now, vehicle)
+    if vehicle is None:
+        return replace(found, grounds=Assurance(situations, struck))
+    met = rule_between(asked, vehicle, Window(now, now))
+    speed = asked.world.measure("speed", Vehicle(vehicle), now).value
+    seen = asked.world.states.offset(EGO, vehicle, now)
+    reasons = Assurance(
+        situations, struck, asked.world.belief(vehicle, now),
+        stands=speed is not None and speed < STANDING,
+        yields=None if met is None else _YIELDS.get(met[1]),
+        behind=seen is not None and seen.same_way and seen.ahead + seen.clear < 0.0,
+    )  # fmt: skip
+    return replace(found, grounds=reasons)
 
 
 def closest_approach(asked: Asked, vehicle: int, about: Window) -> Measure:
@@ -57,8 +91,14 @@ def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
     return found if short else None
 
 
-def nearest_vehicle(asked: Asked, about: Window) -> int | None:
-    """Give the vehicle that came closest to us in a stretch of the ride."""
+def nearest_vehicle(asked: Asked, about: Window, fading: float = 0.0) -> int | None:
+    """Give the vehicle that came closest to us in a stretch of the ride.
+
+    Args:
+        asked: the act and its setting.
+        about: the stretch of the ride.
+        fading: [m/s] by which what lies further back counts as further away.
+    """
     found = ((v, closest_approach(asked, v, about)) for v in asked.world.vehicles)
-    ranked = [(m.value, v) for v, m in found if m.value is not None]
+    ranked = [(m.value + fading * (about.end - m.time), v) for v, m in found if m.value is not None]
     return min(ranked, default=(0.0, None))[1]

@@ -11,7 +11,7 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.moments import Window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import overlaps
-from xavi_dialogue.explain.answers.precedence import first, into_our_road
+from xavi_dialogue.explain.answers.precedence import before_us, first, into_our_road
 from xavi_dialogue.explain.causes.chances import chances
 from xavi_dialogue.explain.causes.contrast import factual
 from xavi_dialogue.explain.history.motion import branches_off, foresees
@@ -78,6 +78,10 @@ def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
         return event
     if look.oncoming or look.bearing.partition("-")[0] not in ("ahead", "behind", "beside"):
         return event
+    road = asked.world.road(at)
+    place = None if road is None else road.places.get(vehicle)
+    if place is not None and place.roundabout:
+        return event
     if event.action == "pull-out" and look.bearing in ("ahead", "behind"):
         return replace(event, action="change-lane")  # from before or behind us, to another lane
     return replace(event, action="change-right" if look.left > 0.0 else "change-left")
@@ -90,10 +94,10 @@ def _meeting_us(trace: PlanTrace, way: TrajectoryPrediction, event: Event) -> bo
         return into_our_road(trace, way)
     if not ours or event.action not in ("pull-out", "cross", *YIELDS):
         return None
-    came, yields = first(trace, way), event.action in YIELDS
-    if came is None or (yields and came == "nobody"):
-        return None
-    return (came == "they") != yields
+    if event.action not in YIELDS:
+        return before_us(trace, way)
+    came = first(trace, way)
+    return None if came in (None, "nobody") else came == "we"
 
 
 def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
@@ -224,6 +228,19 @@ def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> flo
     except Unanswered:
         return None
     return found.collision if vehicle is None else found.collision_with(vehicle)
+
+
+def simulated(asked: Asked, at: float, vehicle: int | None = None) -> tuple[int, int]:
+    """Tell in how many situations the plan at a time [s] was simulated, and how many collided."""
+    trace = asked.ride.at(at)
+    if trace is None or not trace.plan:
+        return 0, 0
+    try:
+        found = factual(asked.ride.model(trace), trace).results
+    except Unanswered:
+        return 0, 0
+    hit = [r.rollout for r in found if r.rollout.outcome == "collision"]
+    return len(found), len([r for r in hit if vehicle in (None, r.collided_with)])
 
 
 def _yields(stretches: tuple[HeldUp, ...], event: Event) -> bool:

@@ -31,7 +31,7 @@ from xavi_dialogue.explain.answers.foreseen import (
 from xavi_dialogue.explain.answers.leaving import apart, left_behind, still_there
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
-from xavi_dialogue.explain.answers.nearing import closes, nears, passes, stays, trails
+from xavi_dialogue.explain.answers.nearing import closes, nears, settled, trails
 from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.picking import likeliest
 from xavi_dialogue.explain.answers.places import to_go, told
@@ -201,9 +201,9 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if vehicle is None:
         return likeliest(asked, event)
     look = look_of(asked, event.actor, now)
-    settled = passes(asked, event) or stays(asked, event, going)
-    if settled is not None:
-        return settled
+    by_sight = settled(asked, event, going)
+    if by_sight is not None:
+        return by_sight
     belief = asked.world.belief(vehicle, now)
     share = chance(asked, event, now)
     if share is None and belief is not None and (look is None or look.in_view):

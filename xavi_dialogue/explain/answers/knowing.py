@@ -31,9 +31,11 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, foils, others
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.beliefs import ruled, since_when
+from xavi_dialogue.explain.answers.closeness import assured
 from xavi_dialogue.explain.answers.foreseen import besides, chance, collision_chance
 from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.motions import motion
+from xavi_dialogue.explain.answers.nearing import BEFORE_US, POSSIBLE, comes_before
 from xavi_dialogue.explain.answers.priority import priority_at, right_of_way
 from xavi_dialogue.explain.answers.reading import (
     check_seen,
@@ -52,6 +54,7 @@ from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.history.ride import prediction
 
+COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 FORESEEN = 12.0  # [s] within which what came is what was foreseen
 MOVED = 0.05  # of probability, from which a belief has moved
 
@@ -74,6 +77,14 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
     yields = event is not None and event.action in YIELDS | {"wait"}
     if vehicle is not None and event is not None and yields:
         return since_when(scene, event)
+    if event is not None and event.action in COLLIDING and not is_past(scene, event):
+        return assured(scene, vehicle or vehicle_in(event.object))
+    if event is not None and vehicle is not None and event.action in BEFORE_US:
+        told = comes_before(scene, event)
+        open_ = told is not None and (told.probability is None or told.probability >= POSSIBLE)
+        if told is not None and open_:
+            return told.answer or told.verdict(Happens(event))
+        return assured(scene, vehicle)
     if vehicle is not None:
         names = () if event is None else conduct_names(event)
         held = event is None or event.modal == "would" or not isinstance(event.time, Now)
@@ -142,10 +153,9 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         found = about_foil(ride, about, names)
         foil = to_macros(ride.model(found.trace), names, found.node)
         return certainty.of_choice(ride, found, foil) or certainty.of_plan(ride, found)
-    if event is not None and not choices.is_choice(event):
-        found = Premise(_trace_at(scene), None)
-    else:
-        found = premise(ride, subject(scene, event))
+    if event is not None and not choices.is_choice(event):  # it comes of the plan, as it is
+        return certainty.of_plan(ride, Premise(_trace_at(scene), None))
+    found = premise(ride, subject(scene, event))
     return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
 
 

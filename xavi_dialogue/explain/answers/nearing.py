@@ -2,16 +2,23 @@
 
 from typing import Final
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import PlaceReason
-from xavi_dialogue.domain.facts import Fact, Look, Measure
+from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
 from xavi_dialogue.domain.terms import Ego, Event, Now, Unsaid, Vehicle
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.findings import Finding, known
-from xavi_dialogue.explain.answers.naming import is_us, look_of
+from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, known
+from xavi_dialogue.explain.answers.foreseen import chance
+from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.naming import is_us, look_of, number
 from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.priority import priority_at, rule_between
 
 BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
 ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
+BEFORE_US: Final = ("cross", "pull-out")
+POSSIBLE: Final = 0.1  # probability from which it is told that it may do so by the rule
 SINCE: Final = 1.0  # [s] over which distances are compared to tell whether somebody comes closer
 CLOSER: Final = 0.2  # [m] by which he is closer then
 
@@ -25,6 +32,11 @@ def nears(asked: Asked, event: Event) -> Finding | None:
         return None
     speeds, ours = _speeds(asked, look)
     return None if ours is None else Finding(ours > look.speed, speeds)
+
+
+def settled(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
+    """Tell what is to come by how both drive now, or by who comes first; None of all else."""
+    return passes(asked, event) or stays(asked, event, going) or comes_before(asked, event)
 
 
 def passes(asked: Asked, event: Event) -> Finding | None:
@@ -46,6 +58,29 @@ def passes(asked: Asked, event: Event) -> Finding | None:
         return None  # it is about to move behind us
     speeds, ours = _speeds(asked, look)
     return None if ours is None else Finding(look.speed > ours, speeds)
+
+
+def comes_before(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether somebody is going to cross our way before us, and who has right of way.
+
+    None where that is not asked, or neither is known.
+    """
+    vehicle = number(event.actor)
+    ours = event.object is None or is_us(event.object)
+    look = look_of(asked, event.actor, asked.now) if vehicle is not None else None
+    if event.action not in BEFORE_US or vehicle is None or not ours:
+        return None
+    if look is None or not look.in_view or occasion(asked, replace(event, tense="present")):
+        return None
+    now = Window(asked.now, asked.now)
+    met, share = rule_between(asked, vehicle, now), chance(asked, event, asked.now)
+    owed = met is not None and met[1] == "give-way"
+    if share is None:
+        return Finding(None, answer=priority_at(asked, vehicle, now)) if owed else None
+    rule = Relating("has-priority-over", Vehicle(vehicle), Ego(), asked.now, True)
+    return Finding(
+        share >= EXPECTED, (rule,) if owed and share >= POSSIBLE else (), probability=share
+    )
 
 
 def closes(asked: Asked, event: Event) -> Finding | None:

@@ -15,6 +15,7 @@ MEETING: Final = 2.0  # [m] within which two lines meet
 MOVING: Final = 0.5  # [m/s] from which a vehicle drives along its line
 TURNED: Final = math.radians(35.0)  # up to which a direction counts as the same
 BESIDE: Final = 9.0  # [m] sideways up to which somebody is on our road
+SHORTLY: Final = 4.0  # [s] before us within which somebody passes in front of us
 AHEAD: Final = 15.0  # [m] of our way that tell how our road runs
 
 First: TypeAlias = Literal["we", "they", "nobody"]
@@ -32,6 +33,18 @@ def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
         if there is not None:
             return "they" if trace.sim_time + k * SAMPLE_PERIOD <= there else "we"
     return "nobody"
+
+
+def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
+    """Tell whether a way leads shortly before us past a place of ours; None: it is not known."""
+    ours = _planned(trace)
+    if ours is None or not way.path or not way.speed:
+        return None
+    for k, (place, speed) in enumerate(zip(way.path, way.speed, strict=False)):
+        there = _reached(ours, place) if speed > MOVING else None
+        if there is not None and 0.0 <= there - trace.sim_time - k * SAMPLE_PERIOD <= SHORTLY:
+            return True
+    return False
 
 
 def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:

@@ -1,8 +1,8 @@
 """Talk: feelings, each with what bears on it."""
 
-from xavi_dialogue.domain.answers import Answer, Comforting, Measures
+from xavi_dialogue.domain.answers import Answer, Comforting, Measures, Sociable
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Feel
+from xavi_dialogue.domain.meaning import Feel, Social
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Proposition,
     Related,
+    That,
     Thing,
     Vehicle,
 )
@@ -45,6 +46,19 @@ def feel(act: Feel, asked: Asked) -> Answer:
         return Comforting(act, _bearing(act, asked))
     except Unanswered:
         return Comforting(act)
+
+
+def social(act: Social, asked: Asked) -> Answer:
+    """Reply to a social move; where it is asked what stirred us, with how close that came."""
+    if act.about is None:
+        return Sociable(act.kind)
+    vehicle, _, _ = _about(act.about)
+    time = _recent(asked)
+    try:
+        found = _fright(asked, time) if vehicle is None else closeness(asked, vehicle, time, "safe")
+    except Unanswered:
+        return Sociable(act.kind)
+    return Sociable(act.kind, found)
 
 
 def _bearing(act: Feel, asked: Asked) -> Answer | None:
@@ -91,7 +105,7 @@ def _about(about: Proposition | Thing | None) -> tuple[int | None, bool, Event |
             return number(thing) or number(to), False, None
         case Has(thing=thing) | Exists(thing=thing):
             return number(thing), False, None
-        case None:
+        case That() | None:
             return None, False, None
     return (about.number if isinstance(about, Vehicle) else None), False, None
 

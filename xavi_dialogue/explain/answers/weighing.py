@@ -45,6 +45,7 @@ from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, windo
 from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.places import locate, whither
+from xavi_dialogue.explain.answers.pulling_up import pulls_up
 from xavi_dialogue.explain.answers.relations import related
 from xavi_dialogue.explain.history.ride import planned
 
@@ -62,7 +63,8 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
     """
     match of:
         case Happens(event=event):
-            return duty(asked, event) or conduct(asked, event) or happens(of, asked)
+            owed = pulls_up(asked, event) or duty(asked, event) or conduct(asked, event)
+            return owed or happens(of, asked)
         case Related(thing=Nobody(described=None)):
             return _nobody(of, asked)
         case Related():

@@ -3,13 +3,14 @@
 from xavi_dialogue.domain.answers import (
     Acknowledged,
     Again,
+    Answer,
     Closeness,
     Comfort,
     Comforting,
     Helpful,
     Sociable,
 )
-from xavi_dialogue.nlg.content.plan import Plan
+from xavi_dialogue.nlg.content.plan import Part, Plan
 from xavi_dialogue.nlg.content.safety import braked_message, calming
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
@@ -18,19 +19,27 @@ from xavi_dialogue.nlg.surface.message import message
 def plan_comforting(answer: Comforting, context: SpeechContext) -> Plan:
     """Plan a human sentence for a feeling, and a fact that bears on it."""
     first = message("FEELING", feeling=answer.feel.feeling)
-    if isinstance(answer.fact, Closeness):
-        return Plan((first, *calming(answer.fact, context)))
-    if isinstance(answer.fact, Comfort):
-        return Plan((first, braked_message(answer.fact, context)))
     if answer.fact is not None:
-        return Plan((first, answer.fact))
+        return Plan((first, *_bearing(answer.fact, context)))
     worried = answer.feel.feeling in ("afraid", "nervous", "distrustful", "startled")
     return Plan((first,), (message("OFFER_WHY"),) if worried else ())
 
 
+def _bearing(fact: Answer, context: SpeechContext) -> tuple[Part, ...]:
+    """Plan a fact that bears on what is felt, as a plain statement."""
+    if isinstance(fact, Closeness):
+        return calming(fact, context)
+    if isinstance(fact, Comfort):
+        return (braked_message(fact, context),)
+    return (fact,)
+
+
 def plan_sociable(answer: Sociable, context: SpeechContext) -> Plan:
-    """Plan the reply to a social move."""
-    return Plan((message("SOCIAL", kind=answer.kind),))
+    """Plan the reply to a social move, with what bears on it."""
+    first = message("SOCIAL", kind=answer.kind, told=answer.fact is not None)
+    if answer.fact is None:
+        return Plan((first,))
+    return Plan((first, *_bearing(answer.fact, context)))
 
 
 def plan_helpful(answer: Helpful, context: SpeechContext) -> Plan:

@@ -10,7 +10,8 @@ from xavi_dialogue.nlg.surface.rules import Grammar, load_grammars
 
 #: The grammars of the passenger's style; their rules may call each other.
 GRAMMARS = ("answer_common", "answer_facts", "answer_measures", "answer_talk", "answer_causes",
-            "answer_refusals", "answer_questions", "answer_journeys", "answer_lights")  # fmt: skip
+            "answer_refusals", "answer_questions", "answer_journeys", "answer_lights",
+            "answer_dangers")  # fmt: skip
 
 
 def grammar() -> Grammar:

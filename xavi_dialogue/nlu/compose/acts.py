@@ -45,7 +45,7 @@ from xavi_dialogue.nlu.compose.sem import Group, Notes, as_thing
 from xavi_dialogue.nlu.compose.severally import asked_each, of_rival
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
-from xavi_dialogue.nlu.compose.talk import called, says, talk_act
+from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
 from xavi_dialogue.nlu.compose.tally import among
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, words_of
 from xavi_dialogue.nlu.compose.whys import RUN_ON, SWALLOWED, lacking, runs_on, swallows
@@ -166,10 +166,10 @@ class Composer(Statements):
         liked = liked or "do you like" in words_of(unit)
         if clause.feelings and clause.that is not None and isinstance(clause.subject, Ego):
             dreaded = self.propositions.plain(clause.that)  # "were you worried he'd pull out"
-            if dreaded is not None:
+            if dreaded is not None and clause.feelings[0] in ("afraid", "nervous"):
                 return [((Ask(HowSure(feared(dreaded), clause.time)),), 0.0)]
-        if (clause.feelings or (liked and clause.modal is None)) and _of_you(unit, clause):
-            return [((Social("feelings"),), 0.1)]
+        if (moved := stirred(unit, clause, liked=liked and clause.modal is None)) is not None:
+            return [((moved,), 0.1)]
         if says(clause) and clause.question is None:
             return [((AskHelp(),), 0.1)]
         order = self.orders.polite(clause, refrain=_refrains(unit), please=_pleads(unit))
@@ -306,13 +306,6 @@ def _missed(clause: Clause) -> bool:
 def _grounds(question: Question) -> Question:
     """Take "why do you think he stops" for the question what shows it."""
     return HowKnow(question.of) if isinstance(question, Why) else question
-
-
-def _of_you(unit: Node, clause: Clause) -> bool:
-    """Say whether "are you scared", "do you get bored" is asked: of the car, with no reason."""
-    if not isinstance(clause.subject, Ego) or clause.that is not None or clause.because is not None:
-        return False
-    return any(leaf.category == "YOU" for leaf in leaves_of(unit)) and not clause.complements
 
 
 def _pleads(unit: Node) -> bool:

@@ -49,7 +49,7 @@ from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.states import ungoverned
-from xavi_dialogue.nlu.compose.talk import bodily, feeling_of
+from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
 from xavi_dialogue.nlu.compose.tally import counts, tallied
 from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
 from xavi_dialogue.nlu.compose.wh import fact
@@ -138,7 +138,7 @@ class Statements:
         unit_words, wishing = words_of(unit), _asking(unit) == "wishing"
         feeling = feeling_of(clause, value)
         if feeling is not None:
-            return (feeling,)
+            return (feeling, *and_you(unit)) if tagged else (feeling,)
         asked = self._embedded(clause, value)
         if asked:
             return asked

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Passenger,
     Pronoun,
     Proposition,
     Quantity,
@@ -106,6 +107,7 @@ BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" i
 FOR_WHOM = 0.7  # cost of "for the bus" in "that is, for the bus, the lorry"
 RUN_ON = 1.5  # cost of "did" and "was" in one clause
 _SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
+_APART = frozenset({"with", "to", "into", "from", "of"})  # what stands before whom we are near
 Found = tuple[Proposition, float]
 
 
@@ -217,6 +219,8 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
         thing = Ego()  # "was it not too fast for this curve?"
     if state in ("close", "far") and isinstance(thing, Pronoun | Ego):
         thing = _near_what(clause, thing)
+    if state in ("dangerous", "safe") and thing in (Ego(), Passenger()):
+        thing = _from_whom(clause) or thing
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
     beside = None if bearing is None else as_thing(bearing.sem)
     if state in ("close", "far") and thing == Ego() and isinstance(beside, Described | Vehicle):
@@ -248,9 +252,15 @@ def _near_what(clause: Clause, thing: Thing) -> Thing:
     """Tell what "that was close with the car" and "is it still far" are said of."""
     for phrase in clause.complements:
         other = as_thing(phrase.sem)
-        if phrase.key in ("with", "to", "into") and isinstance(other, (Described, Vehicle)):
+        if phrase.key in _APART and isinstance(other, (Described, Vehicle)):
             return other
     return Destination() if clause.still and not clause.bearings else thing
+
+
+def _from_whom(clause: Clause) -> Thing | None:
+    """Tell who "were we in danger from him", "are we safe from that lorry" names."""
+    named = (as_thing(c.sem) for c in clause.complements if c.key in ("from", "of", "with", "by"))
+    return next((one for one in named if isinstance(one, Described | Vehicle | Pronoun)), None)
 
 
 def _compares(clause: Clause) -> Proposition | None:

@@ -51,6 +51,7 @@ _PRAISING = frozenset(
     {"clever", "good", "lovely", "brilliant", "genius", "star", "hero", "angel", "wonderful",
      "beauty", "darling", "great", "smart", "dear", "sweet"}
 )  # fmt: skip
+_STIRRING = frozenset({"frighten", "scare", "startle", "worry", "bother", "unsettle", "alarm"})
 _SAYING = frozenset({"ask", "say", "use", "talk", "speak", "phrase"})
 
 
@@ -189,6 +190,38 @@ def _object(clause: Clause, value: Special) -> Proposition | Thing | None:
     if isinstance(sem, Event):
         return Happens(sem)
     return as_thing(sem)
+
+
+def and_you(unit: Node) -> tuple[Act, ...]:
+    """Read the tail of "I was scared, weren't you?": whether the car was, too."""
+    tails = [part for part in unit.parts if isinstance(part, Node) and part.name == "tail"]
+    named = any(leaf.category == "YOU" for tail in tails for leaf in leaves_of(tail))
+    return (Social("feelings", That()),) if named else ()
+
+
+def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | None:
+    """Read "were you scared of him", "did that not frighten you", "do you like driving".
+
+    Args:
+        unit: what was asked.
+        clause: the same.
+        liked: it is asked what the car likes.
+    """
+    if not any(leaf.category == "YOU" for leaf in leaves_of(unit)):
+        return None
+    verb = clause.verb
+    if isinstance(clause.subject, Ego) and clause.because is None:
+        if liked and clause.that is None and not clause.complements:
+            return Social("feelings")
+        if clause.feelings:
+            about = None if clause.that is not None else _about(clause)
+            over = clause.tense in ("past", "perfect") and verb is None and about is None
+            return Social("feelings", That() if over else about)
+    shaken = verb is not None and verb.key in _STIRRING
+    if not shaken or not any(isinstance(sem, Ego) for sem, _ in clause.objects):
+        return None
+    thing = as_thing(clause.subject)
+    return Social("feelings", That() if thing is None or isinstance(thing, Pronoun) else thing)
 
 
 def _about(clause: Clause) -> Proposition | Thing | None:

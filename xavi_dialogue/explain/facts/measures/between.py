@@ -1,5 +1,7 @@
 """Measures between two vehicles, or to a place: gap, headway, distance, time to collision."""
 
+import math
+
 from msgspec.structs import replace
 
 from sim.scene import EGO
@@ -11,9 +13,10 @@ from xavi_dialogue.explain.facts.bearings import bearing
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.nearing import still_to
-from xavi_dialogue.explain.history.thresholds import STALE
+from xavi_dialogue.explain.history.thresholds import STALE, TREND_TIME
 
 SOON = 30.0  # [s] beyond which a collision is not foreseen
+STEERED = math.radians(3.0)  # change of heading from which a vehicle turns
 
 
 def leader(states: States, vehicle: int, time: float) -> int | None:
@@ -108,17 +111,32 @@ def time_to_collision(asked: Asked) -> Measure:
 
 
 def time_to_touch(states: States, one: int, other: int, time: float) -> float | None:
-    """The time [s] to a collision: along the way where one follows the other, else straight on."""
+    """The time [s] to a collision: along the way where one follows the other, else straight on.
+
+    None where they part, and where one of them is turning, so that neither goes straight on.
+    """
     a, b = states.state(one, time), states.state(other, time)
     if a is None or b is None:
         return None
     seen = states.offset(one, other, time)
     found = following(states, one, other, time) if seen is not None and seen.same_way else None
     if found is None:
-        return bodies.time_to_touch(a, b)
+        turning = _turns(states, one, time) or _turns(states, other, time)
+        return None if turning else bodies.time_to_touch(a, b)
     behind, ahead = (a, b) if found.behind == one else (b, a)
     closing = behind.speed - ahead.speed
     return found.gap / closing if closing * SOON > found.gap else None
+
+
+def _turns(states: States, vehicle: int, time: float) -> bool:
+    """Whether the heading of a vehicle changes within TREND_TIME of a time [s]."""
+    now = states.state(vehicle, time)
+    near = (states.state(vehicle, time + by) for by in (-TREND_TIME, TREND_TIME))
+    return now is not None and any(
+        abs(math.remainder(one.heading - now.heading, math.tau)) > STEERED
+        for one in near
+        if one is not None
+    )
 
 
 def place(asked: Asked) -> Measure:

@@ -5,7 +5,17 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Fault, Feel, Repair, Request
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    Elliptic,
+    Fault,
+    Feel,
+    Repair,
+    Request,
+    Social,
+)
 from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -13,9 +23,11 @@ from xavi_dialogue.domain.terms import (
     Is,
     Nobody,
     Proposition,
+    That,
     Thing,
     Unsaid,
 )
+from xavi_dialogue.nlu.grounding.acts.dangers import spoken_of
 from xavi_dialogue.nlu.grounding.acts.questions import question
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
 from xavi_dialogue.nlu.grounding.completion.binding import bound
@@ -57,6 +69,11 @@ def act(spoken: Act, g: Grounder) -> Act:
         case Request(event=event, negated=negated):
             return Request(_requested(event, g), negated)
         case Feel(about=about):
+            return replace(spoken, about=_about(about, g))
+        case Social(about=That()):
+            _about(None, g)
+            return replace(spoken, about=spoken_of(g) or That())
+        case Social(about=about) if about is not None:
             return replace(spoken, about=_about(about, g))
     return spoken
 

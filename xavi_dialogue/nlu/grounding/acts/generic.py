@@ -40,6 +40,7 @@ BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
 ROLLING: Final = 1.0  # [m/s] from which somebody drives along
 GAVE: Final = 6.0  # [s] since when who let somebody go first comes after him
 _MOTION: Final = frozenset(("go", "come", "move", "head"))
+_BEFORE_US: Final = frozenset(("come", "turn", "swerve"))
 _RING: Final = Junction("roundabout")
 
 
@@ -63,8 +64,8 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         ring = _site(moment, g) in ("ring", "before-ring")
         ring = ring or (number is not None and _on_ring(_road(moment, g), number))
         return event if ring else replace(event, action="move")
-    if event.action == "come" and event.where is None and event.side is None:
-        return _over(event, moment, g)
+    if event.action in _BEFORE_US and event.where is None and event.side is None:
+        return _before_us(_over(event, moment, g))
     return event
 
 
@@ -77,6 +78,13 @@ def _over(event: Event, moment: float, g: Grounder) -> Event:
     along = look.bearing.partition("-")[0] in ("ahead", "behind", "beside")
     near = look.distance <= NEAR and abs(look.left) >= BESIDE
     return replace(event, action="change-lane", object=None) if along and near else event
+
+
+def _before_us(event: Event) -> Event:
+    """Read "come in front of us", "turn into us" of who crosses our way as doing so before us."""
+    ahead = event.tense in ("present", "future") and event.modal in (None, "will", "might")
+    ours = isinstance(event.object, Ego) and isinstance(event.actor, Vehicle)
+    return replace(event, action="cross") if ahead and ours else event
 
 
 def _inwards(event: Event, moment: float, g: Grounder) -> Event:

@@ -41,6 +41,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     WholeRide,
 )
+from xavi_dialogue.nlu.grounding.acts.dangers import threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
@@ -235,7 +236,7 @@ def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
 
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
-    spoken = _of_event(spoken, g)
+    spoken = _of_event(threatened(spoken, g), g)
     if spoken.state == "far" and spoken.thing == Pronoun("it") and not spoken_of(g):
         spoken = replace(spoken, thing=Destination())  # "is it far?"
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:

@@ -1,0 +1,47 @@
+"""Answers about danger: who stops in time, why no collision is expected, what stirred us."""
+
+from tests.nlg.scenery import NOW
+from xavi_dialogue.domain.answers import Answer, Closeness, PullingUp, Sociable
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
+from xavi_dialogue.domain.findings import Assurance
+from xavi_dialogue.domain.terms import Ego, Vehicle
+
+E, V = Ego(), Vehicle(1)
+FAR = Measure("distance", E, NOW, 14.0, to=V)
+SPEED = Measure("speed", E, NOW, 9.0)
+BRAKES = Episode(V, "brake", 17.0, speed_from=13.0, speed_to=8.0)
+OURS = Episode(E, "brake", 17.0, speed_from=13.0, speed_to=9.0)
+RIGHT = Belief(1, 19.0, (Expectation(("exit-right",), 0.97),))
+
+
+def grounds(of: Assurance, vehicle: int | None = 1, risk: float | None = 0.008) -> Closeness:
+    """Make the answer to how we know that nobody hits us."""
+    near = None if vehicle is None else FAR
+    return Closeness(vehicle, near, risk=risk, asked="grounds", past=False, grounds=of)
+
+
+CASES: tuple[Answer, ...] = (
+    PullingUp(1, "stands"),
+    PullingUp(1, "brakes", behind=True, braking=BRAKES, distance=FAR, risk=0.008),
+    PullingUp(1, "brakes", braking=BRAKES, distance=FAR, risk=0.008),
+    PullingUp(1, "able", behind=True, distance=FAR, needed=8.0),
+    PullingUp(1, "able", behind=True, distance=FAR, needed=0.0),
+    PullingUp(1, "unable", behind=True, distance=FAR, needed=18.0, risk=0.3),
+    PullingUp(1, "owes", distance=FAR, chance=0.9),
+    PullingUp(1, "owes", braking=BRAKES, distance=FAR),
+    PullingUp(1, "goes-first", distance=FAR),
+    PullingUp(1, "goes-first", braking=BRAKES, distance=FAR),
+    PullingUp(1, "apart", distance=FAR),
+    PullingUp(1, "apart"),
+    PullingUp(1, "able", ours=True, braking=OURS, distance=FAR, speed=SPEED, needed=8.0),
+    PullingUp(1, "able", ours=True, distance=FAR, speed=SPEED, needed=8.0),
+    PullingUp(1, "unable", ours=True, distance=FAR, speed=SPEED, needed=18.0),
+    grounds(Assurance(12, belief=RIGHT, yields="we")),
+    grounds(Assurance(12, 1, stands=True, yields="they"), risk=0.08),
+    grounds(Assurance(1, belief=RIGHT, behind=True)),
+    grounds(Assurance(7), vehicle=None),
+    grounds(Assurance(1), vehicle=None),
+    grounds(Assurance(), risk=None),
+    Sociable("feelings"),
+    Sociable("feelings", Closeness(1, Measure("distance", E, 17.0, 4.2, to=V))),
+)

@@ -1,0 +1,64 @@
+"""Dangers: from whom, where it is asked whether we were in danger, or safe."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.terms import (
+    Ago,
+    Described,
+    Ego,
+    Event,
+    Is,
+    Passenger,
+    Pronoun,
+    Relative,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.salience import FRESH, vehicles_of
+
+STATES: Final = frozenset(("dangerous", "safe"))
+SPOKEN: Final = 0.85  # salience from which a vehicle is the one that the turn before was about
+LATELY: Final = 8.0  # [s] since that turn
+NEAR: Final = 12.0  # [m] up to which it may have been a danger
+_VAGUE: Final = ("it", "that", "this")
+
+
+def threatened(spoken: Is, g: Grounder) -> Is:
+    """Put in from whom: of the clause that says when, of the same breath, or spoken of just now.
+
+    "Were we in danger when he came past?", "It shot across. Were we in danger just then?"
+    """
+    if spoken.state not in STATES or spoken.event is not None or not _of_us(spoken):
+        return spoken
+    match spoken.time:
+        case Relative(relation="during", anchor=Event(actor=Described() | Pronoun() as whom)):
+            return replace(spoken, thing=whom)
+        case Unsaid() | Ago(seconds=None) if spoken.tense == "past":
+            known = spoken_of(g)
+            return spoken if known is None else replace(spoken, thing=known)
+    return spoken
+
+
+def _of_us(spoken: Is) -> bool:
+    """Tell whether it is said of us, or of nothing but what happened then."""
+    if isinstance(spoken.thing, Pronoun):
+        return spoken.thing.form in _VAGUE and isinstance(spoken.time, Relative)
+    return isinstance(spoken.thing, Ego | Passenger)
+
+
+def spoken_of(g: Grounder) -> Vehicle | None:
+    """Find the vehicle of the same breath, or that of the turn before which came near us."""
+    context, discourse = g.context, g.context.discourse
+    found = vehicles_of(discourse.mentions)
+    if not found:
+        return None
+    vehicle, salience = found[0]
+    if salience >= FRESH:
+        return Vehicle(vehicle)
+    recent = discourse.asked_at is not None and context.now - discourse.asked_at <= LATELY
+    look = context.look(vehicle, context.now)
+    near = look is not None and look.distance <= NEAR
+    return Vehicle(vehicle) if recent and near and salience >= SPOKEN * 0.6 else None
