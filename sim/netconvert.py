@@ -1,6 +1,7 @@
 """Compiled road networks: SUMO's netconvert, from the extra `maps`.
 
-Our own networks are written as plain XML (nodes, edges, connections) and shipped compiled;
+Our own networks are written as plain XML (nodes, edges, connections, programmes of traffic
+lights) and shipped compiled;
 `compile_plain` compiles them, and so does `python -m sim.netconvert FOLDER...`.
 `convert_opendrive` reads a map in OpenDRIVE. `generate` has netgenerate, which comes with the same
 extra, make up a network.

@@ -4,7 +4,7 @@ Errors:
     ScenarioError
     ├── ScenarioNotFound    no scenario has this name, and no folder or configuration is there
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
-        └── NeedsMaps       its network is OpenDRIVE, and netconvert is not installed
+        └── NeedsMaps       it needs what the extra `maps` brings: netconvert, or SUMO's networks
 """
 
 import xml.etree.ElementTree as ET
@@ -20,6 +20,7 @@ from sim.goal import Goal, check_goal, check_place
 from sim.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.netfile import NetworkError, read_network
 from sim.opendrive import conversion_warnings
+from sim.packaged import packaged_file
 from sim.routes import RoutesError
 from sim.source import FROM_ROUTES, Added, Departing, FromConfiguration, Rider, Source, told
 from sim.spawning import Spawn
@@ -58,7 +59,7 @@ class ScenarioInvalid(ScenarioError):
 
 
 class NeedsMaps(ScenarioInvalid):
-    """A scenario's network is OpenDRIVE, and netconvert is not installed."""
+    """A scenario needs netconvert or a network of SUMO's, and eclipse-sumo is not installed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +115,7 @@ def load(name_or_path: str | Path) -> Scenario:
         ScenarioNotFound: neither a name that exists, nor a folder with a scenario.toml, nor a
             configuration.
         ScenarioInvalid: the folder or the configuration is wrong.
-        NeedsMaps: its network is OpenDRIVE, and netconvert is not installed.
+        NeedsMaps: it needs netconvert or a network of SUMO's, and eclipse-sumo is not installed.
         SimulationError: SUMO, which reads configurations, is not installed or runs already.
     """
     with _invalid():
@@ -198,7 +199,7 @@ def _configured(place: str) -> Scenario:
 def _configured_folder(folder: Path, top: Table) -> Scenario:
     """A scenario whose folder names a SUMO configuration, and may change what it says."""
     top.only((*_CONFIGURED, *_CHANGES))
-    file = top.path("configuration", folder).resolve()
+    file = packaged_file(top, "configuration", folder).resolve()
     found = _configured(configuration.place_of(file, _rider(top)))
     return replace(
         found,

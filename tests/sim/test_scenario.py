@@ -246,6 +246,28 @@ def test_without_netconvert_the_error_names_the_extra(
         load(opendrive)
 
 
+def of_the_package(folder: Path, file: str) -> Path:
+    """A folder about a configuration of the package eclipse-sumo."""
+    (folder / "scenario.toml").write_text(
+        f'name = "mine"\ndescription = "Mine."\nconfiguration = "sumo:{file}"\nego = "a"\n'
+    )
+    return folder
+
+
+def test_without_the_package_a_configuration_of_it_names_the_extra(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    problem = "tools/a.sumocfg is part of eclipse-sumo, which is not installed"
+    with pytest.raises(NeedsMaps, match=rf"configuration: {problem}; run: pip install '.*maps"):
+        load(of_the_package(tmp_path, "tools/a.sumocfg"))
+
+
+def test_a_configuration_that_the_package_lacks(tmp_path: Path) -> None:
+    with pytest.raises(ScenarioInvalid, match=r"installed has no tools/a\.sumocfg; run: pip"):
+        load(of_the_package(tmp_path, "tools/a.sumocfg"))
+
+
 def test_a_map_that_netconvert_refuses(opendrive: Path) -> None:
     (opendrive / "s2.xodr").write_text("<nothing")
     with pytest.raises(ScenarioInvalid, match="network: cannot convert"):
