@@ -3,8 +3,7 @@
 They react to the ego where the task says so: see `planner.kernels.reaction`. A collision that
 then remains is one that the other could not have avoided by braking firmly (`FIRM`) along its
 path, once it had seen the ego there for its reaction time; or one at its side. As in traffic law,
-who is hit from behind without having changed lanes has not collided. Who changes lanes collides
-too where that leaves a follower less than the safe distance.
+who is hit from behind without having changed lanes has not collided.
 """
 
 import math
@@ -17,7 +16,7 @@ from planner.actions import ActionPlan, Situation
 from planner.caution import Careful, careful_steps, caution
 from planner.forward import DT, Drive, Hindrances, Lane, Motion, Stops, drive
 from planner.kernels.along import place
-from planner.kernels.collision import first_hit, moved_in
+from planner.kernels.collision import first_hit
 from planner.kernels.driving import RIGHT_OF_WAY
 from planner.kernels.reaction import FIRM
 from planner.obstacles import HOW, Traffic
@@ -128,8 +127,6 @@ def _leg(
     careless = plan.changes_lane and not task.yielding
     braking = FIRM if task.reacting else 0.0
     hit, who = first_hit(states, task.size, driven.first, *_real(traffic), careless, braking)
-    if who < 0 and careless and task.reacting:
-        hit, who = moved_in(states, task.size[0], driven.first, traffic.states, FIRM)
     count = len(states) if who < 0 else hit + 1
     arc, speed, acceleration = driven.motion[count - 1].tolist()
     last = Motion(arc, speed, acceleration)

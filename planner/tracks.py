@@ -69,16 +69,13 @@ class Observed:
     def pace(self) -> float:
         """The speed [m/s] faster than which it does not seem to want to drive; often infinite.
 
-        Who has driven steadily for a while, and never faster, has got to the speed it wants: the
-        mean of late, about which its speed varies. Who drove faster before wants that.
+        Who has driven steadily for a while, and never faster, has got to the speed it wants.
         """
-        lately, fastest = self.speed[-STEADY:], float(np.max(self.speed))
-        most = max(CYCLING, fastest + RIPPLE) if self.kind == "bicycle" else math.inf
+        lately, fastest = self.speed[-STEADY:], float(np.max(self.speed)) + RIPPLE
+        most = max(CYCLING, fastest) if self.kind == "bicycle" else math.inf
         if not self.paced or self.elapsed < STEADY or float(np.ptp(lately)) > RIPPLE:
             return most
-        mean = float(np.mean(lately))
-        wanted = mean if fastest - mean <= RIPPLE else fastest
-        return wanted if lately[-1] >= LEAST_PACE else most
+        return fastest if lately[-1] >= LEAST_PACE else most
 
     def situation(self, roads: Roads, sample: int, time: float) -> tuple[Situation, ...]:
         """Where it may have been at a sample: one entry for each lane that fits."""

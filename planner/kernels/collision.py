@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
-REACTION = 0.9  # [s] after which a follower brakes as hard as it does, as in Krauss' model
-LANE = 1.5  # [m] to the side up to which another is in the same lane
 BERTH = 1.0  # [m] free before and behind who changes lanes: nobody drives quite as predicted
 
 _jit = njit(cache=True, error_model="numpy")
@@ -81,48 +79,6 @@ def first_hit(
 
 
 @_jit
-def moved_in(
-    own: Floats, length: float, first: int, states: Floats, braking: float
-) -> tuple[int, int]:
-    """Where a lane change cuts a follower off, or (-1, -1).
-
-    It does where, when both come to be in one lane, the gap is less than Krauss' safe distance
-    (Krauss 1998, Eq. 4.18 solved for the gap): if the one ahead braked then, the follower, who
-    brakes alike after its reaction time, would run into it.
-
-    Args:
-        own: [S, 4] states at steps `first`, `first` + 1, ...
-        length: [m] of the vehicle.
-        states: [M, T, 4] of the others.
-        braking: [m/s2] of both.
-
-    Returns:
-        The sample, and the index of the follower.
-    """
-    found, whom = len(own), -1
-    for m in range(len(states)):
-        beside = False
-        for k in range(min(len(own), states.shape[1] - first, found)):
-            other = states[m, first + k]
-            aside = abs(
-                (other[1] - own[k, 1]) * math.cos(own[k, 2])
-                - (other[0] - own[k, 0]) * math.sin(own[k, 2])
-            )
-            gap = -_in_front(own[k], other) - length
-            alike = math.cos(other[2] - own[k, 2]) > 0.9
-            if aside >= LANE or not alike:
-                beside = True
-            elif beside:
-                safe = other[3] * REACTION + (other[3] ** 2 - own[k, 3] ** 2) / (2.0 * braking)
-                if -length < gap < safe:
-                    found, whom = k, m
-                break
-            else:
-                break
-    return (found, whom) if whom >= 0 else (-1, -1)
-
-
-@_jit
 def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float) -> bool:
     """Whether another body comes within `berth` [m] before or behind ours, or touches it."""
     near = math.hypot(other[0] - own[0], other[1] - own[1])
@@ -149,4 +105,4 @@ def _cut_off(own: Floats, length: float, other: Floats, braking: float) -> bool:
     needed = closing * SAFE_CUT_IN
     if braking > 0.0:
         needed = max(closing, 0.0) ** 2 / (2.0 * braking)
-    return bool(abs(aside) < LANE and gap > -length and gap < needed)
+    return bool(abs(aside) < 1.5 and gap > -length and gap < needed)

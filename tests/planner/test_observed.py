@@ -40,13 +40,13 @@ NO_LINKS: frozenset[tuple[str, int]] = frozenset()
 @pytest.mark.parametrize(
     ("speeds", "pace"),
     [
-        ([10.0] * 16, 10.0),
+        ([10.0] * 16, 10.5),
         ([10.0] * 15, math.inf),  # not for long enough
-        ([12.0] + [10.0] * 15, 12.0),  # it drove faster before
+        ([12.0] + [10.0] * 15, 12.5),  # it drove faster before
         ([12.0] * 2 + [10.0] * 14, math.inf),  # it has only just slowed down
-        ([10.0, 10.4] * 8, 10.0 + 0.4 * 8 / 15),
+        ([10.0, 10.4] * 8, 10.9),
         ([10.0, 10.8] * 8, math.inf),  # not steady
-        ([3.5] * 16, 3.5),
+        ([3.5] * 16, 4.0),
         ([2.5] * 16, math.inf),  # nobody wants to drive that slowly
     ],
 )
