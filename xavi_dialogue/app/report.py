@@ -122,6 +122,7 @@ class Reporter:
             vehicles=dict(moment.scene.vehicles),
             lights=moment.scene.lights,
             people=dict(moment.scene.people),
+            unseen=moment.scene.unseen,
             state=state,
             speed_factor=speed_factor,
             plan=moment.plan,

@@ -334,10 +334,7 @@ Answer: TypeAlias = (
 
 
 class NeedRollout(Value, frozen=True):
-    """The record lacks a plan: the shell has the planner plan again and asks once more.
-
-    See planner.trace.WhatIf. What is supposed of another vehicle is left out where it is not set.
-    """
+    """The record lacks a plan: the planner is to plan again (planner.trace.WhatIf)."""
 
     trace_id: str
     actions: tuple[MacroAction, ...] = ()  # forced for the ego, in order

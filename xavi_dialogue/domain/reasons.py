@@ -58,7 +58,7 @@ class MotionCause(Value, frozen=True):
         "roundabout",  # likewise a roundabout
         "limit",  # the speed limit
         "give-way-line",  # a line at which one must be ready to stop
-        "hidden",  # what cannot be seen
+        "hidden",  # what cannot be seen, past `vehicle`, or a building
         "destination",
         "lane-end",
         "plan",  # the plan calls for it, no reason beyond
@@ -77,6 +77,7 @@ class MotionCause(Value, frozen=True):
     necessary: bool | None = None  # without it we would not have done so; None: not tried
     value: float | None = None  # the limit [m/s], the turn's speed, the distance [m]
     shown: Shown | None = None  # what a traffic light shows that holds us, or that vehicle
+    side: Literal["left", "right", "ahead"] | None = None  # where it is that cannot be seen
 
 
 class MotionReason(Value, frozen=True):

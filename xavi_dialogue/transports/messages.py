@@ -16,7 +16,7 @@ import msgspec
 from planner.events import Event
 from planner.trace import MAX_BYTES, Action, PlanTrace, fault_of
 from planner.traffic_lights import LightSupposed
-from sim.scene import EGO, Light, PersonState, Scene, VehicleState
+from sim.scene import EGO, Light, PersonState, Scene, Unseen, VehicleState
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.nlg.context import Style
@@ -34,6 +34,7 @@ DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
 Gone = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=64)]
 Faster = Annotated[float, msgspec.Meta(ge=-100.0, le=100.0)]
+Phantoms = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=8)]
 Supposed = Annotated[tuple[LightSupposed, ...], msgspec.Meta(max_length=8)]
 Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
 Folder = Annotated[str, msgspec.Meta(min_length=1, max_length=4096)]
@@ -87,6 +88,7 @@ class SceneReport(Report, frozen=True, kw_only=True):
     vehicles: dict[Whole, VehicleState]
     lights: tuple[Light, ...] = ()
     people: dict[Whole, PersonState] = {}
+    unseen: tuple[Unseen, ...] = ()  # stretches of lanes that something tall hides
     state: CarState
     speed_factor: float  # simulated seconds per second; 0: as fast as possible
     plan: tuple[Action, ...]
@@ -98,7 +100,7 @@ class SceneReport(Report, frozen=True, kw_only=True):
 
     def scene(self) -> Scene:
         """What it shows."""
-        return Scene(self.sim_time, self.vehicles, self.lights, self.people)
+        return Scene(self.sim_time, self.vehicles, self.lights, self.people, self.unseen)
 
 
 class TraceReport(Report, frozen=True, kw_only=True):
@@ -280,6 +282,7 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     vehicle_actions: Actions = ()  # what it does first
     faster: Faster | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: Supposed | msgspec.UnsetType = msgspec.UNSET  # what traffic lights show
+    seen_past: Phantoms | msgspec.UnsetType = msgspec.UNSET  # who is imagined and is not there
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 

@@ -60,6 +60,7 @@ def motion_cause(
         lower=deed in ("slow-down", "brake"),
         higher=deed == "speed-up",
         foreseen=foreseen,
+        side=cause.side,
         **_shown(cause, past=past),
         **chances(cause.probability if cause.probability is not None else 1.0, context),
     )
