@@ -109,3 +109,16 @@ def test_when_it_could_last_be_done_is_told():
         assert "I last had that choice at 0:05." in said
         check(said)
         assert "last had" not in say(replace(answer, open_at=None), CONTEXT).text
+
+
+def test_what_did_not_come_about_is_no_condition_of_anybody():
+    asked = Event("brake", tense="past", modal="would")
+    one = SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, asked=asked, undone=True)
+    for still, words in (
+        (False, "I did not brake, and would not have without"),
+        (True, "I did not brake, but without"),
+    ):
+        said = say(replace(one, still=still), CONTEXT).text
+        assert said.startswith(words)
+        assert "still" not in said
+        check(said)

@@ -219,6 +219,7 @@ class SupposedOfOther(Value, frozen=True):
     others: tuple[int, ...] = ()  # further vehicles of which the same is supposed
     left_out: tuple[int, ...] = ()  # vehicles of which something is supposed that could not be
     everybody: bool = False  # nobody else is supposed to be there
+    undone: bool = False  # what is asked about did not come about as things were
 
 
 class Reaction(Value, frozen=True):

@@ -263,6 +263,12 @@ def test_certainty_is_of_the_decision_that_is_meant(
     assert found == ("plan", time)
 
 
+def test_a_change_of_speed_is_as_sure_as_the_plan_it_comes_of(decided: Any) -> None:
+    for event in (Event("brake"), Event("slow-down"), Event("speed-up")):
+        found: Any = room.certain(scene(SAID, traces=GROWS), event, negated=False)
+        assert found == ("plan", 4.0)
+
+
 def test_what_was_not_done_is_asked_of_its_foil(decided: Any) -> None:
     room.certain(scene(SAID, traces=GROWS), Event("change-left", tense="present"), negated=True)
     about, foil = decided["foil"]

@@ -239,3 +239,27 @@ def test_if_he_stopped_is_of_now_as_long_as_it_can_still_come_about() -> None:
     assert past(stopped, looks={1: None}, now=True) is False
     assert past(Exists(ONE, tense="past")) is True
     assert past(Exists(ONE, tense="past"), now=True) is False
+
+
+# --- what did not come about ----------------------------------------------------------------------
+
+
+def braking(setting: Setting, deeds: Any, *, then: float, anyway: float) -> Any:
+    """Ask "would you have braked without it?", where so much of the rollouts slows down."""
+    setting.shares = {("after", "slow-down"): then, ("before", "slow-down"): anyway}
+    braked = Whether(did("brake", Ego(), tense="past", modal="would"))
+    return what_if(Not(Exists(ONE, tense="past")), braked, deeds=deeds)
+
+
+def test_what_did_not_come_about_is_told_so(setting: Setting) -> None:
+    """No "I would still have braked" where we did not, even if the plan is to slow down later."""
+    braked = (deed("brake", 5.0, 7.0),)
+    for then, anyway, undone, still in (
+        (1.0, 1.0, True, False),  # it is planned anyway, and has not come yet
+        (1.0, 0.0, True, True),
+        (0.0, 0.0, True, False),
+    ):
+        found = braking(setting, (), then=then, anyway=anyway)
+        assert (found.undone, found.still) == (undone, still)
+    found = braking(setting, braked, then=1.0, anyway=1.0)
+    assert (found.undone, found.still) == (False, True)

@@ -55,6 +55,7 @@ from xavi_dialogue.explain.causes.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.history.ride import prediction
 
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
+SPEEDS = frozenset[ActionName](("brake", "slow-down", "speed-up"))
 FORESEEN = 12.0  # [s] within which what came is what was foreseen
 MOVED = 0.05  # of probability, from which a belief has moved
 
@@ -153,9 +154,12 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         found = about_foil(ride, about, names)
         foil = to_macros(ride.model(found.trace), names, found.node)
         return certainty.of_choice(ride, found, foil) or certainty.of_plan(ride, found)
-    if event is not None and not choices.is_choice(event):  # it comes of the plan, as it is
-        return certainty.of_plan(ride, Premise(_trace_at(scene), None))
-    found = premise(ride, subject(scene, event))
+    if event is not None and not choices.is_choice(event):
+        found = Premise(_trace_at(scene), None)
+        if event.action in SPEEDS:  # no option of its own: it comes of the plan
+            return certainty.of_plan(ride, found)
+    else:
+        found = premise(ride, subject(scene, event))
     return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
 
 

@@ -7,10 +7,12 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Both,
     Caused,
+    Compares,
     Ego,
     Event,
     Happens,
     Is,
+    Measured,
     Nobody,
     Not,
     Passenger,
@@ -43,6 +45,8 @@ def event_of(of: Proposition | None) -> Event | None:
         case Happens(event):
             return event
         case Is(event=event) if event is not None:
+            return event
+        case Compares(left=Measured(event=event)) if event is not None:
             return event
         case Caused(effect=effect) if effect is not None:
             return event_of(effect)

@@ -65,6 +65,17 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
     return None
 
 
+def was_done(scene: Asked, then: Event) -> bool:
+    """Tell whether what is asked about came about, as a choice or in how we drove."""
+    if choices.is_choice(then):
+        return happened(scene.ride, subject(scene, then).names, scene.span) is not None
+    kinds = (*motions.KINDS.get(then.action, (motions.SLOWING,))[0], *motions.STILL)
+    found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+    if scene.past is not None and scene.past.said:
+        return scene.pick(found, lambda e: (e.begin, e.end)) is not None
+    return bool(found)
+
+
 def without_at(
     scene: Asked, drove: Episode, vehicles: tuple[int, ...]
 ) -> tuple[Supposed, bool] | None:

@@ -60,6 +60,7 @@ from xavi_dialogue.explain.answers.supposed_when import (
     imagined,
     moment,
     open_until,
+    was_done,
     without_at,
 )
 from xavi_dialogue.explain.causes.actions import DRIVING, names_of, same
@@ -233,6 +234,9 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
             event = structs.replace(event, action=found.proxy, manner=())
         still = _still(found, then, drove)
+    undone = past and then is not None and not was_done(scene, then)
+    if undone and then is not None and still:  # what the plan has yet to do is not what it changes
+        still = not _comes_anyway(found, then)
     return SupposedOfOther(
         vehicle=numbers[0],
         supposed=event,
@@ -251,6 +255,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         others=numbers[1:],
         left_out=left,
         everybody=of.everybody,
+        undone=undone,
     )
 
 
@@ -274,6 +279,14 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
         return None if share is None else share >= LIKELY
     plan = found.there.plan[:2] if found.there.plan[:1] == ("continue",) else found.there.plan[:1]
     return any(same(name, step) for name in names for step in plan)
+
+
+def _comes_anyway(found: Supposed, then: Event) -> bool:
+    """Whether the plan, as things were, comes to drive so as well."""
+    if not set(names_of(then)) & DRIVING:
+        return False
+    share = share_of(found.trace, found.here, _mark(then.action, None))
+    return share is not None and share >= LIKELY
 
 
 def _slows(found: Supposed) -> bool | None:

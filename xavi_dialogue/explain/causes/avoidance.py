@@ -16,8 +16,10 @@ from xavi_dialogue.domain.answers import Avoidance, NotRecorded
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.causes.chances import either_way
 from xavi_dialogue.explain.causes.contrast import alone, alternatives, factual, sides
 from xavi_dialogue.explain.causes.course import HARD, brakes, lines, speed_mark, stands
+from xavi_dialogue.explain.causes.ranges import table
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, planned
 
@@ -136,6 +138,11 @@ def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> fl
     return min(bad / total, 1.0) if total >= 0.5 else None
 
 
+def _chance(mishap: ActionName, share: float) -> float:
+    """How probable it is, of its share of the rollouts, as far as these are to be trusted."""
+    return table().trusted("collision", share) if mishap == "collide" else either_way(share)
+
+
 def _sound(way: _Way) -> bool:
     """Whether an option is no worse a choice: it neither collides nor loses the way."""
     return all(
@@ -157,8 +164,8 @@ def _told(
         mishap,
         possible,
         happened=True,
-        risk=way.risk,
-        other=way.other,
+        risk=_chance(mishap, way.risk),
+        other=_chance(mishap, way.other),
         decisions=len(looked),
         options=options,
         contrast=sides(ride, way.model, way.here, way.there, way.foil),
@@ -172,7 +179,7 @@ def _without_options(
     trace = looked[-1]
     model = ride.model(trace)
     here = factual(model, trace)
-    risk = _risk(here, _occurs(mishap, moment + LEEWAY), lines(trace)) or 0.0
+    risk = _chance(mishap, _risk(here, _occurs(mishap, moment + LEEWAY), lines(trace)) or 0.0)
     contrast = alone(ride, model, here)
     count = len(looked)
     return Avoidance(mishap, False, True, risk, risk, count, 0, contrast)

@@ -25,6 +25,8 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, W
 
 MOVED = 0.1  # change of probability from which it is told
 NAMED = 5  # options named
+#: How well something is known by its probability, best first.
+_KNOWN = ((0.95, "sure"), (0.65, "likely"), (0.35, "guess"), (0.0, "no"))
 
 
 def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
@@ -37,6 +39,8 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
     details = tuple(d for d in wanted if d is not None)
     more = () if moved is None or answer.changed else (moved,)
     vehicle = Vehicle(answer.vehicle)
+    if answer.knew and answer.of is not None and answer.probability is not None:
+        return Plan((_knew(answer, answer.probability, context),))
     if answer.of is not None and answer.probability is not None and answer.since is not None:
         clause = event_clause(answer.of, context.now, tense="future")
         told = message("BELIEVED_SINCE", who=Who(vehicle, answer.since), of=clause,
@@ -58,6 +62,27 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
         return Plan((message("NO_BELIEF", who=Who(vehicle)),), details, more)
     chosen = min(answer.history, key=lambda b: abs(b.time - at))
     return Plan((belief_message(chosen, context),), details, more)
+
+
+def _knew(answer: Beliefs, share: float, context: SpeechContext) -> Message:
+    """Tell whether we knew what somebody would do: how probable it was for us, and since when."""
+    at = answer.time if answer.time is not None else context.now
+    past = answer.came is not None or context.now - at > since(context)
+    grade = next(word for least, word in _KNOWN if share >= least)
+    earlier = answer.since is not None and answer.before is not None
+    assert answer.of is not None
+    return message(
+        "KNEW",
+        past=past,
+        grade=grade,
+        when=Moment(at),
+        who=Who(Vehicle(answer.vehicle), at if past else None),
+        of=event_clause(answer.of, context.now, tense="future"),
+        chance=Chance(share),
+        since=Moment(answer.since) if earlier and answer.since is not None else None,
+        before=Chance(answer.before) if earlier and answer.before is not None else None,
+        **besides_of(answer.besides, past=past),
+    )
 
 
 def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
@@ -122,8 +147,10 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
         return Plan((message("OPTIONS_NONE"),))
     if answer.risk:
         told = option_message(answer.options[0], risk=True)
-        counts = {"hits": str(answer.hits) if answer.hits else None, "drives": str(answer.drives)}
-        return Plan((message(told.rule, **told.slots, **counts),))
+        hits = str(answer.hits) if answer.hits else None
+        whole = Chance(answer.options[0].collision)
+        more = {"hits": hits, "drives": str(answer.drives), "whole": whole}
+        return Plan((message(told.rule, **told.slots, **more),))
     chosen = next((o for o in answer.options if o.chosen), answer.options[0])
     others = [o for o in answer.options if o.action != chosen.action]
     verb = _verb(chosen.action)

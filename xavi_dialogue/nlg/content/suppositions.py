@@ -32,6 +32,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
         "same": answer.same,
         "still": answer.still,
         "known": answer.still is not None,
+        "undone": answer.undone,
     }
     if answer.asked is not None:
         event = event_clause(answer.asked, context.now)

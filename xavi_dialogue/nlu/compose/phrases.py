@@ -107,6 +107,8 @@ class Phrases(Adjuncts):
         elif inner.name == "decision":  # what it does, we do then
             clause.subject = Ego()
             clause.time = AtDecision(int(number_of(cast(Node, node_of(inner, "num")))))
+        elif inner.name == "neither_nor":
+            clause.subject, clause.negated = self.nouns.read(inner), True
         elif inner.name == "dative":
             clause.subject = self.nouns.read(cast(Node, inner.parts[0]))
         elif inner.name == "gerund":

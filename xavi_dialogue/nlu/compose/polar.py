@@ -203,6 +203,10 @@ class Polar(Comparing):
     def polar(self, clause: Clause, value: Any, *, tag: bool) -> Question:
         if isinstance(value, Special):
             special = self._whether_special(clause, value)
+            if isinstance(special, Whether):  # "did you exceed the limit or brake hard?"
+                return structs.replace(
+                    special, that=self.propositions.joined(clause, special.that)
+                )
             if special is not None:
                 return special
         of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
@@ -313,7 +317,7 @@ class Polar(Comparing):
             deeds = (event_in(p.sem) for p in clause.complements if p.key in ("about", "of"))
             deed = next((one for one in deeds if one is not None), None)
             return None if deed is None else as_of(Happens(deed), clause.tense)
-        return self.propositions.plain(governed) or self.weighed_deed(governed)
+        return self.weighed_deed(governed) or self.propositions.plain(governed)
 
     def _whether_special(self, clause: Clause, value: Special) -> Question | None:
         if value.name == "obey":

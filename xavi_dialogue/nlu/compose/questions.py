@@ -38,7 +38,7 @@ from xavi_dialogue.nlu.compose.sem import (
 )
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.trends import believed
-from xavi_dialogue.nlu.compose.wh import Wh
+from xavi_dialogue.nlu.compose.wh import Wh, is_that
 from xavi_dialogue.nlu.compose.what import going_on, purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -171,6 +171,9 @@ class Questions(Options):
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
             # "what is he doing, braking like that?"
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
+        stranded = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
+        if wh.kind == "who" and stranded and clause.verb is None and is_that(clause.subject):
+            return [(Why(That()), 0.0)]  # "who was that for?"
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
         if wh.kind == "what" and (for_what or purpose(clause)):
             wh = Wh("why")

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Happens,
     Is,
     Nobody,
     Passenger,
@@ -69,13 +70,17 @@ class Nouns(Followers):
 
     def read(self, node: Node) -> Sem:
         """Read an `np`, a group of them, or what can stand for one."""
-        if node.name in ("group", "accusative_group"):
+        if node.name in ("group", "accusative_group", "choice"):
             return self._group(node)
         if node.name == "aliased":  # "v16, the red one on the right, ..."
             cut = next(i for i, p in enumerate(node.parts) if _is_comma(p))
             first = Node("np", node.parts[:cut], node.start, node.end, 0.0)
             named = cast(Node, node_of(node, "named")).parts[0]
             return also_named(self.read(first), self.read(cast(Node, named)))
+        if node.name in ("roll", "neither_nor"):  # "1, 3 and 5", "neither 1 nor the bus"
+            listed = [p for p in node.parts if isinstance(p, Node)]
+            join = "or" if node.name == "neither_nor" or leaf_of(node, "OR") else "and"
+            return Group(tuple(self._listed(part) for part in listed), join)
         if node.name == "accusative":
             return self._pronoun(cast(Leaf, node.parts[0]), Traits())
         core = node.parts[0]
@@ -87,6 +92,10 @@ class Nouns(Followers):
             return Unknown(core.words[0])
         found = self._core(core, traits)
         return Group((found, *traits.beside)) if traits.beside else found
+
+    def _listed(self, part: Node) -> Sem:
+        """Read one of several that are listed; a mere number is that of a vehicle."""
+        return Vehicle(int(number_of(part))) if part.name == "num" else self.read(part)
 
     def _group(self, node: Node) -> Sem:
         join = "or" if leaf_of(node, "OR") else "and"
@@ -120,11 +129,16 @@ class Nouns(Followers):
                 return described("vehicle", traits, plural=True)
             return amount
         if core.name == "times_clause":
-            return Moment("times", rank_of(leaf_of(core, "ORD")))
+            rank = rank_of(leaf_of(core, "ORD"))
+            if isinstance(traits.clause, Happens):  # "the second time we stopped"
+                return Noun("time", word="time", clause=traits.clause, number=rank)
+            return Moment("times", rank)
         if core.name == "sided":
             return SideOf(cast(Leaf, core.parts[-1]).key)
         if core.name == "numbered":
             number = number_of(cast(Node, node_of(core, "num")))
+            if (article := leaf_of(core, "DET")) is not None and article.key == "indef":
+                return Unknown(words_of(core))  # "a truck two seconds ago"
             vehicle = Vehicle(int(number))
             if traits.gerund is not None and traits.gerund.name == "participle":
                 return doing(vehicle, traits.event)
