@@ -1,16 +1,19 @@
 """Answers about danger: who stops in time, why no collision is expected, what stirred us."""
 
 from tests.nlg.scenery import NOW
-from xavi_dialogue.domain.answers import Answer, Closeness, PullingUp, Sociable
+from xavi_dialogue.domain.answers import Answer, Beliefs, Closeness, PullingUp, Sociable
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.findings import Assurance
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 
 E, V = Ego(), Vehicle(1)
 FAR = Measure("distance", E, NOW, 14.0, to=V)
 SPEED = Measure("speed", E, NOW, 9.0)
 BRAKES = Episode(V, "brake", 17.0, speed_from=13.0, speed_to=8.0)
 OURS = Episode(E, "brake", 17.0, speed_from=13.0, speed_to=9.0)
+TURN = Event("turn", V, side="right")
+TURNED = Episode(V, "exit-right", 8.5, 10.0)
+LEFT = (Expectation(("exit-left",), 0.9),)
 RIGHT = Belief(1, 19.0, (Expectation(("exit-right",), 0.97),))
 
 
@@ -42,6 +45,10 @@ CASES: tuple[Answer, ...] = (
     grounds(Assurance(7), vehicle=None),
     grounds(Assurance(1), vehicle=None),
     grounds(Assurance(), risk=None),
+    *(Beliefs(1, TURN, (RIGHT,), share, 19.0, knew=True) for share in (0.97, 0.8, 0.5, 0.1)),
+    *(Beliefs(1, TURN, (RIGHT,), share, 8.0, knew=True) for share in (0.8, 0.5)),
+    Beliefs(1, TURN, (RIGHT,), 0.97, 8.0, came=TURNED, knew=True, since=7.0, before=0.3),
+    Beliefs(1, TURN, (RIGHT,), 0.1, 8.0, came=TURNED, besides=LEFT, knew=True),
     Sociable("feelings"),
     Sociable("feelings", Closeness(1, Measure("distance", E, 17.0, 4.2, to=V))),
 )

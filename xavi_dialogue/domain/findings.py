@@ -152,6 +152,8 @@ class Beliefs(Value, frozen=True):
     since: float | None = None  # [s] from when on it was held to be more likely than not
     changed: bool = False  # it is asked how it moved
     besides: tuple[Expectation, ...] = ()  # what else was likely at that time
+    knew: bool = False  # it is asked whether we knew it; `since` is from when on without a break
+    before: float | None = None  # the probability that it had before that
 
 
 class Options(Value, frozen=True):

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Back,
     Believed,
@@ -74,8 +75,10 @@ def _of_chance(before: Act, later: Act) -> Act | None:
     match before, later:
         case Ask(question=HowSure(of=None, changed=False)), (
             Ask(question=Whether(that=that, tag=True)) | Claim(that=that)
-        ):  # "are you sure he sees us?"
-            return Ask(Whether(that))
+        ):  # "are you sure he sees us?", "were you sure he would turn?"
+            event = first(that, Event)
+            then = event is not None and event.modal == "would"
+            return Ask(Whether(Believed(that) if then else that))
         case Claim(that=Compares(left=Measured(attribute="probability") as left)), Ask(
             question=HowKnow(of=None | That())
             | Changed(time=Unsaid())

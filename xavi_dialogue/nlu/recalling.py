@@ -19,11 +19,13 @@ from xavi_dialogue.domain.meaning import (
     Whither,
 )
 from xavi_dialogue.domain.terms import (
+    Believed,
     Ego,
     Event,
     Everyone,
     Happens,
     Is,
+    Not,
     Pronoun,
     Proposition,
     Related,
@@ -83,6 +85,8 @@ def _guessed(asked: Question | None, later: Question | None) -> Question | None:
             such is not None
         ):
             return asked
+        case Whether(that=Believed(tense="past") | Not(content=Believed(tense="past"))), HowKnow():
+            return asked  # "did you know, or were you guessing?"
     return None
 
 

@@ -1,5 +1,6 @@
 """Whether we believed, meant or knew something at a time."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from tests.explain.answers.given import NOW, Given, deed, expects, look, plan, their
 from xavi_dialogue.domain.answers import Beliefs
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Belief
 from xavi_dialogue.domain.terms import (
     At,
     Believed,
@@ -19,7 +21,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Vehicle,
 )
-from xavi_dialogue.explain.answers import weighing
+from xavi_dialogue.explain.answers import beliefs, weighing
 from xavi_dialogue.explain.answers.findings import Finding
 
 ONE = Vehicle(1)
@@ -44,7 +46,7 @@ def chance_of(*shares: tuple[float, float | None]) -> Any:
 
 @pytest.fixture(autouse=True)
 def chances(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(weighing, "chance", chance_of((0.0, 0.3), (8.0, 0.7)))
+    monkeypatch.setattr(beliefs, "chance", chance_of((0.0, 0.3), (8.0, 0.7)))
 
 
 GIVEN: dict[str, Any] = {"looks": {1: look(1)}, "beliefs": {1: BELIEF}}
@@ -73,7 +75,8 @@ def test_doubt_and_denial_turn_it_round() -> None:
 def test_what_came_was_believed_before_it_came() -> None:
     turned = their(1, "exit-right", 8.1, 10.0)
     found = believed(Believed(TURNS), deeds=(turned,), **GIVEN)
-    assert (found.probability, found.facts, found.answer) == (0.3, (turned,), None)
+    assert (found.probability, found.facts, found.answer.came) == (0.3, (turned,), turned)
+    assert (found.answer.knew, found.answer.time) == (True, pytest.approx(7.9))
     late = their(1, "exit-right", 12.0, 14.0)
     assert believed(Believed(TURNS), deeds=(late,), **GIVEN).probability == 0.7
     then = believed(Believed(TURNS, At(9.0)), deeds=(turned,), **GIVEN)
@@ -81,17 +84,32 @@ def test_what_came_was_believed_before_it_came() -> None:
     soon = believed(Believed(TURNS, At(7.9)), deeds=(their(1, "exit-right", 9.4),), **GIVEN)
     assert soon.probability == 0.3
     after = believed(Believed(TURNS, At(10.0)), deeds=(their(1, "exit-right", 15.0),), **GIVEN)
-    assert (after.probability, after.answer) == (0.7, None)
+    assert (after.probability, after.answer.came.begin) == (0.7, 15.0)
+
+
+def test_since_when_it_was_likely_without_a_break(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = tuple(Belief(1, time, BELIEF.expectations) for time in (2.0, 4.0, 6.0, 8.0))
+    world = SimpleNamespace(begin=0.0, beliefs=lambda *args: rows)
+    asked: Any = SimpleNamespace(world=world)
+    for shares, held in (
+        ((0.2, 0.6, 0.7, 0.9), (4.0, 0.2)),
+        ((0.6, 0.2, 0.4, 0.9), (8.0, 0.4)),
+        ((0.6, 0.7, 0.7, 0.9), (None, None)),
+        ((0.2, 0.7, 0.7, 0.3), (None, None)),
+    ):
+        row = tuple(zip((2.0, 4.0, 6.0, 8.0), shares, strict=True))
+        monkeypatch.setattr(beliefs, "chance", chance_of(*row))
+        assert beliefs.held_since(asked, TURNS.event, 8.0) == held
 
 
 def test_even_odds_count_as_expected(monkeypatch: pytest.MonkeyPatch) -> None:
     for share, holds in ((0.5, True), (0.49, False)):
-        monkeypatch.setattr(weighing, "chance", chance_of((0.0, share)))
+        monkeypatch.setattr(beliefs, "chance", chance_of((0.0, share)))
         assert believed(Believed(TURNS), **GIVEN).holds is holds
 
 
 def test_what_nobody_reckoned_with_is_not_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(weighing, "chance", lambda *args: None)
+    monkeypatch.setattr(beliefs, "chance", lambda *args: None)
     turned = their(1, "exit-right", 12.0, 14.0)
     found = believed(Believed(TURNS), deeds=(turned,), **GIVEN)
     assert (found.holds, found.gap) == (None, "not-recorded")

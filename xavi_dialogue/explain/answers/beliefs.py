@@ -6,7 +6,7 @@ from itertools import pairwise
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Beliefs, NotRecorded, Priority, Verdict
-from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.facts import Belief, Episode, Fact
 from xavi_dialogue.domain.meaning import HowSure
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -22,9 +22,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.closeness import How, closeness
+from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.foreseen import besides, came_of, chance, collision_chance
 from xavi_dialogue.explain.answers.moments import SHORT, Window, instant, is_ahead, window
-from xavi_dialogue.explain.answers.naming import known, number
+from xavi_dialogue.explain.answers.naming import first_look, known, number
 from xavi_dialogue.explain.answers.occasions import occasion, occasions
 from xavi_dialogue.explain.answers.plans import foreseen
 from xavi_dialogue.explain.answers.priority import right_of_way
@@ -124,6 +125,50 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
         vehicle, event, history, share, None if current is None else current.time, why, span, came,
         besides=() if event is None else besides(current, event),
     )  # fmt: skip
+
+
+def foreknown(asked: Asked, event: Event, time: Time) -> Finding:
+    """Tell whether conduct was expected before it came, since when, and what came."""
+    vehicle = number(event.actor) or 0
+    then = event.modal == "would"  # "were you sure it would turn": whether it has done so since
+    lately = replace(event, tense="past", modal=None, time=Unsaid()) if then else event
+    came = occasion(asked, lately)
+    event = replace(event, manner=())  # no prediction tells how hard somebody brakes
+    about = window(asked, time)
+    said = asked.past is not None or not isinstance(time, Unsaid)
+    at = instant(asked, time, "past") if said else asked.now
+    if came is not None and (not said or came.begin <= about.end + SHORT):
+        at = min(at, came.begin - 0.2)
+    share, belief = chance(asked, event, at), asked.world.belief(vehicle, at)
+    facts: tuple[Fact, ...] = () if came is None else (came,)
+    shown = () if belief is None else (belief,)
+    if share is None:
+        look = first_look(asked, vehicle, at)
+        return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
+    since, before = held_since(asked, event, at)
+    told = Beliefs(
+        vehicle, event, shown, probability=share, time=at,
+        besides=besides(belief, event), knew=True, came=came, since=since, before=before,
+    )  # fmt: skip
+    return Finding(share >= LIKELY, facts, None, shown, probability=share, answer=told)
+
+
+def held_since(asked: Asked, event: Event, at: float) -> tuple[float | None, float | None]:
+    """Tell since when [s] something was held to be likely up to a time [s], and what it was before.
+
+    None where it was likely from the first on, or not at all.
+    """
+    vehicle = number(event.actor) or 0
+    since, before = None, None
+    for belief in asked.world.beliefs(vehicle, asked.world.begin, at):
+        share = chance(asked, event, belief.time)
+        if share is None:
+            continue
+        if share < LIKELY:
+            since, before = None, share
+        elif since is None:
+            since = belief.time
+    return (since, before) if before is not None and since is not None else (None, None)
 
 
 def since_when(asked: Asked, event: Event) -> Beliefs:

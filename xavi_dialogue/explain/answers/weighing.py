@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Beliefs, Measures, Priority, Verdict
+from xavi_dialogue.domain.answers import Measures, Priority, Verdict
 from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
 from xavi_dialogue.domain.meaning import Whither, Why
 from xavi_dialogue.domain.terms import (
@@ -30,18 +30,18 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.beliefs import time_of
+from xavi_dialogue.explain.answers.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.comparisons import compares, has
 from xavi_dialogue.explain.answers.conditions import condition, handed
 from xavi_dialogue.explain.answers.conduct import conduct
 from xavi_dialogue.explain.answers.duties import duty, is_owed, of_order, who_first
 from xavi_dialogue.explain.answers.existing import exists
-from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, unknown
-from xavi_dialogue.explain.answers.foreseen import besides, chance, macros
+from xavi_dialogue.explain.answers.findings import Finding, unknown
+from xavi_dialogue.explain.answers.foreseen import macros
 from xavi_dialogue.explain.answers.halting import stop_or_go
 from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.measures import values
-from xavi_dialogue.explain.answers.moments import SHORT, instant, is_past, window
+from xavi_dialogue.explain.answers.moments import instant, is_past
 from xavi_dialogue.explain.answers.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.places import locate, whither
@@ -248,36 +248,13 @@ def _held(of: Believed, content: Proposition, asked: Asked) -> Finding:
     time = of.time if not isinstance(of.time, Unsaid) else time_of(content)
     match content:
         case Happens(event=event) if number(event.actor) is not None and event.action != "see":
-            return _expected_of(asked, event, time)
+            return foreknown(asked, event, time)
         case Happens(event=event) if is_us(event.actor) and macros(event):
             return _planned(asked, event, time)
         case Exists(thing=thing) | Is(thing=thing, state="present" | "visible"):
             if number(thing) is not None:
                 return _saw(asked, number(thing) or 0, time)
     return weigh(content, asked)
-
-
-def _expected_of(asked: Asked, event: Event, time: Time) -> Finding:
-    """Tell whether conduct was expected before it came, and what came."""
-    came = occasion(asked, event)
-    about = window(asked, time)
-    said = asked.past is not None or not isinstance(time, Unsaid)
-    at = instant(asked, time, "past") if said else asked.now
-    if came is not None and (not said or came.begin <= about.end + SHORT):
-        at = min(at, came.begin - 0.2)
-    share = chance(asked, event, at)
-    belief = asked.world.belief(number(event.actor) or 0, at)
-    facts: tuple[Fact, ...] = () if came is None else (came,)
-    shown = () if belief is None else (belief,)
-    if share is None:
-        look = first_look(asked, number(event.actor) or 0, at)
-        return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
-    told = Beliefs(
-        number(event.actor) or 0, event, shown, probability=share, time=at,
-        besides=besides(belief, event),
-    )  # fmt: skip
-    answer = told if came is None else None
-    return Finding(share >= EXPECTED, facts, None, shown, probability=share, answer=answer)
 
 
 def _planned(asked: Asked, event: Event, time: Time) -> Finding:

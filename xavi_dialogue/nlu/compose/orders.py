@@ -132,8 +132,9 @@ class Orders(Telling):
             return None
         if clause.has("modal-will") and not clause.negated and "please" not in clause.focus:
             return None
-        if clause.than is not None:
-            return None
+        in_time = "early" in event.manner and event.action in ("stop", "brake") and not please
+        if clause.than is not None or in_time:
+            return None  # "can you stop in time?"
         return (request(event, clause, negated=refrain and isinstance(of, Not)),)
 
     def _best(self, clause: Clause) -> Any:
