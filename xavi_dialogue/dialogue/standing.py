@@ -37,6 +37,7 @@ _BY_GAP: dict[Gap, Reason] = {
     "gap-in-record": "trace-gap",
     "out-of-view": "outside-record",
     "hidden": "outside-record",
+    "out-of-sight": "outside-record",
     "not-sensed": "out-of-scope",
     "not-recorded": "outside-record",
     "not-applicable": "not-applicable",

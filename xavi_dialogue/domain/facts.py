@@ -21,6 +21,7 @@ Gap: TypeAlias = Literal[
     "gap-in-record",  # lost on its way
     "out-of-view",  # the vehicle was not in view then
     "hidden",  # behind another vehicle
+    "out-of-sight",  # behind a building: nobody can be seen there
     "not-sensed",  # the car has no such sense: weather, drivers' faces, horns
     "not-recorded",  # it exists but no record keeps it
     "not-applicable",  # it has no value: time to collision of vehicles that part

@@ -1,6 +1,6 @@
 """Existing: whether there is or was anybody, or anything, of a sort."""
 
-from xavi_dialogue.domain.answers import Located, Verdict
+from xavi_dialogue.domain.answers import Located, NotRecorded, Verdict
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.terms import (
     Described,
@@ -15,12 +15,13 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Vehicle,
 )
-from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.moments import Window, instant, is_past, window
 from xavi_dialogue.explain.answers.naming import (
     check_sense,
     first_look,
+    is_building,
     is_us,
     looks,
     of_kind,
@@ -39,6 +40,8 @@ def exists(of: Exists, asked: Asked) -> Finding:
     at = instant(asked, of.time, of.tense)
     about = window(asked, of.time, of.tense)
     match of.thing:
+        case Nobody(Described(bearing="behind", of=where)) if is_building(where):
+            raise Unanswered(NotRecorded("out-of-sight"))
         case Nobody():
             near = _near(asked, at, of.thing.described)
             if near and _drives_behind(of.thing.described, near[0]):

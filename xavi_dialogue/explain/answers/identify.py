@@ -4,7 +4,14 @@ from typing import Literal, TypeVar
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, DidNotHappen, Identified, Located, Priority
+from xavi_dialogue.domain.answers import (
+    Answer,
+    DidNotHappen,
+    Identified,
+    Located,
+    NotRecorded,
+    Priority,
+)
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Episode, Fact, Look, Relating
 from xavi_dialogue.domain.meaning import Identify, Which
@@ -34,6 +41,7 @@ from xavi_dialogue.explain.answers.foreseen import YIELDS
 from xavi_dialogue.explain.answers.moments import Window, instant, is_ahead, window
 from xavi_dialogue.explain.answers.naming import (
     first_look,
+    is_building,
     looks,
     of_kind,
     somebodies,
@@ -211,6 +219,8 @@ def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
 
 def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     """Find of whom a state or relation holds, or who is likeliest to do something."""
+    if isinstance(such, Related) and such.relation == "behind" and is_building(such.to):
+        raise Unanswered(NotRecorded("out-of-sight"))
     at = instant(asked, time_of(such), "present")
     ahead = isinstance(such, Happens)
     unseen = isinstance(such, Is) and such.state in ("hidden", "lost")

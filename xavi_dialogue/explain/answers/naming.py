@@ -8,6 +8,7 @@ from xavi_dialogue.domain.facts import Look, Somebody
 from xavi_dialogue.domain.terms import (
     Ego,
     Everyone,
+    Feature,
     Nobody,
     Passenger,
     Thing,
@@ -26,6 +27,11 @@ ANY: frozenset[Kind] = frozenset(("vehicle", "car"))
 def number(thing: Thing | None) -> int | None:
     """Give the number of another vehicle; None for all else."""
     return thing.number if isinstance(thing, Vehicle) else None
+
+
+def is_building(thing: object) -> bool:
+    """Tell whether it is a building, behind which nobody can be seen."""
+    return isinstance(thing, Feature) and thing.kind == "building"
 
 
 def is_us(thing: Thing | None) -> bool:

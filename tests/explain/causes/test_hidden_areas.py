@@ -1,0 +1,51 @@
+"""What could not be seen as a reason: a ride to a house at a corner."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.planner.corner import at_the_corner
+from xavi_dialogue.app.local import Conversation, make_mind, planner_for
+from xavi_dialogue.app.ride import Moment, clock, network_of, start
+
+pytestmark = pytest.mark.slow
+
+
+def told(folder: Path, at: float, text: str, *, house: bool = True) -> str:
+    scenario = at_the_corner(folder, house=house)
+    network = network_of(scenario)
+    moments: list[Moment] = []
+    with start(scenario, 0, network) as ride:
+        for moment in ride:
+            if clock(moment) > at + 1e-6:
+                break
+            moments.append(moment)
+    passenger = Conversation(make_mind(), planner_for(network))
+    for moment in moments:
+        passenger.record(moment)
+    return passenger.ask(text, at).text
+
+
+def test_the_car_says_what_it_cannot_see_past(tmp_path: Path) -> None:
+    said = told(tmp_path, 9.0, "Why are you slowing down?")
+    assert "cannot see past the building on the left" in said
+    assert "right of way could come from there" in said
+
+
+def test_afterwards_it_says_so_in_the_past(tmp_path: Path) -> None:
+    said = told(tmp_path, 14.0, "Why did you slow down?")
+    assert "could not see past the building on the left" in said
+    assert "could have come from there" in said
+
+
+def test_in_an_open_field_it_says_nothing_of_that(tmp_path: Path) -> None:
+    assert "see past" not in told(tmp_path, 9.0, "Why did you slow down?", house=False)
+
+
+@pytest.mark.parametrize(
+    "text", ["What could be behind that building?", "Is there anybody behind the building?"]
+)
+def test_what_is_behind_a_building_is_not_known(tmp_path: Path, text: str) -> None:
+    said = told(tmp_path, 9.0, text)
+    assert said.startswith("I cannot see what is behind the building")
+    assert "obody" not in said
