@@ -10,9 +10,20 @@ from xavi_dialogue.app.ride import Moment, clock, network_of, start
 
 pytestmark = pytest.mark.slow
 
+#: A lorry stands on the other lane of our road, on the left, before the junction.
+LORRY = """
+    <vType id="lorry" vClass="truck" length="16" width="2.5" height="3.8"/>
+    <vehicle id="9" type="lorry" depart="0" departPos="18" departSpeed="0" color="blue">
+        <route edges="south_out"/><stop lane="south_out_0" endPos="20" duration="200"/>
+    </vehicle>
+    <vehicle id="ego" depart="0" departPos="40" departSpeed="12">
+        <route edges="south_in north_out"/>
+    </vehicle>
+"""
 
-def told(folder: Path, at: float, text: str, *, house: bool = True) -> str:
-    scenario = at_the_corner(folder, house=house)
+
+def told(folder: Path, at: float, text: str, *, house: bool = True, routes: str = "") -> str:
+    scenario = at_the_corner(folder, house=house, routes=routes)
     network = network_of(scenario)
     moments: list[Moment] = []
     with start(scenario, 0, network) as ride:
@@ -49,3 +60,10 @@ def test_what_is_behind_a_building_is_not_known(tmp_path: Path, text: str) -> No
     said = told(tmp_path, 9.0, text)
     assert said.startswith("I cannot see what is behind the building")
     assert "obody" not in said
+
+
+def test_the_lorry_that_hides_the_road_is_named(tmp_path: Path) -> None:
+    said = told(tmp_path, 10.0, "Why did you slow down?", house=False, routes=LORRY)
+    assert "could not see past the blue lorry" in said
+    said = told(tmp_path, 8.5, "What could be behind that lorry?", house=False, routes=LORRY)
+    assert said == "I cannot see what is behind the blue lorry, so somebody may be there."

@@ -217,6 +217,14 @@ def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
     return tuple(look.vehicle for look in seen)
 
 
+def _hides(asked: Asked, such: Related, at: float) -> bool:
+    """Tell whether a vehicle hides at a time [s] from where somebody might come."""
+    trace = asked.ride.at(at)
+    if such.relation != "behind" or trace is None or not isinstance(such.to, Vehicle):
+        return False
+    return any(one.behind == such.to.number for one in trace.phantoms)
+
+
 def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     """Find of whom a state or relation holds, or who is likeliest to do something."""
     if isinstance(such, Related) and such.relation == "behind" and is_building(such.to):
@@ -238,6 +246,8 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
     found.sort(key=lambda entry: -entry[0])
     numbers = tuple(who.number for _, who, _ in found if isinstance(who, Vehicle))
     seen = extreme_of(question.thing, looks(asked, numbers, at))
+    if not numbers and isinstance(such, Related) and _hides(asked, such, at):
+        raise Unanswered(NotRecorded("out-of-sight", such.to))
     if unseen:
         lost = tuple(x for x in seen if lately_lost(asked, x))
         if lost:
