@@ -66,4 +66,5 @@ def test_the_lorry_that_hides_the_road_is_named(tmp_path: Path) -> None:
     said = told(tmp_path, 10.0, "Why did you slow down?", house=False, routes=LORRY)
     assert "could not see past the blue lorry" in said
     said = told(tmp_path, 8.5, "What could be behind that lorry?", house=False, routes=LORRY)
-    assert said == "I cannot see what is behind the blue lorry, so somebody may be there."
+    assert said.startswith("I cannot see what is behind the blue lorry")
+    assert said.endswith(", so somebody may be there.")
