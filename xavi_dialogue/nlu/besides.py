@@ -55,6 +55,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.blaming import why_held
+from xavi_dialogue.nlu.compose.times import relative
 from xavi_dialogue.nlu.honesty import is_well_typed
 from xavi_dialogue.nlu.outcomes import asks_whom
 
@@ -152,12 +153,17 @@ def _linked(before: Act, act: Act) -> Act:
             question=Why(of=That() | Happens(event=Event(action="do")))
         ):  # "four of its rollouts collide. Why was it kept?"
             return Ask(Why(Happens(structs.replace(option, tense="present", time=Unsaid()))))
-        case Ask(), Ask(question=HowMuch(of=Measured(attribute="deceleration") as of) as question):
-            if of.event is None and isinstance(of.thing, Pronoun):
+        case Ask() | Claim(), Ask(
+            question=HowMuch(of=Measured(attribute="deceleration") as of) as question
+        ):
+            said = isinstance(before, Claim) and event.action in ("brake", "slow-down")
+            if of.event is None and (isinstance(of.thing, Pronoun) or said):
                 of = structs.replace(of, thing=event.actor, event=event)
         case Claim(that=Happens()), Ask(question=HowMuch(of=of, extreme=None) as question):
             momentary = of.attribute in _MOMENTARY and isinstance(of.time, Unsaid)
-            if momentary and of.tense == "past" and event.tense in ("past", "perfect"):
+            if momentary and of.tense == "past" and event.action == "approach":
+                of = structs.replace(of, time=relative("during", event))
+            elif momentary and of.tense == "past" and event.tense in ("past", "perfect"):
                 of = structs.replace(of, time=Relative("during", event))
         case _:
             return act
@@ -208,8 +214,13 @@ def _is_told(before: Act, act: Act) -> bool:
             question=HowMuch(of=Measured(attribute="distance", thing=Pronoun(form="it")))
         ):
             return True  # "which exit, and how far is it?"
+        case Ask(question=HowMuch(extreme="highest" | "lowest")), Ask(
+            question=Where(of=Pronoun()) | When(of=That())
+        ):
+            return True  # "what was our top speed, and where was that?"
         case Ask(question=Peak()), Ask(
             question=Identify(thing=Pronoun(form="it" | "that"))
+            | Why(of=That(), suspect=None)
             | Which(such=Happens(event=Event(object=Wanted())))
             | When(of=That())
             | Where(of=Pronoun())

@@ -14,6 +14,7 @@ from xavi_dialogue.nlu.topics import fold
 MAX_READINGS: Final = 6
 SPREAD: Final = 1.5  # readings that cost this much more than the best are not offered
 DOUBTFUL: Final = 1.0  # cost from which on a sentence is read as a question by its mark alone
+TOLD: Final = 0.5  # what a question costs less that another one asks too
 _SUPPOSING: Final = frozenset({"suppose", "supposing", "say", "imagine", "assume", "if"})
 _STOPS: Final = frozenset({".", "?"})
 
@@ -78,13 +79,14 @@ def _one(row: tuple[Reading, ...], ends: Sequence[str]) -> Reading:
     found = settled(
         folded, [id(act) in asked for act in folded], [id(act) in stated for act in folded]
     )
+    told = sum(isinstance(a, Ask) and b is None for a, b in zip(folded, found, strict=True))
     folded, owners = _without_none(found, owners)
     folded = [_on_claim(act, folded[:index]) for index, act in enumerate(folded)]
     shares = (share for reading in row for share in reading.shares)
     return Reading(
         tuple(folded),
         tuple(structs.replace(s, act=o) for s, o in zip(shares, owners, strict=True)),
-        round(sum(reading.cost for reading in row), 3),
+        round(max(sum(reading.cost for reading in row) - TOLD * told, 0.0), 3),
         tuple(unread for reading in row for unread in reading.unread),
     )
 

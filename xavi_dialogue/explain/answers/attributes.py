@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Junction,
     Measured,
+    Not,
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
@@ -63,6 +64,7 @@ from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.options import options_at
 
+GOING: frozenset[ActionName] = frozenset(("move", "go", "drive", "follow", "continue"))
 #: What is chosen, and whose cost is told by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "change-lane", "overtake")
@@ -109,8 +111,12 @@ def _delay(of: Measured, asked: Asked) -> Answer:
         if explainer is not None:
             explained = explainer(why, asked)
             gained = _gained(explained)
-            return explained if gained is None else Measures((gained,))
+            if gained is not None:
+                return Measures((gained,))
+            return _instead(of.event, asked) or explained
     event = of.event
+    if event is not None and event.action in GOING and number(event.object) is not None:
+        event = held_for(asked, event.object or Ego())  # "crawling behind the van"
     spent = cost_of_passage(asked, of.thing) if isinstance(of.thing, Junction) else None
     if spent is not None:
         return Measures((spent,))
@@ -126,6 +132,13 @@ def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
     at = of.time if isinstance(of.time, At) else event.time
     meant = replace(event, time=at, tense="past")
     return meant if occasion(asked, replace(meant, time=event.time)) is None else None
+
+
+def _instead(event: Event, asked: Asked) -> Answer | None:
+    """Tell what would have been without a choice, where no difference in time is known."""
+    supposed = WhatIf(Not(Happens(event)), HowMuch(Measured("delay")))
+    suppose = causal.explainer(supposed, asked)
+    return None if suppose is None else suppose(supposed, asked)
 
 
 def _gained(explained: Answer) -> Measure | None:

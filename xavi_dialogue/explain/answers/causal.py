@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, NeedRollout
+from xavi_dialogue.domain.answers import Answer, Identified, NeedRollout
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowAvoid,
@@ -39,7 +39,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers import choices, deciding, knowing, possible, reasons, risks
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.delays import held_up
+from xavi_dialogue.explain.answers.delays import held_up, let_past
 from xavi_dialogue.explain.answers.moments import window
 from xavi_dialogue.explain.answers.priority import goes_first
 from xavi_dialogue.explain.answers.provoked import because_of_us
@@ -147,6 +147,9 @@ def _what_for(question: Which, scene: Asked) -> Answer:
         event = Event("stand", tense=of.tense, time=of.time)
     if event.action == "block":
         event = replace(event, action="wait", actor=Ego())
+    several = let_past(event, scene)
+    if len(several) > 1:
+        return Identified(several, question.such)
     event = replace(event, object=None)
     if event.action in ("stop", "stand", "wait") and event.tense == "present":
         return reasons.why(Why(Not(Happens(Event("go", tense="present")))), scene)

@@ -3,12 +3,12 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Happenings
-from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.moments import Window
-from xavi_dialogue.explain.answers.naming import looks, number
+from xavi_dialogue.explain.answers.moments import Window, window
+from xavi_dialogue.explain.answers.naming import first_look, looks, number
 from xavi_dialogue.explain.answers.occasions import duration, overlaps
 
 YIELDS = frozenset[ActionName](("give-way", "wait", "let-go"))
@@ -34,6 +34,32 @@ def held_up(asked: Asked, about: Window) -> Happenings:
     shown = looks(asked, numbers, about.end)
     event = Event("block", object=Ego())
     return Happenings("list", tuple(kept), None, about.begin, about.end, looks=shown, asked=event)
+
+
+def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
+    """List whom we let go first at a time that is over, in the order in which they went.
+
+    Each went when he came nearest to us.
+    """
+    if event.action not in YIELDS or event.tense not in ("past", "perfect"):
+        return ()
+    about = window(asked, event.time, event.tense)
+    near = about.widened() if about.instant else about
+    found = [
+        e for e in asked.world.episodes(Ego(), YIELDS, near.begin, near.end)
+        if isinstance(e.object, Vehicle) and overlaps(asked, e, near)
+    ]  # fmt: skip
+    passed: dict[int, float] = {}
+    for one in found:
+        vehicle = number(one.object)
+        if vehicle is None or vehicle in passed:
+            continue
+        end = asked.now if one.end is None else one.end
+        nearest = asked.world.extreme("distance", Ego(), "lowest", one.begin, end, Vehicle(vehicle))
+        passed[vehicle] = nearest.time
+    order = sorted(passed, key=lambda v: (passed[v], v))
+    seen = (first_look(asked, v, passed[v]) for v in order)
+    return tuple(look for look in seen if look is not None)
 
 
 def for_whom(asked: Asked, episode: Episode) -> Episode:

@@ -42,7 +42,7 @@ from xavi_dialogue.nlu.compose.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.sem import Group, Notes, as_thing
-from xavi_dialogue.nlu.compose.severally import asked_each, of_rival
+from xavi_dialogue.nlu.compose.severally import apart, asked_each, of_rival
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
 from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
@@ -188,7 +188,7 @@ class Composer(Statements):
         found = self.questions.whether(clause)
         if not found and unit.name == "polar_short":
             return self.fragments.short(clause)
-        return [((Ask(disputed(q, words_of(unit))),), cost) for q, cost in found]
+        return [(apart(disputed(q, words_of(unit))), cost) for q, cost in found]
 
     # --- the rest ----------------------------------------------------
 

@@ -2,11 +2,21 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Ago, At, AtDecision, Back, Event, Now, Unsaid, WholeRide
+from xavi_dialogue.domain.terms import (
+    Ago,
+    At,
+    AtDecision,
+    Back,
+    Event,
+    Now,
+    Quantity,
+    Unsaid,
+    WholeRide,
+)
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots, is_named
 from xavi_dialogue.nlu.compose.sem import Group, Notes, SideOf
 from xavi_dialogue.nlu.compose.things import Nouns
-from xavi_dialogue.nlu.compose.times import relative, time_of
+from xavi_dialogue.nlu.compose.times import left_behind, number_before, relative, time_of
 from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -36,6 +46,8 @@ class Adjuncts:
 
     def _time(self, node: Node, clause: Clause) -> None:
         time = time_of(node)
+        if (before := number_before(node)) is not None:
+            clause.objects.append((Quantity(before), node))  # "we were doing eighty a minute ago"
         if isinstance(clause.time, Unsaid) or (clause.time in VAGUE and isinstance(time, EXACT)):
             clause.time = time  # "back then, at 3 s"
         elif node.name == "time_adverb":
@@ -81,6 +93,7 @@ class Adjuncts:
         if inner.name in CLAUSES:
             said = self.clause(inner, clause)
             event, ended = self.propositions.as_event(said), self.propositions.ended(said)
+            event = left_behind(said) or event
         else:
             event, ended = self.nouns.read(inner), None
         anchor = ended or self.propositions.anchor(event)

@@ -187,6 +187,12 @@ def _nears(event: Event) -> Proposition | None:
     return Is("close", other, time=event.time, tense=event.tense)
 
 
+#: What "harder than two metres per second squared" is said of, by the deed.
+_RATES: dict[str, Any] = {"brake": "deceleration", "slow-down": "deceleration",
+                          "speed-up": "acceleration"}  # fmt: skip
+_HARDER: dict[str, Any] = {"hard": "more", "fast": "more", "gentle": "less"}
+
+
 def compared(clause: Clause, event: Event) -> Proposition | None:
     """Read "he goes faster than us" as a comparison."""
     paced = _paced(clause, event) or _nears(event)
@@ -204,6 +210,9 @@ def compared(clause: Clause, event: Event) -> Proposition | None:
         near = Measured("distance", event.actor, event.object or Ego(), time=event.time,
                         tense=event.tense)  # fmt: skip
         return Compares(near, "less" if key == "close" else "more", clause.than)
+    if event.action in _RATES and key in _HARDER and isinstance(clause.than, Quantity):
+        rate = Measured(_RATES[event.action], event.actor, time=event.time, tense=event.tense)
+        return Compares(rate, _HARDER[key], Quantity(clause.than.value, "m/s2"))
     if event.action in ("move", "go") and (found := exceeding(clause, event)) is not None:
         return found
     thing = as_thing(clause.than)

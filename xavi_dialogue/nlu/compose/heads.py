@@ -316,10 +316,11 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
     owner = traits.owner
     if owner is None and head.key == "fault" and traits.kind is not None:
         owner = structs.replace(described(traits.kind, traits), doing=None, such=None)
+    rank = (traits.ordinal or 1) if head.key == "time" else 1
     return Noun(
         "event" if head.key == "peak" else head.key, traits.of, owner, about, plural, traits.other,
         traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),
-        traits.clause,
+        traits.clause, number=rank,
     )  # fmt: skip
 
 

@@ -21,6 +21,7 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Where,
+    Which,
     Whither,
     Why,
 )
@@ -46,6 +47,7 @@ from xavi_dialogue.domain.terms import (
     Road,
     That,
     Thing,
+    Together,
     Time,
     Unknown,
     Unsaid,
@@ -116,7 +118,7 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             return Summarise(sem, time)
         case Quantity() | Moment() | SideOf():
             return None
-        case Group(members=members):
+        case Group(members=members) if not isinstance(as_thing(sem), Together):
             return asked_of(members[0], time, tense)
         case Everyone():
             return Listing("vehicles", time=time)
@@ -194,6 +196,9 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
         case "summary" | "ride":
             of = None if isinstance(thing, Unknown) else _other_than_ego(thing)
             return Summarise(of, time)
+        case "hold-up":
+            held = Event("block", Wanted(), Ego(), time=time, tense=cast(Any, tense))
+            return Which(Wanted(), Happens(held))
         case "problem":
             return Why(That())
         case "difference" if isinstance(about, Happens):

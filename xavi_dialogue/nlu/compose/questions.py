@@ -171,8 +171,8 @@ class Questions(Options):
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
             # "what is he doing, braking like that?"
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
-        stranded = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
-        if wh.kind == "who" and stranded and clause.verb is None and is_that(clause.subject):
+        whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
+        if wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject):
             return [(Why(That()), 0.0)]  # "who was that for?"
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
         if wh.kind == "what" and (for_what or purpose(clause)):

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Record,
     Road,
     Thing,
+    Together,
     Unknown,
     Vehicle,
     Vehicles,
@@ -93,7 +94,7 @@ class Specified:
 
 Sem: TypeAlias = Specified | Thing | Event | Quantity | Noun | SideOf | Group | Measure | Moment
 THINGS = (
-    Ego, Vehicle, Vehicles, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
+    Ego, Vehicle, Vehicles, Together, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
     Exit, Lane, Road, Feature, Passenger, Record, Unknown,
 )  # fmt: skip
 ALTERNATIVES = 2  # things of which one is meant
@@ -154,7 +155,7 @@ def as_thing(sem: "Sem | None") -> Thing | None:
     if isinstance(sem, Specified):
         return sem.thing
     if isinstance(sem, Group):
-        return as_thing(sem.members[0])
+        return _together(sem) or as_thing(sem.members[0])
     if isinstance(sem, Noun):
         return Pronoun("that") if sem.key == "event" else Unknown(sem.word or sem.key)
     if isinstance(sem, (Event, Measure)):
@@ -162,6 +163,13 @@ def as_thing(sem: "Sem | None") -> Thing | None:
     if isinstance(sem, Quantity) and sem.unit == "count" and sem.value in range(1, _NUMBERS):
         return Vehicle(int(sem.value))  # "the gap to 2"
     return None
+
+
+def _together(group: Group) -> Together | None:
+    """Give the vehicles that are joined by "and"; None for all else."""
+    things = tuple(m for m in group.members if isinstance(m, Described | Vehicle))
+    joined = group.join == "and" and len(things) == len(group.members)
+    return Together(things) if joined else None
 
 
 def members_of(sem: "Sem | None") -> tuple["Sem", ...]:

@@ -3,10 +3,13 @@
 from dataclasses import replace
 from typing import cast
 
-from xavi_dialogue.domain.meaning import HowMuch, Question
+from xavi_dialogue.domain.meaning import Ask, HowMuch, Question, Whether, Which
 from xavi_dialogue.domain.terms import (
     Both,
+    Compares,
     Ego,
+    Event,
+    Happens,
     Lane,
     Measured,
     Pronoun,
@@ -17,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Time,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
@@ -140,3 +144,25 @@ def of_rival(found: list[tuple[Question, float]], clause: Clause) -> Question | 
 
 
 _OF_EACH = frozenset({"speed", "acceleration", "deceleration", "size"})
+
+
+def apart(question: Question) -> tuple[Ask, ...]:
+    """Ask "did you exceed the limit or brake hard?" of each: both may be so, and neither."""
+    match question:
+        case Whether(that=Both(contents=(Compares(left=left), *rest) as each, join="or")) if all(
+            _unlike(left, other) for other in rest
+        ):
+            return tuple(Ask(Whether(one)) for one in each)
+        case Whether(
+            that=Both(contents=(Happens(event=first), Happens(event=other)), join="or")
+        ) if "first" in first.manner and other == Event(
+            "do", first.actor, Ego(), tense=other.tense
+        ):  # "did he go first, or did we?"
+            such = Happens(cast(Event, with_fields(first, actor=Wanted())))
+            return (Ask(Which(Wanted(), such, (first.actor, Ego()))),)
+    return (Ask(question),)
+
+
+def _unlike(left: Measured, other: Proposition) -> bool:
+    """Say whether something else than a measure is compared, or another measure."""
+    return not isinstance(other, Compares) or other.left.attribute != left.attribute

@@ -17,7 +17,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.sem import Moment, Sem
+from xavi_dialogue.nlu.compose.sem import Moment, Noun, Sem
 from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, number_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 
@@ -67,6 +67,14 @@ def counts(clause: Clause) -> Proposition | None:
         return None
     if not verb and not isinstance(clause.subject, Pronoun):
         return None
+    last = clause.objects[-1][0]
+    if isinstance(last, Noun) and last.key == "time" and isinstance(last.clause, Happens):
+        event = last.clause.event  # "that is the second time we stopped"
+        stopped = event.action == "block" and event.object == Wanted()
+        free = None if isinstance(event.object, Wanted) else event.object
+        action = "stop" if stopped else event.action
+        event = replace(event, action=action, object=free, tense="past")
+        return _compared(Measured("count", event.actor, event=event), last.number)
     return among(*clause.objects[-1])
 
 

@@ -8,18 +8,23 @@ from xavi_dialogue.domain.terms import (
     AtDecision,
     Back,
     Between,
+    Ego,
     Event,
     Junction,
     Next,
     Now,
+    Pronoun,
     Rank,
     Relative,
+    Road,
     Start,
     Time,
     Unsaid,
     WholeRide,
     Within,
 )
+from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.sem import as_thing
 from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, nodes_of, number_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -121,12 +126,30 @@ def seconds_of(node: Node) -> float | None:
     unit = leaf_of(node, "TUNIT")
     scale = SECONDS.get(unit.key, 1.0) if unit else 1.0
     numbers = nodes_of(node, "num")
-    if numbers:
+    if numbers and number_before(node) is None:
         return number_of(numbers[0]) * scale
     determiner = leaf_of(node, "DET")
     if determiner is not None and determiner.key == "many":
         return FEW * scale
     return scale if determiner is not None and determiner.words[0] in ("a", "one") else None
+
+
+def number_before(node: Node) -> float | None:
+    """Find a number that is none of seconds: the eighty of "eighty a minute ago"; None: none."""
+    numbers, article = nodes_of(node, "num"), leaf_of(node, "DET")
+    if node.name != "time_ago" or not numbers or article is None:
+        return None
+    said = number_of(numbers[0])
+    return said if said >= 1.0 and article.start >= numbers[0].end else None
+
+
+def left_behind(clause: Clause) -> Event | None:
+    """Read "we are off this roundabout" as our leaving of it."""
+    if clause.verb is not None or not isinstance(clause.subject, Ego) or clause.negated:
+        return None
+    places = [as_thing(c.sem) for c in clause.complements if c.key in ("off", "from", "out")]
+    found = next((p for p in places if isinstance(p, Junction | Road | Pronoun)), None)
+    return None if found is None else Event("leave", Ego(), found, tense="present")
 
 
 def _amount(node: Node) -> Time:
@@ -158,6 +181,9 @@ def _amount(node: Node) -> Time:
 
 def relative(relation: str, anchor: object) -> Time:
     """Build a time before, after or during something."""
+    match anchor:
+        case Event(action="approach", actor=Ego(), object=Junction() as place):
+            relation, anchor = "before", place  # "as we came up to the roundabout"
     names = {"before": "before", "after": "after", "until": "until", "since": "since"}
     return Relative(names.get(relation, "during"), anchor)  # type: ignore[arg-type]
 
