@@ -34,7 +34,6 @@ DeadlineMs = Annotated[float, msgspec.Meta(gt=0.0, le=600_000.0)]
 Actions = Annotated[tuple[Action, ...], msgspec.Meta(max_length=8)]
 Gone = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=64)]
 Faster = Annotated[float, msgspec.Meta(ge=-100.0, le=100.0)]
-Phantoms = Annotated[tuple[Whole, ...], msgspec.Meta(max_length=8)]
 Supposed = Annotated[tuple[LightSupposed, ...], msgspec.Meta(max_length=8)]
 Place = Annotated[str, msgspec.Meta(min_length=1, max_length=128)]
 Folder = Annotated[str, msgspec.Meta(min_length=1, max_length=4096)]
@@ -282,7 +281,7 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     vehicle_actions: Actions = ()  # what it does first
     faster: Faster | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: Supposed | msgspec.UnsetType = msgspec.UNSET  # what traffic lights show
-    seen_past: Phantoms | msgspec.UnsetType = msgspec.UNSET  # who is imagined and is not there
+    seen_past: Gone | msgspec.UnsetType = msgspec.UNSET  # who is imagined and is not there
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 
