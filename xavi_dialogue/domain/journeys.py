@@ -73,3 +73,4 @@ class Wavered(Value, frozen=True):
     plan: MacroAction  # that was given up
     turns: tuple[Waver, ...]
     resumed: bool = False  # it was taken up again in the end
+    claim: bool = False  # it answers a charge

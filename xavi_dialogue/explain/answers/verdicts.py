@@ -4,7 +4,7 @@ from dataclasses import replace as refound
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict
+from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict, Wavered
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -138,6 +138,8 @@ def claim(act: Claim, asked: Asked) -> Answer:
     act = replace(act, that=_as_state(act.that))
     if (why := _disputed(act.that, asked) or _our_way(act.that, asked)) is not None:
         return why
+    if (wavering := _wavered(act.that, asked)) is not None:
+        return wavering
     found = _seen_since(act.that, weigh(act.that, asked), asked)
     if isinstance(found.answer, Priority):
         return replace(found.answer, claim=True)
@@ -146,6 +148,28 @@ def claim(act: Claim, asked: Asked) -> Answer:
     if found.answer is not None and (found.holds is None or _own_type(act.that)):
         return found.answer
     return _checked(found, act)
+
+
+def _wavered(that: Proposition, asked: Asked) -> Answer | None:
+    """Tell why we gave up a plan, where we are said to be undecided, or to start and stop."""
+    match that:
+        case Happens(event=Event(action="change-plan", actor=Ego(), modal=None) as event):
+            pass
+        case Happens(
+            event=Event(action="go" | "move", actor=Ego(), then=Event(action="stop" | "brake"))
+            as event
+        ):
+            pass
+        case _:
+            return None
+    changed = replace(event, action="change-plan", time=Unsaid(), then=None)
+    try:
+        found = handed(Why(Happens(changed)), asked)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    return replace(found, claim=True) if isinstance(found, Wavered) else None
 
 
 def _our_way(that: Proposition, asked: Asked) -> Answer | None:

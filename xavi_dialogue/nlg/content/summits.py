@@ -11,7 +11,7 @@ from xavi_dialogue.nlg.content.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Who
 
 UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": "s",
          "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
@@ -114,6 +114,8 @@ def plan_wavered(answer: Wavered, context: SpeechContext) -> Plan:
         plan=own_verbs((answer.plan,)),
         turns=told,
         several=len(answer.turns) > 1,
+        times=Number(len(answer.turns), "time"),
+        claim=answer.claim,
         resumed=answer.resumed,
     )
     return Plan((core,))

@@ -140,6 +140,8 @@ def _found(clause: Clause) -> list[Found]:
         who = as_thing(subject)
         return [(Is("upset", who, time=clause.time, tense=tense_of(clause)), -0.1)]
     for key, degree in clause.adjectives:
+        if key == "wavering" and isinstance(subject, Ego | Pronoun):
+            return [(Happens(Event("change-plan", time=clause.time, tense=tense_of(clause))), 0.0)]
         if key in _MANNERS and isinstance(subject, Event):
             hard = (*subject.manner, _MANNERS[key])
             deed = with_fields(subject, manner=hard, time=clause.time, tense=tense_of(clause))
