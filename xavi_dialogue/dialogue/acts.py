@@ -10,6 +10,7 @@ from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
 from xavi_dialogue.dialogue.mind import Said, Situation, speak
 from xavi_dialogue.dialogue.objections import foreseen_then
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.severally import severally
 from xavi_dialogue.dialogue.soundness import says_something
 from xavi_dialogue.dialogue.state import Understood
 from xavi_dialogue.dialogue.turn import Part, Turn
@@ -98,8 +99,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
     """
     match act.act:
         case Ask() | Claim() | Request():
-            found = now.mind.explain(act, now.record)
-            return found if isinstance(found, NeedRollout) else (found,)
+            return _explained(now, act)
         case Feel() as feel:
             return _comfort(now, act, feel, beside)
         case Repair() as repair:
@@ -117,6 +117,17 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
             return (CannotSay(topic, words),)
         case Elliptic():
             return (NotUnderstood(),)
+
+
+def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
+    """Answer an act, of each of several vehicles that it is asked of."""
+    found: list[Answer | Refusal] = []
+    for one in severally(act):
+        result = now.mind.explain(one, now.record)
+        if isinstance(result, NeedRollout):
+            return result
+        found.append(result)
+    return tuple(found)
 
 
 def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:

@@ -113,6 +113,7 @@ class Compare(Value, frozen=True):
 
     options: tuple[Proposition | Thing, ...]
     by: Literal["best", "time", "safety", "comfort", "speed", "distance", "probability", "size"]
+    least: bool = False  # which is slower, smaller
 
 
 class Listing(Value, frozen=True):

@@ -37,11 +37,10 @@ from xavi_dialogue.domain.vocabulary import (
 
 __all__ = [
     "Ago", "At", "AtDecision", "Back", "Believed", "Between", "Both", "Caused", "Compares",
-    "Described",
-    "Destination", "Ego", "Event", "Everyone", "Exists", "Exit", "Extremes", "Feature",
+    "Described", "Destination", "Ego", "Event", "Everyone", "Exists", "Exit", "Extremes", "Feature",
     "Happens", "Has", "Is", "Junction", "Lane", "Measured", "Next", "Nobody", "Not", "Now",
     "Passenger", "Pronoun", "Proposition", "Quantity", "Rank", "Record", "Related", "Relative",
-    "Road", "Start", "Tense", "That", "Thing", "Time", "Unknown", "Unsaid", "Vehicle",
+    "Road", "Start", "Tense", "That", "Thing", "Time", "Together", "Unknown", "Unsaid", "Vehicle",
     "Vehicles", "Wanted", "WholeRide", "Within",
 ]  # fmt: skip
 
@@ -62,6 +61,12 @@ class Vehicles(Value, frozen=True):
     """Several vehicles, grounded, in the order in which they are to be named."""
 
     numbers: tuple[int, ...]
+
+
+class Together(Value, frozen=True):
+    """Several that are named one by one: "the lorry and the grey car"."""
+
+    members: tuple["Thing", ...]
 
 
 class Nobody(Value, frozen=True):
@@ -170,6 +175,7 @@ Thing: TypeAlias = (
     Ego
     | Vehicle
     | Vehicles
+    | Together
     | Nobody
     | Described
     | Pronoun

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Counted, Measures
+from xavi_dialogue.domain.answers import Counted, Measures, Verdict
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import HowMany
 from xavi_dialogue.domain.terms import (
@@ -137,7 +137,7 @@ def compares(of: Compares, asked: Asked) -> Finding:
     at = instant(asked, of.left.time, of.left.tense)
     each = somebodies(asked, of.left.thing, at)
     if len(each) < 2:
-        return _compared(of, asked)
+        return _lesser_first(of, _compared(of, asked))
     found = [_compared(replace(of, left=replace(of.left, thing=one)), asked) for one in each]
     told = [one for one in found if one.holds is not None]
     if not told:
@@ -145,6 +145,17 @@ def compares(of: Compares, asked: Asked) -> Finding:
     left = tuple(one.facts[0] for one in told)
     right = told[0].facts[1:]
     return Finding(all(one.holds for one in told), (*left, *right))
+
+
+def _lesser_first(of: Compares, found: Finding) -> Finding:
+    """Tell of two that are not the same that the lesser is not as the other one is."""
+    if of.comparator != "same" or found.holds is not False or not isinstance(of.right, Measured):
+        return found
+    values = [f for f in found.facts if isinstance(f, Measure) and f.value is not None]
+    if len(values) != 2 or (values[0].value or 0.0) <= (values[1].value or 0.0):
+        return found
+    swapped = replace(of, left=of.right, right=of.left)
+    return Finding(False, answer=Verdict(swapped, False, tuple(reversed(found.facts))))
 
 
 def _tallied(of: Compares, asked: Asked) -> Finding:

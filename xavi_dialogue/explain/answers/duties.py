@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Unsaid,
+    Vehicle,
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -48,6 +49,8 @@ GOING: tuple[ActionName, ...] = ("go", "enter", "cross", "merge", "pull-out", "t
 STUCK: tuple[ActionName, ...] = ("keep-lane", "stand", "wait")
 #: What somebody does who comes into another one's way.
 INTO_PATH: tuple[ActionName, ...] = ("pull-out", "cut-in", "cross", "block")
+WAITING: tuple[ActionName, ...] = ("give-way", "wait")
+LATELY = 6.0  # [s] since when who waited for others was not held up by us
 LIKELY = 0.5  # probability from which somebody is expected to stop for us all the same
 DUTIES = frozenset(("must", "should"))
 
@@ -104,9 +107,13 @@ def _before_him(asked: Asked, event: Event) -> Finding | None:
     if vehicle is None or event.tense == "future" or occasion(asked, event) is not None:
         return None
     found = priority_at(asked, vehicle, window(asked, event.time, "past"))
-    if found.rule not in ("give-way", "equal", "depends") or not isinstance(found.first, Ego):
-        return None
-    return Finding(True, answer=replace(found, holds=True))
+    crossing = found.rule in ("give-way", "equal", "depends")
+    if crossing and isinstance(found.first, Ego):
+        holds = not found.stood  # whom we passed as it stood, we took nothing from
+        return Finding(holds, answer=replace(found, holds=holds))
+    waits = asked.world.episodes(Vehicle(vehicle), WAITING, begin=asked.now - LATELY)
+    held = [e for e in waits if not is_us(e.object)]
+    return Finding(False, tuple(held[-1:])) if held and found.first is None else None
 
 
 def _unwilling(asked: Asked, event: Event) -> Finding | None:
@@ -194,7 +201,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     if vehicle is None:
         about = where_rule_holds(asked, None, about)
     if several or every is not None:
-        return _owed_to_all(asked, several or asked.world.in_view(about.end), about, ours=ours)
+        return owed_to_all(asked, several or asked.world.in_view(about.end), about, ours=ours)
     found = owed(priority_at(asked, vehicle, about), ours_yield=ours)
     if found.holds is not None or not is_us(yielder):
         return found
@@ -203,7 +210,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     return found if held is None else Finding(True, (held,))
 
 
-def _owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
+def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
     """Tell to whom of several we have to yield, or who of them has to yield to us."""
     rules = {v: met[1] for v in among if (met := rule_between(asked, v, about)) is not None}
     wanted = "give-way" if ours else "priority"
@@ -306,7 +313,7 @@ def _to_all(
         return None
     near = {fact.vehicle for fact in road.priority}
     among = tuple(v for v in asked.world.in_view(asked.now) if v in near)
-    found = _owed_to_all(asked, among, about, ours=is_us(yielder))
+    found = owed_to_all(asked, among, about, ours=is_us(yielder))
     told = found.answer
     return replace(told, holds=None) if isinstance(told, Priority) and found.holds else None
 

@@ -155,6 +155,8 @@ def sided(event: Event) -> ActionName:
             "left": "exit-left", "right": "exit-right", "straight": "exit-straight"
         }  # fmt: skip
         return sides[event.side]
+    if event.action in ("go", "continue") and event.side == "straight":
+        return "exit-straight"
     if event.action in ("change-lane", "overtake", "merge") and event.side in ("left", "right"):
         return "change-left" if event.side == "left" else "change-right"
     return event.action

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
 from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.duties import owed_to_all
 from xavi_dialogue.explain.answers.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.happens import happens
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_past, window
@@ -138,6 +139,9 @@ def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
     ours = is_us(of.thing) == (of.relation == "has-priority-over")
     past = is_past(asked, of.time, of.tense)
     near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
+    several = of.thing if isinstance(of.thing, Vehicles) else of.to
+    if isinstance(several, Vehicles):
+        return owed_to_all(asked, several.numbers, near, ours=not ours)
     found = right_of_way(asked, of.thing, of.to, near)
     if found.rule == "none" and ours:  # "do we fit in before it gets here?"
         return Finding(None, answer=found)

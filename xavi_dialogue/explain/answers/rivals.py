@@ -46,6 +46,7 @@ def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
     if question.by not in BY or len(things) < 2:
         raise Unanswered(NotUnderstood())
     attribute, most = BY[question.by]
+    most = most != question.least
     values = sorted((_value(asked, attribute, t, at) for t in things), key=_key, reverse=most)
     first, second = values[0], values[1]
     left, right = Measured(attribute, first.thing), Measured(attribute, second.thing)

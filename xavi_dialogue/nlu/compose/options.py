@@ -41,7 +41,8 @@ class Options(Effects):
         if clause.comparisons:
             by = BY.get(clause.comparisons[0][0], "best")
             by = "speed" if by == "time" and things else by
-        return Compare(options, cast(Any, by)), 0.1 + WEAK * (things and by == "best")
+        least = things and least_of(clause)
+        return Compare(options, cast(Any, by), least), 0.1 + WEAK * (things and by == "best")
 
     def _first_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> Question | None:
         """Ask "who goes first, we or the bus": who of them has to let the other go."""
@@ -86,8 +87,13 @@ class Options(Effects):
         if spoken or {"them", "those", "these", "both"} & set(wh.words):
             by = {"fast": "speed", "slow": "speed"}.get(clause.comparisons[0][0])
             other = BY.get(clause.comparisons[0][0], "best")
-            return Compare((Pronoun("them-all"),), cast(Any, by or other))
+            return Compare((Pronoun("them-all"),), cast(Any, by or other), least_of(clause))
         return None
+
+
+def least_of(clause: Clause) -> bool:
+    """Say whether it is asked who is slower or smaller, not faster or bigger."""
+    return bool(clause.comparisons) and clause.comparisons[0][0] in ("slow", "small")
 
 
 def rivals(options: tuple[Any, ...]) -> tuple[Any, ...]:

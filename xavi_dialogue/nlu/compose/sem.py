@@ -94,8 +94,8 @@ class Specified:
 
 Sem: TypeAlias = Specified | Thing | Event | Quantity | Noun | SideOf | Group | Measure | Moment
 THINGS = (
-    Ego, Vehicle, Vehicles, Together, Nobody, Described, Pronoun, Wanted, Everyone, Destination, Junction,
-    Exit, Lane, Road, Feature, Passenger, Record, Unknown,
+    Ego, Vehicle, Vehicles, Together, Nobody, Described, Pronoun, Wanted, Everyone, Destination,
+    Junction, Exit, Lane, Road, Feature, Passenger, Record, Unknown,
 )  # fmt: skip
 ALTERNATIVES = 2  # things of which one is meant
 _NUMBERS = 20  # numbers of vehicles are below
@@ -156,6 +156,8 @@ def as_thing(sem: "Sem | None") -> Thing | None:
         return sem.thing
     if isinstance(sem, Group):
         return _together(sem) or as_thing(sem.members[0])
+    if isinstance(sem, Noun) and sem.key == "end":  # "the bus's bumper"
+        return as_thing(sem.owner) or as_thing(sem.of) or Pronoun("it")
     if isinstance(sem, Noun):
         return Pronoun("that") if sem.key == "event" else Unknown(sem.word or sem.key)
     if isinstance(sem, (Event, Measure)):

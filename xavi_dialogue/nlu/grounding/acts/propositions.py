@@ -39,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unsaid,
     Vehicle,
+    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.dangers import threatened
@@ -204,6 +205,10 @@ def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
     if near and isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
         of = replace(of, time=WholeRide())  # "did he come within 5 metres?"
     left = measured(of, g, timed, outer)
+    match left.thing:
+        case Vehicles(numbers=(one, two)) if spoken.comparator == "same":  # "are both as fast?"
+            other = replace(left, thing=Vehicle(two))
+            return replace(spoken, left=replace(left, thing=Vehicle(one)), right=other)
     if isinstance(right, Measured):
         right = measured(right, apart(right.thing, left.thing, g), timed, outer)
     return replace(spoken, left=left, right=right)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Thing,
+    Together,
     Unknown,
     Vehicle,
     Vehicles,
@@ -39,6 +40,8 @@ def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None)
             return _numbered(thing, g, window)
         case Described():
             return described(thing, g, window, fits)
+        case Together(members=members):
+            return _together(tuple(resolve(one, g, window, fits) for one in members), thing)
         case Feature(kind="light", of=of) if of is not None:
             owner = g.thing(of, window)
             return replace(thing, of=None if isinstance(owner, Ego) else owner)
@@ -54,6 +57,20 @@ def resolve(thing: Thing, g: Grounder, window: Window, fits: Fits | None = None)
             g.notes.unknown.append(words)
             g.notes.cost += UNKNOWN
     return thing
+
+
+def _together(found: tuple[Thing, ...], thing: Thing) -> Thing:
+    """Join the vehicles that were found for those named one by one."""
+    numbers: dict[int, None] = {}
+    for one in found:
+        match one:
+            case Vehicle(number=number):
+                numbers[number] = None
+            case Vehicles(numbers=several):
+                numbers |= dict.fromkeys(several)
+    if len(numbers) > 1:
+        return Vehicles(tuple(numbers))
+    return next((one for one in found if isinstance(one, Vehicle)), found[0] if found else thing)
 
 
 def _numbered(thing: Vehicle | Vehicles, g: Grounder, window: Window) -> Thing:

@@ -1,0 +1,45 @@
+"""What is asked of a few vehicles named together is asked of each of them."""
+
+from typing import Any
+
+import pytest
+
+from xavi_dialogue.dialogue.severally import severally
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Doing, Whether, Which, Whither, Why
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Vehicle, Vehicles, Wanted
+
+BOTH = Vehicles((1, 2))
+
+
+def asked(make: Any, whom: Any) -> GroundedAct:
+    return GroundedAct(Ask(make(whom)))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda who: Why(Happens(Event("stop", who))),
+        lambda who: Whether(Happens(Event("turn", who))),
+        lambda who: Which(Wanted(), Happens(Event("wait", who, Wanted()))),
+        lambda who: Whither(who),
+        lambda who: Doing(who),
+    ],
+)
+def test_a_question_of_two_is_asked_of_each(make: Any) -> None:
+    found = severally(asked(make, BOTH))
+    assert found == (asked(make, Vehicle(1)), asked(make, Vehicle(2)))
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        asked(lambda who: Why(Happens(Event("go", who, manner=("first",)))), BOTH),
+        asked(lambda who: Whether(Happens(Event("wait", who, Ego()))), BOTH),
+        asked(lambda who: Whether(Happens(Event("turn", who, modal="must"))), BOTH),
+        asked(Doing, Vehicles((1, 2, 3, 4))),
+        asked(Doing, Vehicle(1)),
+    ],
+)
+def test_what_is_told_of_all_at_once_stays_one_question(act: GroundedAct) -> None:
+    assert severally(act) == (act,)

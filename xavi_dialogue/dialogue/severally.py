@@ -1,0 +1,45 @@
+"""Severally: what is asked of several vehicles named together is asked of each of them."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Doing, Whether, Which, Whither, Why
+from xavi_dialogue.domain.terms import Event, Happens, Vehicle, Vehicles
+from xavi_dialogue.domain.vocabulary import ActionName
+
+MOST: Final = 3  # vehicles of whom each is told by itself
+#: Of what each may have another way, or none.
+OWN: Final = frozenset[ActionName]((
+    "go", "leave", "take-exit", "turn", "exit-left", "exit-right", "exit-straight", "continue",
+    "change-left", "change-right", "change-lane", "disappear", "approach", "come", "pass",
+))  # fmt: skip
+WAITING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
+
+
+def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
+    """Give the acts that ask of each of a few vehicles what an act asks of all of them."""
+    match act.act:
+        case Ask(question=Why(of=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q):
+            if "first" in event.manner or len(many) > MOST:
+                return (act,)
+            return tuple(replace(act, act=Ask(replace(q, of=of))) for of in _each(event, many))
+        case Ask(
+            question=Whether(that=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q
+        ) if event.action in OWN and event.modal in (None, "will") and len(many) <= MOST:
+            return tuple(replace(act, act=Ask(replace(q, that=of))) for of in _each(event, many))
+        case Ask(
+            question=Which(such=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q
+        ) if event.action in WAITING and len(many) <= MOST:
+            return tuple(replace(act, act=Ask(replace(q, such=of))) for of in _each(event, many))
+        case Ask(
+            question=Doing(actor=Vehicles(numbers=many))
+            | Whither(actor=Vehicles(numbers=many)) as q
+        ) if len(many) <= MOST:
+            return tuple(replace(act, act=Ask(replace(q, actor=Vehicle(n)))) for n in many)
+    return (act,)
+
+
+def _each(event: Event, many: tuple[int, ...]) -> tuple[Happens, ...]:
+    return tuple(Happens(replace(event, actor=Vehicle(n))) for n in many)
