@@ -236,6 +236,7 @@ class Closeness(Value, frozen=True):
     time: float = 0.0
     past: bool = True
     overall: bool = True  # it was never closer so far
+    foreseen: bool = False  # it is how close it comes if all goes as planned and expected
     grounds: "Assurance | None" = None  # why no collision is expected, where that is asked
 
 

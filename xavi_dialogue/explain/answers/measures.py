@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
+from xavi_dialogue.explain.answers.approaching import foreseen_closeness
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.attributes import SPECIAL
 from xavi_dialogue.explain.answers.comfort import stretch
@@ -72,6 +73,11 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         raise did_not_happen(asked, of.time.anchor)
     if of.attribute == "speed" and of.to is not None:
         return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)
+    if of.tense == "future" and question.extreme == "lowest" and of.attribute in MUTUAL:
+        other = next((t.number for t in (of.to, of.thing) if isinstance(t, Vehicle)), None)
+        coming = None if other is None else foreseen_closeness(asked, other)
+        if coming is not None:
+            return coming
     if of.attribute == "gap" and question.extreme == "lowest" and isinstance(of.to, Vehicle):
         of = replace(of, attribute="distance")  # beside one another too, not only in line
     if of.attribute == "delay" and question.extreme == "highest" and of.event is None:

@@ -23,7 +23,7 @@ First: TypeAlias = Literal["we", "they", "nobody"]
 
 def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
     """Tell who is first where our ways meet; nobody where they do not. None: it is not known."""
-    ours = _planned(trace)
+    ours = planned_line(trace)
     if ours is None or not way.path or not way.speed:
         return None
     for k, (place, speed) in enumerate(zip(way.path, way.speed, strict=False)):
@@ -37,7 +37,7 @@ def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
 
 def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
     """Tell whether a way leads shortly before us past a place of ours; None: it is not known."""
-    ours = _planned(trace)
+    ours = planned_line(trace)
     if ours is None or not way.path or not way.speed:
         return None
     for k, (place, speed) in enumerate(zip(way.path, way.speed, strict=False)):
@@ -49,7 +49,7 @@ def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
 
 def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
     """Tell whether a way leads into the road that we are on; None: it is not known."""
-    ours = _planned(trace)
+    ours = planned_line(trace)
     if ours is None or len(way.path) < 2:
         return None
     here = ours.position[0]
@@ -62,7 +62,7 @@ def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
     return turned <= TURNED and abs(dy * math.cos(road) - dx * math.sin(road)) <= BESIDE
 
 
-def _planned(trace: PlanTrace) -> Motion | None:
+def planned_line(trace: PlanTrace) -> Motion | None:
     """The line that goes farthest of those that drive as planned."""
     plan, known = planned(trace)[:1], lines(trace)
     fitting = [

@@ -188,6 +188,11 @@ def _our_way(that: Proposition, asked: Asked) -> Answer | None:
 def _disputed(that: Proposition, asked: Asked) -> Answer | None:
     """Give the reason for what we did that is said to be late, early or long, or what it cost."""
     match that:
+        case Not(content=Happens(event=Event(modal="should" | "would") as event)) if is_us(
+            event.actor
+        ):  # "I would not have stopped there"
+            done = replace(event, modal=None, tense="past", time=Unsaid())
+            return handed(Why(Happens(done)), asked) if occasion(asked, done) else None
         case Happens(event=event) if event.modal is None and is_us(event.actor):
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None

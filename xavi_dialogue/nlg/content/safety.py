@@ -140,10 +140,11 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     at = closest.time if closest is not None and answer.past else None
     first = message(
         "CLOSENESS",
-        lead=_lead(answer),
+        lead=None if answer.foreseen else _lead(answer),
         who=Who(Vehicle(vehicle), at) if vehicle is not None else None,
         closest=Quantity(closest.value, "m") if closest and closest.value is not None else None,
         past=answer.past,
+        foreseen=answer.foreseen,
         then=not answer.overall,
         peak_at=Moment(closest.time) if closest is not None and answer.past else None,
     )

@@ -274,6 +274,13 @@ def _lost(special: Special) -> Proposition:
     return Happens(with_fields(event_of(special, "disappear", None), actor=thing or Pronoun("it")))
 
 
+def _missed(special: Special) -> Proposition:
+    """Read "you missed your chance to overtake": that we could have done so."""
+    content = special.content
+    event = content.event if isinstance(content, Happens) else Event("go", tense="past")
+    return Happens(structs.replace(event, actor=special.subject, tense="past", modal="could"))
+
+
 def _signal(special: Special) -> Proposition:
     return Happens(event_of(special, "signal", None))
 
@@ -295,7 +302,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": _leave_space,
     "begin": begun, "change": changed,
-    "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
+    "missed-chance": _missed, "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
     "refrain": given_up,
     "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
                               time_of(s), tense_of(s)),

@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
@@ -227,9 +228,10 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     beside = None if bearing is None else as_thing(bearing.sem)
     if state in ("close", "far") and thing == Ego() and isinstance(beside, Described | Vehicle):
         thing = beside  # "we are very close to that car"
-    found: Proposition = Is(
-        cast(Any, state), thing, event or inner, too, when(clause, None), tense_of(clause)
-    )
+    time, tense = when(clause, None), tense_of(clause)
+    if "ever" in clause.focus and isinstance(time, Unsaid) and tense != "present":
+        time = WholeRide()  # "was it ever close?"
+    found: Proposition = Is(cast(Any, state), thing, event or inner, too, time, tense)
     if bearing is not None and state in ("close", "stuck", "stationary"):
         to = as_thing(bearing.sem) or Ego()
         side = relation_of(bearing.key.removeprefix("bearing-"))

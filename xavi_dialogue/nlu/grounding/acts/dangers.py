@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Unsaid,
     Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.salience import FRESH, vehicles_of
@@ -36,7 +37,7 @@ def threatened(spoken: Is, g: Grounder) -> Is:
     match spoken.time:
         case Relative(relation="during", anchor=Event(actor=Described() | Pronoun() as whom)):
             return replace(spoken, thing=whom)
-        case Unsaid() | Ago(seconds=None) if spoken.tense == "past":
+        case Unsaid() | Ago(seconds=None) | WholeRide() if spoken.tense == "past":
             known = spoken_of(g)
             return spoken if known is None else replace(spoken, thing=known)
     return spoken
@@ -45,7 +46,7 @@ def threatened(spoken: Is, g: Grounder) -> Is:
 def _of_us(spoken: Is) -> bool:
     """Tell whether it is said of us, or of nothing but what happened then."""
     if isinstance(spoken.thing, Pronoun):
-        return spoken.thing.form in _VAGUE and isinstance(spoken.time, Relative)
+        return spoken.thing.form in _VAGUE and isinstance(spoken.time, Relative | WholeRide)
     return isinstance(spoken.thing, Ego | Passenger)
 
 

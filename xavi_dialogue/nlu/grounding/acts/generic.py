@@ -157,6 +157,10 @@ def in_order(spoken: Happens, mode: Mode) -> Proposition:
     if event.action == "leave" and event.object == Feature("way"):
         there = Related("in-the-way-of", event.actor, Ego(), event.time, event.tense)
         return Not(there, lexical=True)  # "did he get out of the way"
+    if mode == "asked" and event.action == "approach" and isinstance(event.object, Vehicle):
+        ours = isinstance(event.actor, Ego) and event.tense in ("past", "perfect")
+        if ours and event.modal is None:  # "did we come close to him?"
+            return Is("close", event.object, time=event.time, tense="past")
     if mode == "asked" and event.action in _MOTION and event.where is not None:
         return _beside(event, event.where) or spoken
     orders = event.action in ("go", "enter", "cross") and "first" in event.manner
