@@ -1,7 +1,7 @@
 """Talking about a ride within one process: no bus, and planning again when asked to."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import msgspec
@@ -9,7 +9,6 @@ import msgspec
 from planner.trace import PlanTrace, WhatIf
 from planner.whatif import WhatIfError, replan
 from sim.network import Network
-from sim.scene import Scene
 from xavi_dialogue.app.ride import Moment, clock, halts
 from xavi_dialogue.dialogue.events import (
     Answered,
@@ -78,7 +77,7 @@ class Conversation:
             self._tell(TraceRecorded(moment.trace))
         for event in moment.events:
             self._tell(EventRecorded(event))
-        seen = Scene(clock(moment), moment.scene.vehicles, moment.scene.lights)
+        seen = replace(moment.scene, time=clock(moment))
         self._tell(SceneSeen(seen))
         if moment.ending is not None:
             self._tell(RideEnded(clock(moment)))

@@ -75,6 +75,7 @@ class LightTold(Value, frozen=True):
     passed: float | None = None  # [s] when we passed it, where we have
     count: int | None = None  # of lights that we passed
     crossed: tuple[Crossed, ...] = ()
+    others: tuple[Crossed, ...] = ()  # passed while they showed something else than was asked of
     whose: Thing | None = None  # who faces it, where that is somebody else
 
 

@@ -155,6 +155,7 @@ def test_where_it_is_and_how_many_there_were():
     assert answer(Ask(Where(LIGHT)), 34.0).passed == pytest.approx(PASSED, abs=0.15)
     assert answer(Ask(HowMany(LIGHT)), 40.0).count == 1
     assert answer(Ask(HowMany(RED)), 40.0).count == 0
+    assert len(answer(Ask(HowMany(RED)), 40.0).others) == 1
     assert answer(Ask(HowMany(RED)), 14.0, WILD).count == 1
 
 

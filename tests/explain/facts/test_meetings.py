@@ -330,3 +330,17 @@ def test_a_near_miss_is_when_it_was_closest() -> None:
     (found,) = World(made({0: Actor(pose), 1: other}, 8.0)).episodes(actions="nearly-collide")
     assert found.begin == found.end
     assert found.begin == pytest.approx(4.2, abs=0.25)
+
+
+def test_somebody_on_foot_crosses_our_way_from_stepping_out_on() -> None:
+    """From 6 m on our right at 1 m/s: nearer than 4 m from 2 to 10 s."""
+    walker = Actor(straight(30.0, -6.0, 1.0, math.pi / 2.0), "pedestrian", None, 0.2)
+    stands = {0: Actor(straight(0.0, 0.0, 0.0)), 1: walker}
+    (going,) = World(made(stands, 6.0)).episodes(actions="cross")
+    assert (going.actor, going.end, going.side) == (ONE, None, "right")
+    assert going.begin == pytest.approx(2.0, abs=0.3)
+    (over,) = World(made(stands, 14.0)).episodes(actions="cross")
+    assert over.end == pytest.approx(10.0, abs=0.3)
+    assert World(made(stands, 1.0)).episodes(actions="cross") == ()
+    aside = {**stands, 1: Actor(straight(30.0, -6.0, 1.0), "pedestrian", None, 0.2)}
+    assert World(made(aside, 6.0)).episodes(actions="cross") == ()

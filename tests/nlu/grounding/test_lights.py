@@ -6,7 +6,7 @@ from msgspec.structs import replace
 from sim.scene import VehicleState
 from tests.explain.lit import record
 from xavi_dialogue.domain.discourse import Discourse, Mention
-from xavi_dialogue.domain.meaning import Ask
+from xavi_dialogue.domain.meaning import Ask, HowMany
 from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     At,
@@ -110,3 +110,19 @@ def test_a_light_that_was_spoken_of_is_mentioned():
     found, _ = grounded("Is the light red?")
     assert isinstance(found, Ask)
     assert [m.thing for m in mentions_of(found, 1)] == [LIGHT]
+
+
+def test_how_many_of_them_were_red_is_asked_of_lights_where_these_were_spoken_of():
+    found, _ = grounded("How many of them were red?", 20.0, of(LIGHT))
+    assert found.question == HowMany(Feature("light", colour="red"))
+    found, _ = grounded("How many of them were red?", 20.0)
+    assert found.question != HowMany(Feature("light", colour="red"))
+
+
+@pytest.mark.parametrize(
+    "text", ["How much time did the light cost us?", "How much did the red light delay us?"]
+)
+def test_what_a_light_cost_us_is_how_long_we_waited_at_it(text):
+    found, _ = grounded(text, 20.0, of(LIGHT))
+    assert found.question.of.action == "wait"
+    assert found.question.of.object == LIGHT

@@ -151,11 +151,15 @@ def where(question: Any, scene: Asked) -> Answer:
 
 def count(question: HowMany, scene: Asked) -> Answer:
     """Tell how many lights we have passed."""
-    found = tuple(crossed(scene.ride, one) for one in passings(scene.ride))
+    every = tuple(crossed(scene.ride, one) for one in passings(scene.ride))
     wanted = colour_of(light_in(question.of, *things(question.of)))
+    found = every
     if wanted is not None:
-        found = tuple(c for c in found if c.shown is not None and alike(c.shown, wanted))
-    return LightTold("count", count=len(found), crossed=found, wanted=wanted, past=True)
+        found = tuple(c for c in every if c.shown is not None and alike(c.shown, wanted))
+    others = tuple(one for one in every if one not in found)
+    return LightTold(
+        "count", count=len(found), crossed=found, others=others, wanted=wanted, past=True
+    )
 
 
 def when(question: When, scene: Asked) -> Answer:

@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias, cast
 from msgspec.structs import replace as changed
 
 from planner.road import RoadFacts
+from planner.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody
@@ -29,6 +30,7 @@ from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.naming import known, number
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, overlaps
+from xavi_dialogue.explain.facts.waiting import top_holders
 from xavi_dialogue.explain.history.ride import planned
 
 Rule: TypeAlias = Literal[
@@ -124,7 +126,7 @@ def priority_at(
     rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
     rule = rule if met is None else met[1]
     if rule == "none" and vehicle is not None:
-        rule = _changing(asked, vehicle, about) or rule
+        rule = _changing(asked, vehicle, about) or _walks_first(asked, vehicle, about) or rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -216,6 +218,15 @@ def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
     trace = asked.ride.at(about.end)
     meant = () if trace is None else planned(trace)[:1]
     return "we-change" if any(step in CHANGES for step in meant) else None
+
+
+def _walks_first(asked: Asked, vehicle: int, about: Window) -> Rule | None:
+    """Tell whether we have to let somebody on foot go first: that is planned so."""
+    look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
+    if look is None or look.kind not in ON_FOOT or trace is None:
+        return None
+    holders = top_holders(asked.world.states, trace, EGO)
+    return "give-way" if (vehicle, "right-of-way") in holders else None
 
 
 def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
+from planner.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import Side
@@ -31,6 +32,9 @@ from xavi_dialogue.explain.history.thresholds import (
 
 Flags: TypeAlias = NDArray[np.bool_]
 FAST_ENOUGH = 2.0  # [m/s] from which one who is passed drives, and is overtaken
+STEPPED_OUT = 4.0  # [m] sideways from us within which somebody on foot is on our way
+WALKING = 0.3  # [m/s] from which somebody on foot moves on
+JUST_NOW = 1.0  # [s] since when what was seen last goes on
 BESIDE = 3.0  # [s] around a lane change within which it is judged who was cut off
 
 
@@ -43,7 +47,12 @@ def passings(states: States, vehicle: int) -> list[Episode]:
 def crossings(states: States, vehicle: int) -> list[Episode]:
     """Where another vehicle crossed the ego's way."""
     pair = states.pair(EGO, vehicle)
-    return [] if pair is None else list(_crossing(pair, vehicle))
+    if pair is None:
+        return []
+    shape = states.shape(vehicle)
+    if shape is not None and shape.kind in ON_FOOT:
+        return list(_walking_across(states, pair, vehicle))
+    return list(_crossing(pair, vehicle))
 
 
 def followings(states: States, vehicle: int) -> list[Episode]:
@@ -115,6 +124,19 @@ def _crossing(pair: Pair, vehicle: int) -> Iterator[Episode]:
             named(EGO),
             side,
         )
+
+
+def _walking_across(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
+    """Where somebody on foot walked across our lane ahead of us, from one side of it on."""
+    across = (np.abs(pair.turn) > SAME_WAY) & (np.abs(pair.turn) < OPPOSITE)
+    across &= (pair.ahead > 0.0) & (pair.ahead <= CROSSING) & (pair.speed >= WALKING)
+    across &= np.abs(pair.left) <= STEPPED_OUT
+    for first, last in _runs(_closed(across, pair.time), pair.time):
+        begin, end = float(pair.time[first]), float(pair.time[last])
+        over = end < states.ride.now - JUST_NOW or states.ride.ended
+        side: Side = "left" if pair.left[first] > 0.0 else "right"
+        until = end if over else None
+        yield Episode(named(vehicle), "cross", begin, until, named(EGO), side)
 
 
 def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:

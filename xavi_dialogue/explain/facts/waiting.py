@@ -41,8 +41,10 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         others = [w for w in others if w.object != Ego() or not any(_meet(w, x) for x in lit)]
         return [*others, *lit]
     given = _merged(_gave_way(states, stood))
-    given += waits_at_lights(states.ride, EGO, stood)
-    waited = [wait for still in stood for wait in _stood_for(states, EGO, still)]
+    lit = list(waits_at_lights(states.ride, EGO, stood))
+    given += lit
+    apart = [rest for still in stood for rest in _after_lights(states, still, lit)]
+    waited = [wait for still in apart for wait in _stood_for(states, EGO, still)]
     told = [
         wait
         for wait in waited
@@ -93,6 +95,7 @@ def _meet(one: Episode, other: Episode) -> bool:
 def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
     """To whom the ego gave way, as it told; from where it slowed down to where it drove on."""
     slowed = [e for e in speeds(states, EGO) if e.action in ("slow-down", "brake")]
+    lit = list(waits_at_lights(states.ride, EGO, stood))
     for event in states.ride.events:
         if event.kind != "gave-way" or event.vehicle is None:
             continue
@@ -102,6 +105,7 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
         slowing = [e for e in slowed if e.begin <= time and _end(states, e) >= time - 1.0]
         still = [e for e in stood if e.begin <= time + YIELDING and _end(states, e) >= time]
         still = [e for e in still if not any(time < s.begin < e.begin for s in slowed)]
+        still = [e for s in still for e in _not_for_a_light(states, s, lit, time)]
         parts = [*slowing[-1:], *still[:1]]
         ends = [part.end for part in parts]
         first = slowing[-1] if slowing else None
@@ -117,6 +121,33 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
             how="right-of-way",
             standing=bool(still) or (first is not None and first.standing),
         )
+
+
+def _not_for_a_light(
+    states: States, still: Episode, lit: list[Episode], time: float
+) -> Iterator[Episode]:
+    """Leave out of a standstill what a light held us for; nothing is left where it did later on.
+
+    Args:
+        states: of the ride.
+        still: the standstill.
+        lit: our waits at lights.
+        time: [s] when way was given.
+    """
+    held = [_end(states, wait) for wait in lit if _meet(wait, still)]
+    if not any(end > time for end in held):
+        yield replace(still, begin=max([still.begin, *held]))
+
+
+def _after_lights(states: States, still: Episode, lit: list[Episode]) -> Iterator[Episode]:
+    """Leave of a standstill what comes after the lights that held us in it."""
+    met = [wait for wait in lit if _meet(wait, still)]
+    if not met:
+        yield still
+        return
+    begin = max(_end(states, wait) for wait in met)
+    if _end(states, still) - begin > STARTING:
+        yield replace(still, begin=begin)
 
 
 def _end(states: States, episode: Episode) -> float:

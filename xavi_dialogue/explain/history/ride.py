@@ -11,6 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
 
+from planner.everybody import everybody_in
 from planner.trace import Action, PlanTrace, VehiclePrediction, WhatIf
 from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
@@ -68,12 +69,17 @@ class Ride:
 
     @cached_property
     def scene(self) -> Scene | None:
-        """What was seen last, after the last decision; None where that one knows no less."""
+        """What was seen last, after the last decision; None where that one knows no less.
+
+        As in traces, people on foot are among the vehicles.
+        """
         scene = self.record.scene
         if scene is None or not self.traces or EGO not in scene.vehicles:
             return None
         since = self.traces[-1].sim_time
-        return scene if since + ROUNDING < scene.time <= self.now + ROUNDING else None
+        if not since + ROUNDING < scene.time <= self.now + ROUNDING:
+            return None
+        return replace(scene, vehicles=everybody_in(scene))
 
     @property
     def latest(self) -> PlanTrace:

@@ -35,9 +35,7 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
     """Plan what a light shows or showed."""
     reply = "" if answer.holds is None else REPLIES.get((answer.asked, answer.holds), "")
     if answer.asked == "count":
-        times = tuple(Moment(one.time) for one in answer.crossed[-1:])
-        when = times[0] if times else None
-        return Plan((message("LIGHT_COUNT", count=answer.count or 0, when=when),))
+        return _counted(answer)
     who = None if answer.whose is None else Who(answer.whose)
     none = {"past": answer.past, "where": answer.asked == "where", "reply": reply, "who": who}
     if answer.shown is None and answer.passed is None:
@@ -52,6 +50,20 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
     yields = answer.shown is not None and answer.shown.gives_way and answer.asked in STATED
     details = (message("LIGHT_YIELD", past=slots["past"]),) if yields else ()
     return Plan((core,), details)
+
+
+def _counted(answer: LightTold) -> Plan:
+    """Plan how many lights we passed, or how many of them showed a colour."""
+    last = (answer.crossed or answer.others)[-1:]
+    seen = next((one.shown.colour for one in answer.others if one.shown is not None), "")
+    slots: dict[str, object] = {
+        "count": answer.count or 0,
+        "wanted": answer.wanted or "",
+        "others": len(answer.others),
+        "colour": seen,
+        "when": Moment(last[0].time) if last else None,
+    }
+    return Plan((message("LIGHT_COUNT", **slots),))
 
 
 def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) -> dict[str, object]:

@@ -9,7 +9,7 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     Why,
 )
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Pronoun, That, Unsaid
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Not, Pronoun, That, Unsaid
 from xavi_dialogue.nlu.compose.adoption import as_of
 from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
@@ -56,6 +56,8 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
         case "prevent" | "help" | "improve":
             return HowAvoid(value.content or propose(value.object))
         case "tell" | "say" | "report":
+            if value.content is None and isinstance(clause.subject, Feature):
+                return None  # "what is that light showing?"
             return HowKnow(value.content)
         case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
             return measured("delay", clause, as_thing(subject))

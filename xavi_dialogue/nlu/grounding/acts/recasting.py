@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Is,
     Measured,
@@ -64,6 +65,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
+from xavi_dialogue.nlu.grounding.things.lights import among
 
 _LASTING: Final = frozenset(("duration", "waiting-time", "delay"))
 _VAGUE: Final = ("it", "that", "this")
@@ -96,6 +98,12 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, time=Start())
         case Whether(that=Related(relation=relation, thing=Pronoun(form="it" | "that"), to=Ego())):
             return _by_side(relation, spoken, g)
+        case HowMuch(of=Measured(attribute="delay", thing=Feature(kind="light"), to=None) as cost):
+            waited = Event("wait", Ego(), Feature("light"), time=cost.time, tense=cost.tense)
+            return HowLong(waited)  # "how long did that light hold us up?"
+        case HowMany(of=Described() as of) if (lights := among(of, g)) is not None:
+            g.notes.leaned = True
+            return HowMany(lights)
         case HowMany(of=Described() as of) if of == _SUCH and _about_lanes(g.context):
             g.notes.leaned = True
             return HowMuch(Measured("lane-count"))
