@@ -78,6 +78,7 @@ class MotionCause(Value, frozen=True):
     value: float | None = None  # the limit [m/s], the turn's speed, the distance [m]
     shown: Shown | None = None  # what a traffic light shows that holds us, or that vehicle
     side: Literal["left", "right", "ahead"] | None = None  # where it is that cannot be seen
+    between: int | None = None  # who drives between a leader and us
 
 
 class MotionReason(Value, frozen=True):

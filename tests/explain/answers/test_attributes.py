@@ -146,6 +146,12 @@ def test_the_delay_for_somebody_is_that_of_what_we_did_for_them() -> None:
     assert missing.asked == Event("give-way", object=TWO)
 
 
+def test_whoever_holds_up_those_we_follow_costs_us_the_time() -> None:
+    slow = (did("brake", 3.0, 9.0), did("follow", 2.0, 15.0, object=ONE), did("brake", 12.0, 13.0))
+    for asked in (Measured("delay", TWO), Measured("delay", event=Event("move", object=TWO))):
+        assert values(told(asked, episodes=slow, delays={"brake": 4.0})) == [4.0]
+
+
 def test_the_cost_of_a_choice_is_what_it_saved() -> None:
     changed = (did("change-left", 6.5, 9.0),)
     asked = chosen(episodes=changed)

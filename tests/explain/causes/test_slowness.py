@@ -7,11 +7,11 @@ import pytest
 from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
 from planner.trace import HeldUp
 from tests.explain.causes.decisions import Driven, in_the_way
-from tests.explain.facts.scenes import Actor, speeds, straight
+from tests.explain.facts.scenes import Actor, made, speeds, straight
 from tests.traces import Actions
-from xavi_dialogue.domain.answers import NotRecorded
+from xavi_dialogue.domain.answers import MotionCause, NotRecorded
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.explain.causes.slowness import Slowness, slowness
+from xavi_dialogue.explain.causes.slowness import Slowness, slowness, with_nearest
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Unanswered
 
@@ -126,3 +126,25 @@ def test_the_road_makes_us_slow() -> None:
     driven = Driven({0: OURS}, 6.0, roads=lambda _: road(14.0, step(30.0, "exit-left", "priority")))
     found = slowness(driven.ride(), World(driven.ride()), 4.0)
     assert [c.kind for c in found.reasons.causes] == ["turn"]
+
+
+def test_who_is_nearer_than_the_leader_that_is_the_reason_is_named_too() -> None:
+    ride = made(
+        {
+            0: Actor(straight(0.0, 0.0, 9.0)),
+            1: Actor(straight(40.0, 0.0, 9.0)),
+            2: Actor(straight(20.0, 0.0, 9.0)),
+            3: Actor(straight(20.0, 3.5, 9.0)),
+        },
+        4.0,
+    )
+    causes = (MotionCause("leader", 1), MotionCause("right-of-way", 1), MotionCause("limit"))
+    world = World(ride)
+    found = with_nearest(ride, world, causes, 4.0)
+    assert [(c.kind, c.vehicle, c.between) for c in found] == [
+        ("leader", 1, 2),
+        ("right-of-way", 1, None),
+        ("limit", None, None),
+    ]
+    both = (MotionCause("leader", 2), MotionCause("leader", 1))
+    assert with_nearest(ride, world, both, 4.0) == both  # it is named already

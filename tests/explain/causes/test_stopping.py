@@ -123,3 +123,15 @@ def test_who_crosses_leaves_room_or_comes_too_late_or_hits() -> None:
 def test_it_is_not_known_of_who_was_not_there() -> None:
     ride = made({0: Actor(straight(0.0, 0.0, 10.0))}, 4.0)
     assert stopping(States(ride), 1, 2.0, in_lane=True) is None
+
+
+def test_a_long_one_from_the_side_has_its_front_to_us() -> None:
+    """What is long about it lies beside our way: we are by once past its width."""
+    near = needed(10.0) - 3.0
+    comes = 0.5 * (near + WIDE / 2.0 + LONG / 2.0) / 10.0 + 0.5 * (near + 6.0 + LONG / 2.0) / 10.0
+    aside = HALF_LANE + 6.0 + SETTING_OFF * comes**2 / 2.0
+    path = straight(near, -aside, 0.0, math.pi / 2.0)
+    ride = made({0: Actor(straight(-20.0, 0.0, 10.0)), 1: Actor(path, "truck", length=12.0)}, 4.0)
+    stop = stopping(States(ride), 1, 2.0, in_lane=True)
+    assert stop is not None
+    assert stop.kind == "first"

@@ -64,7 +64,7 @@ from xavi_dialogue.explain.answers.places import gone, locate, where, whither
 from xavi_dialogue.explain.answers.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.options import options_at
 
-GOING: frozenset[ActionName] = frozenset(("move", "go", "drive", "follow", "continue"))
+GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
 #: What is chosen, and whose cost is told by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "change-lane", "overtake")

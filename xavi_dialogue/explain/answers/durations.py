@@ -10,7 +10,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS
 from xavi_dialogue.explain.answers.moments import Window, is_ahead, window
-from xavi_dialogue.explain.answers.naming import is_us, looks
+from xavi_dialogue.explain.answers.naming import is_us, looks, number
 from xavi_dialogue.explain.answers.occasions import (
     did_not_happen,
     duration,
@@ -27,6 +27,8 @@ SOON = 3.0  # [s] within which one is about to stop
 LATELY = 15.0  # [s] since when what held us up is still spoken of
 CREEPING = 4.0  # [s] between two halts at one place
 PAUSE = 3.0  # [s] between two slowings that make one
+TRAILED = 80.0  # [m] up to which somebody ahead of us slows us down
+ASIDE = 2.5  # [m] sideways up to which he is in our lane
 JOINED = 0.5  # [s] between what belongs together
 #: What costs time.
 HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
@@ -187,7 +189,10 @@ def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
     Raises:
         Unanswered: there was none.
     """
-    if event is not None and event.action != "block":
+    behind = [] if event is None or event.object is None else _slowed_behind(asked, event.object)
+    if event is not None and event.action == "block" and behind:
+        found = max(behind, key=lambda e: duration(asked, e))
+    elif event is not None and event.action != "block":
         found = occasion(asked, event)
     else:
         slow = list(asked.world.episodes(actor=Ego(), actions=HELD))
@@ -204,7 +209,25 @@ def held_for(asked: Asked, other: Thing) -> Event:
     found = asked.world.episodes(Ego(), HELD, object=other)
     trailed = asked.world.episodes(Ego(), ("follow",), object=other)
     named = found or trailed
+    if not named and _slowed_behind(asked, other):
+        return Event("block", object=other)  # others were between it and us
     return Event(named[-1].action if named else "give-way", object=other)
+
+
+def _slowed_behind(asked: Asked, other: Thing) -> list[Episode]:
+    """List when we slowed down or stood behind others with somebody ahead of them in our lane."""
+    vehicle = number(other)
+    if vehicle is None:
+        return []
+    found = []
+    for one in asked.world.episodes(Ego(), HELD):
+        end = asked.now if one.end is None else one.end
+        seen = asked.world.look(vehicle, (one.begin + end) / 2.0)
+        along = seen is not None and seen.in_view and not seen.oncoming
+        along = along and bool(asked.world.episodes(Ego(), ("follow",), one.begin, end))
+        if along and seen is not None and abs(seen.left) <= ASIDE and 0.0 < seen.ahead <= TRAILED:
+            found.append(one)
+    return found
 
 
 def lost(asked: Asked, deed: Episode) -> Measure | None:

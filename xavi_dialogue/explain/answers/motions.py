@@ -25,7 +25,7 @@ from xavi_dialogue.explain.causes.driving import Reasons, as_of, reasons_for
 from xavi_dialogue.explain.causes.natural import stopping
 from xavi_dialogue.explain.causes.premise import episode_of
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
-from xavi_dialogue.explain.causes.slowness import Slowness, slowness
+from xavi_dialogue.explain.causes.slowness import Slowness, slowness, with_nearest
 from xavi_dialogue.explain.causes.terms import RISK
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import chose
@@ -128,7 +128,7 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
         return standing_or_slow(scene)
     return MotionReason(
         deed=found.deed,
-        causes=found.reasons.causes,
+        causes=with_nearest(scene.ride, scene.world, found.reasons.causes, found.deed.begin),
         premise=manner != "slowly" or found.is_slow is not False,
         asked="move",
         evidence=found.reasons.evidence,
@@ -224,9 +224,10 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
         if not ours and _given_up(scene, deed):
             reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
+    time = scene.now if deed.end is None else deed.begin
     return MotionReason(
         deed=deed,
-        causes=reasons.causes,
+        causes=with_nearest(scene.ride, scene.world, reasons.causes, time),
         premise=premise,
         asked=named,
         evidence=reasons.evidence,

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Proposition,
     Quantity,
+    Unsaid,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import choices, reacting
@@ -134,7 +135,9 @@ def of_us(
         Unanswered: it cannot be done; or rollouts are needed.
     """
     past = is_past(scene, event) or event.modal == "would"
-    event = _staying(event, scene)
+    asked, event = event, _staying(event, scene)
+    if asked.action == "wait" and event.action == "keep-lane":
+        scene = replace(scene, span=None)  # until when is no time at which it was chosen
     if event.action in SQUEEZING and scene.world.episodes(Ego(), ("give-way",)):
         return hastened(structs.replace(event, object=None), scene, form, struck)
     if event.action in reacting.COLLIDING:
@@ -194,12 +197,16 @@ def _staying(event: Event, scene: Asked) -> Event:
         return structs.replace(event, action="keep-lane", object=None, where=None)
     lets = event.action in ("let-go", "give-way", "wait") and vehicle_in(event.object) is not None
     stands = behind and event.action in ("stand", "wait", "stop")
-    if event.action != "follow" and not stands and not lets:
+    bides = event.action == "wait" and event.object is None and event.where is None
+    if event.action != "follow" and not stands and not lets and not bides:
         return event
-    deed = manoeuvre(scene.ride, scene.span)
+    deed = manoeuvre(scene.ride, None if bides else scene.span)
+    if bides and (deed is None or deed.action not in CHANGES):
+        return event
     if deed is None or deed.action not in CHANGES:
         return event if event.action != "follow" else structs.replace(event, action="slow-down")
-    return structs.replace(event, action="keep-lane", object=None, where=None)
+    time = Unsaid() if bides else event.time
+    return structs.replace(event, action="keep-lane", object=None, where=None, time=time)
 
 
 def arrival(scene: Asked, against: Contrast) -> float | None:

@@ -4,7 +4,10 @@ Driving slowly is judged against the limit. Who drives in front of us within som
 reason where it is no faster than we are and planning without it is faster.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+
+from msgspec.structs import replace as changed
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
@@ -84,6 +87,27 @@ def leader(ride: Ride, world: World, time: float) -> Look | None:
     """Find who drives or stands in front of the ego at a time, within some seconds; the nearest."""
     reach = max(NEAR, HEADWAY * (speed_at(ride, time) or 0.0))
     return next(iter(in_lane_ahead(ride, world, time, reach)), None)
+
+
+def with_nearest(
+    ride: Ride, world: World, causes: Sequence[MotionCause], time: float
+) -> tuple[MotionCause, ...]:
+    """Name with a leader that is the reason who drives in between, nearer to us, at a time [s].
+
+    Who sits in the car sees the nearer one first.
+    """
+    named = {cause.vehicle for cause in causes}
+    found = []
+    for cause in causes:
+        seen = None if cause.vehicle is None else world.look(cause.vehicle, time)
+        if cause.kind == "leader" and seen is not None:
+            near = leader(ride, world, time)
+            between = near is not None and near.distance < seen.distance
+            if between and near is not None and near.vehicle not in named:
+                found.append(changed(cause, between=near.vehicle))
+                continue
+        found.append(cause)
+    return tuple(found)
 
 
 def in_lane_ahead(

@@ -80,12 +80,13 @@ def _behind(speed: float, leader: float, gap: float) -> Stopping:
 
 def _across(seen: Offset, ours: VehicleState, other: VehicleState) -> Stopping:
     """Tell of somebody beside our way that comes into it where it is now."""
-    room = max(seen.ahead - (ours.length + other.width) / 2.0, 0.0)
+    across = (ours.length + other.width) / 2.0  # whoever comes from the side turns its front to us
+    room = max(seen.ahead - across, 0.0)
     needed = stopping_distance(ours.speed)
     if needed <= room:
         return Stopping("room", ours.speed, needed, room)
     aside = max(abs(seen.left) - HALF_LANE - other.length / 2.0, 0.0)
     reach = other.speed * other.speed + 2.0 * SETTING_OFF * aside
     comes = (reach**0.5 - other.speed) / SETTING_OFF
-    passed = (seen.ahead + seen.clear) / ours.speed
+    passed = (seen.ahead + (seen.clear if seen.same_way else across)) / ours.speed
     return Stopping("first" if passed < comes else "short", ours.speed, needed, room)

@@ -50,6 +50,7 @@ def motion_cause(
         "DRIVEN_BY",
         kind=cause.kind,
         who=who,
+        between=None if cause.between is None else Who(Vehicle(cause.between), time),
         past=past or _gone(cause, context),
         turn=own_verbs(cause.actions) if cause.kind in TURNED and cause.actions else None,
         stands=stands,
