@@ -35,6 +35,16 @@ def reply(*texts: str) -> str:
             "No, the bus is not standing still.",
             "The bus is standing still. No, the bus is not standing still.",
         ),
+        (
+            "Our road has three lanes in our direction.",
+            "We are in the right lane of three.",
+            "Our road has three lanes in our direction. We are in the right lane of three.",
+        ),
+        (
+            "We have right of way.",
+            "Yes, that is right: we have right of way.",
+            "We have right of way.",
+        ),
     ],
 )
 def test_what_was_told_is_not_told_again(first: str, second: str, text: str) -> None:

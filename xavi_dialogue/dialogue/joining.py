@@ -12,12 +12,14 @@ _WORDS: Final = re.compile(r"\d+(?:[.:]\d+)?|[^\W\d_]+")
 _ASIDE: Final = re.compile(r"\((?:vehicle )?\d+\)")
 #: Words that tell nothing new by themselves.
 _SMALL: Final = frozenset(
-    ("yes", "actually", "that", "is", "was", "am", "are", "were", "be", "been", "right", "you",
+    ("yes", "actually", "that", "is", "was", "am", "are", "were", "be", "been", "you",
      "i", "we", "us", "our", "it", "its", "the", "a", "an", "this", "and", "or", "to", "of", "at",
      "in", "on", "for", "by", "will", "would", "has", "had", "have", "do", "did", "does", "put",
      "chance", "expect", "expected", "almost", "certainly", "probably", "because", "now", "just",
      "thought", "think", "may", "might", "well", "as", "so"),
 )  # fmt: skip
+#: Where "right" tells no side.
+_NO_SIDE: Final = re.compile(r"\b(?:that is|you are) right\b|\bright(?= of way)")
 #: Endings that tenses and persons put to verbs.
 _ENDINGS: Final = re.compile(r"(?:ing|ed|es|s|e)$")
 
@@ -68,7 +70,7 @@ def _new(sentence: str, known: set[str]) -> str:
 
 def _gist(text: str) -> set[str]:
     """Collect the words of a text that tell something, without their endings."""
-    words = _WORDS.findall(_ASIDE.sub(" ", text).casefold())
+    words = _WORDS.findall(_NO_SIDE.sub(" ", _ASIDE.sub(" ", text).casefold()))
     return {_ENDINGS.sub("", word) for word in words if word not in _SMALL}
 
 

@@ -5,8 +5,8 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.domain.meaning import Ask, Doing, Whether, Which, Whither, Why
-from xavi_dialogue.domain.terms import Event, Happens, Vehicle, Vehicles
+from xavi_dialogue.domain.meaning import Ask, Doing, HowMuch, Whether, Which, Whither, Why
+from xavi_dialogue.domain.terms import Event, Happens, Is, Measured, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 
 MOST: Final = 3  # vehicles of whom each is told by itself
@@ -25,6 +25,14 @@ def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
             if "first" in event.manner or len(many) > MOST:
                 return (act,)
             return tuple(replace(act, act=Ask(replace(q, of=of))) for of in _each(event, many))
+        case Ask(question=Why(of=Is(thing=Vehicles(numbers=many)) as of) as q) if len(many) <= MOST:
+            states = (replace(of, thing=Vehicle(n)) for n in many)
+            return tuple(replace(act, act=Ask(replace(q, of=one))) for one in states)
+        case Ask(
+            question=HowMuch(of=Measured(attribute="turn", thing=Vehicles(numbers=many)) as of) as q
+        ) if len(many) <= MOST:
+            ways = (replace(of, thing=Vehicle(n)) for n in many)
+            return tuple(replace(act, act=Ask(replace(q, of=one))) for one in ways)
         case Ask(
             question=Whether(that=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q
         ) if event.action in OWN and event.modal in (None, "will") and len(many) <= MOST:

@@ -35,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     AtDecision,
     Back,
     Believed,
+    Both,
     Described,
     Ego,
     Event,
@@ -56,10 +57,12 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.blaming import why_held
 from xavi_dialogue.nlu.compose.times import relative
+from xavi_dialogue.nlu.compose.trends import changed
 from xavi_dialogue.nlu.honesty import is_well_typed
 from xavi_dialogue.nlu.outcomes import asks_whom
 
-_MOMENTARY = frozenset({"speed", "distance", "gap", "clearance", "limit", "acceleration"})
+_MOMENTARY = frozenset({"speed", "distance", "gap", "clearance", "limit", "acceleration",
+                        "headway"})  # fmt: skip
 _OVER = (Ago, At, AtDecision, Back, WholeRide)  # times at which nothing can be bidden
 
 
@@ -87,7 +90,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
             found.append(None)
             continue
         if before is not None:
-            act = _of_exits(before, _linked(before, act))
+            act = _of_trend(before, _of_ours(before, _of_exits(before, _linked(before, act))))
         alone = asked[index] and isinstance(act, Elliptic)  # "and the bus?"
         found.append(_setting(act) if index < questions[-1] and not alone else act)
     return found
@@ -159,6 +162,13 @@ def _linked(before: Act, act: Act) -> Act:
             said = isinstance(before, Claim) and event.action in ("brake", "slow-down")
             if of.event is None and (isinstance(of.thing, Pronoun) or said):
                 of = structs.replace(of, thing=event.actor, event=event)
+        case _, Ask(
+            question=HowMuch(
+                of=Measured(time=Relative(anchor=Event(action="do", actor=Pronoun())) as time) as of
+            ) as question
+        ):  # "he has gone past. How close was it when he did?"
+            done = structs.replace(time, anchor=structs.replace(event, tense="past"))
+            of = structs.replace(of, time=done)
         case Claim(that=Happens()), Ask(question=HowMuch(of=of, extreme=None) as question):
             momentary = of.attribute in _MOMENTARY and isinstance(of.time, Unsaid)
             if momentary and of.tense == "past" and event.action == "approach":
@@ -170,6 +180,24 @@ def _linked(before: Act, act: Act) -> Act:
     return Ask(structs.replace(question, of=of))
 
 
+def _of_trend(before: Act, act: Act) -> Act:
+    """Read "tell me the gap, and whether it has been shrinking or growing" of that measure."""
+    match before, act:
+        case Ask(question=HowMuch(of=of)), Ask(
+            question=Whether(
+                that=Both(
+                    contents=(
+                        Happens(event=Event("change-plan", Pronoun(), time=first_time)),
+                        Happens(event=Event("change-plan", Pronoun(), time=time, tense=tense)),
+                    )
+                )
+            )
+        ) if of.attribute in _MOMENTARY:
+            spoken = first_time if isinstance(time, Unsaid) else time
+            return Ask(Whether(changed(of, tense, spoken)))
+    return act
+
+
 def _of_exits(before: Act, act: Act) -> Act:
     """Count exits where exits were asked for: "which is ours, and how many have we passed?"."""
     match before, act:
@@ -179,6 +207,17 @@ def _of_exits(before: Act, act: Act) -> Act:
             )
         ):
             return Ask(HowMany(Event("pass", object=Exit(), tense=tense)))
+    return act
+
+
+def _of_ours(before: Act, act: Act) -> Act:
+    """Ask for our lane where lanes were counted: "how many are there, and which one are we in?"."""
+    match before, act:
+        case Ask(question=HowMuch(of=Measured(attribute="lane-count"))), Ask(
+            question=Which(thing=Described(), such=Happens(event=Event(actor=Ego())))
+            | Identify(thing=Described() | Pronoun() | Ego())
+        ):
+            return Ask(HowMuch(Measured("lane")))
     return act
 
 
@@ -226,6 +265,8 @@ def _is_told(before: Act, act: Act) -> bool:
             | Where(of=Pronoun())
         ):
             return True  # "what was the hardest braking, and who was it for?"
+        case Ask(question=Peak()), Repair(kind="why" | "continue"):
+            return True  # "what were the longest stops, and what caused each?"
         case Ask(question=Which(among=())), Elliptic(form="same", event=None, besides=False):
             return act.thing is not None  # "who is he waiting for? us?"
     return False

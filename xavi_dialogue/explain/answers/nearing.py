@@ -20,6 +20,8 @@ ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives ou
 BEFORE_US: Final = ("cross", "pull-out")
 POSSIBLE: Final = 0.1  # probability from which it is told that it may do so by the rule
 SINCE: Final = 1.0  # [s] over which distances are compared to tell whether somebody comes closer
+ASIDE_IN: Final = 0.6  # [s] over which places are compared to tell whether it drives sideways
+ASIDE: Final = 0.2  # [m] by which it has moved sideways then
 CLOSER: Final = 0.2  # [m] by which he is closer then
 
 
@@ -36,7 +38,27 @@ def nears(asked: Asked, event: Event) -> Finding | None:
 
 def settled(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
     """Tell what is to come by how both drive now, or by who comes first; None of all else."""
-    return passes(asked, event) or stays(asked, event, going) or comes_before(asked, event)
+    return (
+        passes(asked, event)
+        or stays(asked, event, going)
+        or comes_before(asked, event)
+        or moves_over(asked, event)
+    )
+
+
+def moves_over(asked: Asked, event: Event) -> Finding | None:
+    """Tell that somebody changes lanes who indicates to that side and drives sideways."""
+    side = {"change-left": "left", "change-right": "right", "change-lane": event.side}
+    if event.action not in side:
+        return None
+    now, wanted = asked.now, side[event.action]
+    shown = asked.world.episodes(event.actor, "signal", now, now)
+    lit = [e for e in shown if e.end is None and e.side == (wanted or e.side)]
+    look, before = look_of(asked, event.actor, now), look_of(asked, event.actor, now - ASIDE_IN)
+    if not lit or look is None or before is None or not (look.in_view and before.in_view):
+        return None
+    aside = look.left - before.left if lit[-1].side == "left" else before.left - look.left
+    return Finding(True, tuple(lit[-1:])) if aside > ASIDE else None
 
 
 def passes(asked: Asked, event: Event) -> Finding | None:
@@ -86,10 +108,12 @@ def comes_before(asked: Asked, event: Event) -> Finding | None:
 def closes(asked: Asked, event: Event) -> Finding | None:
     """Tell whether somebody comes closer to us just now: by how far away it is and was."""
     timely = event.tense == "present" and isinstance(event.time, Unsaid | Now)
-    look = look_of(asked, event.actor, asked.now)
+    ours = is_us(event.actor)
+    whom, other = (event.object, None) if ours else (event.actor, event.object)
+    look = look_of(asked, whom, asked.now)
     if event.action != "approach" or not timely or look is None or not look.in_view:
         return None
-    if asked.past is not None or (event.object is not None and not is_us(event.object)):
+    if asked.past is not None or (other is not None and not is_us(other)):
         return None
     before = asked.world.look(look.vehicle, asked.now - SINCE)
     if before is None or not before.in_view:

@@ -9,8 +9,8 @@ from typing import Final, Literal, TypeAlias
 from msgspec.structs import replace
 
 from planner.road import RoadFacts
-from xavi_dialogue.domain.answers import Answer, Priority, Unblocking
-from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.answers import Answer, Identified, Priority, Unblocking
+from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why
 from xavi_dialogue.domain.terms import (
     Described,
@@ -48,6 +48,8 @@ def who(question: Which, asked: Asked) -> Answer:
         Unanswered: it takes for granted what did not happen.
     """
     such = question.such
+    if isinstance(such, Happens) and (earliest := _earliest(question, such.event, asked)):
+        return earliest
     if such is not None and _is_now(asked, such):
         if _asks_mover(such) and (found := unblocking(asked)) is not None:
             return found
@@ -76,6 +78,22 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
             return told
     found = measures.how_much(question, asked)
     return reason(asked, found) if isinstance(found, Priority) else found
+
+
+def _earliest(question: Which, event: Event, asked: Asked) -> Identified | None:
+    """Find who was the first to do something: whoever began soonest; None where nobody is known."""
+    past = event.tense in ("past", "perfect") and event.modal is None
+    if not past or "first" not in event.manner or event.action in GOING - {"move"}:
+        return None
+    manner = tuple(m for m in event.manner if m != "first")
+    found = queues.who(replace(question, such=Happens(replace(event, manner=manner))), asked)
+    deeds = found.facts if isinstance(found, Identified) else ()
+    begun = [e for e in deeds if isinstance(e, Episode)]
+    if not isinstance(found, Identified) or not begun:
+        return None
+    first = min(begun, key=lambda e: e.begin)
+    looks = tuple(x for x in found.looks if x.vehicle == number(first.actor))
+    return replace(found, looks=looks, facts=(first,)) if looks else None
 
 
 def how_many(question: HowMany, asked: Asked) -> Answer:
@@ -195,9 +213,11 @@ def _asks_order(such: Proposition) -> bool:
     match such:
         case Related(relation="has-priority-over", thing=Wanted(), to=to):
             return number(to) is None
-        case Happens(event=Event(actor=Wanted(), modal=None) as event):
+        case Happens(event=Event(actor=Wanted(), modal=None) as event) if event.action in GOING:
             named = event.object is not None and not isinstance(event.object, Ego)
-            return event.action in GOING and "first" in event.manner and not named
+            return "first" in event.manner and not named
+        case Happens(event=Event(actor=Wanted(), object=None | Ego() | Wanted()) as event):
+            return event.action in LETTING and event.modal in DUTIES
         case Is(state="first", thing=Wanted()):
             return True
     return False

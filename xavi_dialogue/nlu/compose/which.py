@@ -130,6 +130,9 @@ class WhichOne:
         return Which(thing, of)
 
     def _way(self, clause: Clause, value: Any, actor: Thing | None) -> Question:
+        shown = fact(value) if value is not None else None
+        if isinstance(shown, Happens) and shown.event.action == "signal":
+            return way_at(actor_of(value, actor), time_of(clause, value), clause.tense, "indicator")
         return way_at(actor_of(value, actor), time_of(clause, value), clause.tense)
 
     def _attribute(self, sem: Measure, clause: Clause, value: Any, actor: Thing | None) -> Question:
