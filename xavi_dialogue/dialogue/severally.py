@@ -12,7 +12,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 MOST: Final = 3  # vehicles of whom each is told by itself
 #: Of what each may have another way, or none.
 OWN: Final = frozenset[ActionName]((
-    "go", "leave", "take-exit", "turn", "exit-left", "exit-right", "exit-straight", "continue",
+    "go", "leave", "turn", "exit-left", "exit-right", "exit-straight", "continue",
     "change-left", "change-right", "change-lane", "disappear", "approach", "come", "pass",
 ))  # fmt: skip
 WAITING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))

@@ -19,6 +19,7 @@ from xavi_dialogue.explain.history.nearing import (
     junctions_ahead,
     speed_at,
     still_to,
+    tellable,
     to_destination,
     with_speeds,
 )
@@ -83,6 +84,17 @@ def test_the_speed_of_another_is_that_seen_at_the_time() -> None:
     stale = (MotionCause("leader", vehicle=1, speed=9.0), MotionCause("plan"))
     assert [c.speed for c in with_speeds(ride, stale, 5.8)] == [pytest.approx(5.0, abs=0.01), None]
     assert as_of(ride, stale, 5.8)[0].speed == pytest.approx(5.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("action", "end", "time"),
+    [("brake", 5.0, 5.0), ("slow-down", 5.0, 5.0), ("stop", 5.0, 2.0), ("brake", None, 8.0)],
+)
+def test_speeds_tell_why_at_the_end_of_slowing_down(
+    action: str, end: float | None, time: float
+) -> None:
+    assert tellable(Episode(Ego(), action, 2.0, end), 8.0) == time  # type: ignore[arg-type]
+    assert tellable(None, 8.0) == 8.0
 
 
 def test_reasons_of_the_road_tell_how_far_it_is_now() -> None:

@@ -29,7 +29,7 @@ from xavi_dialogue.explain.causes.grounds import grounds
 from xavi_dialogue.explain.causes.hindrance import Hindrance, at_present, lit_too, slowed, stood
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.when import RECENT
-from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
+from xavi_dialogue.explain.history.nearing import speed_at, tellable, with_speeds
 from xavi_dialogue.explain.history.ride import ROUNDING
 
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge", "enter", "pull-out")
@@ -295,8 +295,7 @@ def _told(
     hindered: Hindrance,
     time: float,
 ) -> OtherReason:
-    told_at = scene.moment if deed is None or deed.end is None else deed.begin
-    hindering = with_speeds(scene.ride, hindered.causes, told_at)
+    hindering = with_speeds(scene.ride, hindered.causes, tellable(deed, scene.moment))
     causes = tuple(_came_in(scene, cause, time) for cause in hindering)
     goal = _goal(scene, vehicle, time)
     if deed is not None and deed.action in STILL | SLOWING and not _turns(goal):

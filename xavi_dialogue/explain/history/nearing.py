@@ -14,6 +14,7 @@ from planner.road import RouteStep
 from planner.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import Ride
 from xavi_dialogue.explain.history.thresholds import BROKEN
@@ -38,6 +39,16 @@ def speed_at(ride: Ride, time: float, vehicle: int = EGO) -> float | None:
     if k + 1 == len(motion.time) or motion.time[k + 1] - motion.time[k] > BROKEN:
         return motion.speed[k]
     return float(np.interp(time, motion.time[k : k + 2], motion.speed[k : k + 2]))
+
+
+def tellable(deed: Episode | None, moment: float) -> float:
+    """Give the time [s] at which speeds tell why somebody did something: now, while it goes on.
+
+    Who slows down for another one has come down to his speed at the end; else the begin counts.
+    """
+    if deed is None or deed.end is None:
+        return moment
+    return deed.end if deed.action in ("slow-down", "brake") else deed.begin
 
 
 def with_speeds(ride: Ride, causes: Iterable[MotionCause], time: float) -> tuple[MotionCause, ...]:
