@@ -210,7 +210,9 @@ def _missed(that: Proposition, asked: Asked) -> Event | None:
     """Take "did we go past our exit?" for whether we have left, where we did not pass one."""
     match that:
         case Happens(
-            event=Event(action="pass" | "continue-next-exit" as action, object=Exit()) as event
+            event=Event(
+                action="pass" | "continue-next-exit" | "leave" as action, object=Exit()
+            ) as event
         ) if is_us(event.actor) and event.tense in ("past", "perfect"):
             if action == "continue-next-exit" or occasion(asked, event) is None:
                 return replace(event, action="leave", object=None, tense="present", time=Now())

@@ -45,7 +45,8 @@ def peak(question: Peak, asked: Asked) -> Answer:
 def _several(question: Peak, asked: Asked, about: Window) -> Happenings:
     """List the times at which something was at its most, in order of time, and for whom."""
     actions, rank = RANKS[question.of]
-    found = merged(asked, asked.world.episodes(Ego(), actions, about.begin, about.end))
+    every = asked.world.episodes(Ego(), actions, about.begin, about.end)
+    found = merged(asked, [e for e in every if e.action in actions])
     most = sorted(found, key=lambda e: (-rank(asked, e), e.begin))[: question.number]
     told = tuple(for_whom(asked, e) for e in sorted(most, key=lambda e: e.begin))
     event = Event(actions[0])

@@ -56,7 +56,7 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
     if (isinstance(sem, Moment) and sem.unit == "times" and not lost) or counting:
         if event is not None and isinstance(event.actor, Unknown):
             event = with_fields(event, actor=Ego())  # it is the word "times"
-        return HowMany(event or Event("do"))
+        return HowMany(event or Event("do", time=clause.time))
     if (isinstance(sem, Moment) and (lost or sem.unit in ("s", "min", "h"))) or (
         isinstance(sem, Noun) and sem.key == "time"
     ):

@@ -144,6 +144,10 @@ class Asking(What, WhichOne):
             return When(of if content is None else Believed(content, tense=of.tense))
         if isinstance(of, Compares) and of.left.attribute == "delay":
             return HowMuch(of.left)  # "what time did the roundabout cost us?"
+        match of:
+            case Believed(content=Is(state="present", thing=thing)) if thing is not None:
+                seen = Related("can-see", Ego(), thing, tense="past")
+                return When(seen)  # "when did you first know it was there?"
         ours = isinstance(of, Happens) and isinstance(of.event.actor, Ego)
         getting_in = isinstance(of, Happens) and of == Happens(Event("enter", tense=of.event.tense))
         if ours and getting_in:

@@ -5,7 +5,17 @@ from typing import Any, cast
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import HowMuch, Peak
-from xavi_dialogue.domain.terms import Described, Ego, Event, Quantity, Unknown, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Measured,
+    Pronoun,
+    Quantity,
+    Unknown,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.tree import leaves_of
@@ -81,6 +91,17 @@ def extreme_told(clause: Clause) -> HowMuch | None:
         return None
     of = structs.replace(subject.of, time=clause.time, tense=cast(Any, clause.tense))
     return HowMuch(of, subject.extreme)
+
+
+def nearest_of(clause: Clause) -> HowMuch | None:
+    """Read "when was it closest?" of another vehicle; the answer tells when."""
+    thing = as_thing(clause.subject)
+    if clause.verb is not None or not isinstance(thing, Pronoun | Described | Vehicle):
+        return None
+    if not clause.focus & {"closest", "nearest"}:
+        return None
+    of = Measured("distance", thing, Ego(), time=clause.time, tense=cast(Any, clause.tense))
+    return HowMuch(of, "lowest")
 
 
 def peak_of(clause: Clause) -> Peak | None:

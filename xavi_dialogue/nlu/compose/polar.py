@@ -6,10 +6,12 @@ from typing import Any, cast
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import (
+    Compare,
     Doing,
     Fault,
     HowAvoid,
     HowKnow,
+    HowMany,
     HowSure,
     Listing,
     Question,
@@ -53,7 +55,7 @@ from xavi_dialogue.nlu.compose.sem import (
     as_thing,
     is_thing,
 )
-from xavi_dialogue.nlu.compose.tally import counts, tallied
+from xavi_dialogue.nlu.compose.tally import counts, exits_passed, tallied
 from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.wh import fact, prevented
 from xavi_dialogue.nlu.compose.which import way_at
@@ -200,25 +202,30 @@ class Polar(Comparing):
             event = structs.replace(event, object=whom)
         return None if event is None else HowSure(Happens(event), clause.time)
 
+    def _special(self, clause: Clause, value: Special) -> Question | None:
+        found = self._whether_special(clause, value)
+        if isinstance(found, Whether):  # "did you exceed the limit or brake hard?"
+            return structs.replace(found, that=self.propositions.joined(clause, found.that))
+        return found
+
     def polar(self, clause: Clause, value: Any, *, tag: bool) -> Question:
-        if isinstance(value, Special):
-            special = self._whether_special(clause, value)
-            if isinstance(special, Whether):  # "did you exceed the limit or brake hard?"
-                return structs.replace(
-                    special, that=self.propositions.joined(clause, special.that)
-                )
-            if special is not None:
-                return special
+        if isinstance(value, Special) and (asked := self._special(clause, value)) is not None:
+            return asked
         of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
         of = not_rather(clause, of, self.propositions)
-        avoidable = self._avoidable(clause, of)
-        if avoidable is not None:
+        if (avoidable := self._avoidable(clause, of)) is not None:
             return avoidable
         way = way_asked(of) or self._either_way(clause, of)
         if way is not None:
             return way
+        if (passed := exits_passed(clause, of)) is not None:
+            return HowMany(passed)  # "did we go past any exits?"
         about = about_whom(clause)
         match of:
+            case Is(state="dangerous" | "safe", thing=Pronoun(), event=None) if (
+                clause.modal == "would"
+            ):
+                return Compare((That(),), "safety")  # "would that have been risky?"
             case Is(state="wrong" | "right", thing=Ego()) if about is not None:
                 return Whether(structs.replace(of, thing=about), tag)
             case Happens(

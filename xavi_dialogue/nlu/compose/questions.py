@@ -25,7 +25,7 @@ from xavi_dialogue.nlu.compose.clause import Clause, Complement, wanted_pronoun
 from xavi_dialogue.nlu.compose.expecting import hindsight
 from xavi_dialogue.nlu.compose.nominal import deed_of, event_in, propose
 from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives
-from xavi_dialogue.nlu.compose.peaks import peak_of
+from xavi_dialogue.nlu.compose.peaks import nearest_of, peak_of
 from xavi_dialogue.nlu.compose.sem import (
     Measure,
     Moment,
@@ -164,16 +164,11 @@ class Questions(Options):
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
         wh, clause = cleft(wh, clause)
-        most = peak_of(clause)
-        named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
-        if most is not None and (named or wh.kind in _POINTING):
-            return [(most, 0.0)]
+        if (pointed := _pointed(wh, clause)) is not None:
+            return [(pointed, 0.0)]
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
             # "what is he doing, braking like that?"
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
-        whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
-        if wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject):
-            return [(Why(That()), 0.0)]  # "who was that for?"
         for_what = wh.preposition == "for" and isinstance(clause.subject, Event)
         if wh.kind == "what" and (for_what or purpose(clause)):
             wh = Wh("why")
@@ -327,3 +322,16 @@ def cleft(wh: Wh, clause: Clause) -> tuple[Wh, Clause]:
 
 
 _CLEFT = frozenset({"when", "where", "why", "how"})
+
+
+def _pointed(wh: Wh, clause: Clause) -> Question | None:
+    """Ask for what stands out, "where did you brake hardest?"; or "who was that for?"."""
+    most = peak_of(clause)
+    named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
+    if most is not None and (named or wh.kind in _POINTING):
+        return most
+    if wh.kind == "when":
+        return nearest_of(clause)
+    whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
+    ours = wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject)
+    return Why(That()) if ours else None

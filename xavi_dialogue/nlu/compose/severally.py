@@ -19,14 +19,17 @@ from xavi_dialogue.domain.terms import (
     Tense,
     Thing,
     Time,
+    Unknown,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Extreme
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.nominal import asked_of
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing, is_thing
 
+_EXTREMES = frozenset({"highest", "lowest", "mean", "total"})
 _TOWARDS = frozenset({"into", "with", "from", "over", "between"})
 
 
@@ -62,10 +65,23 @@ def towards(sem: Sem, complements: list[Complement]) -> Sem:
 def _members(sem: Sem | None) -> tuple[Sem, ...]:
     if sem is None:
         return ()
-    members = sem.members if isinstance(sem, Group) else (sem,)
+    members = _of_one_measure(sem.members) if isinstance(sem, Group) else (sem,)
     if not any(isinstance(member, Measure) for member in members):
         return members
     return tuple(_lane(member) if isinstance(member, Lane) else member for member in members)
+
+
+def _of_one_measure(members: tuple[Sem, ...]) -> tuple[Sem, ...]:
+    """Read "the average speed and the maximum", "our average and top speed" of one measure."""
+    named = next((m for m in members if isinstance(m, Measure)), None)
+    if named is None:
+        return members
+    return tuple(
+        replace(named, extreme=cast(Extreme, m.words))
+        if isinstance(m, Unknown) and m.words in _EXTREMES
+        else m
+        for m in members
+    )
 
 
 def _lane(lane: Lane) -> Measure:

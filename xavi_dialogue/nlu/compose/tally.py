@@ -7,7 +7,9 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.terms import (
     Compares,
     Described,
+    Ego,
     Event,
+    Exit,
     Happens,
     Measured,
     Not,
@@ -18,7 +20,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.sem import Moment, Noun, Sem
-from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, number_of
+from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 
 #: What is done to each of several: "we waited for four cars".
@@ -58,6 +60,16 @@ def among(counted: Sem | None, part: Part | None = None) -> Proposition | None:
         event = replace(event, modal=None, tense="past")
     thing = replace(counted, doing=event, number=None, plural=True, definite=False)
     return _compared(Measured("count", thing, tense="past"), counted.number)
+
+
+def exits_passed(clause: Clause, of: Proposition) -> Event | None:
+    """Read "did we go past any exits" as how many; that of ours is asked about by itself."""
+    match of:
+        case Happens(event=Event(action="pass", actor=Ego(), object=Exit(None, None)) as event):
+            nodes = [node for _, node in clause.objects] + [c.node for c in clause.complements]
+            words = {word for node in nodes for word in words_of(node).split()}
+            return event if words & {"any", "an", "some"} else None
+    return None
 
 
 def counts(clause: Clause) -> Proposition | None:

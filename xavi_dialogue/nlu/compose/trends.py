@@ -4,6 +4,7 @@ from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
     Ago,
+    Both,
     Compares,
     Ego,
     Event,
@@ -12,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Proposition,
     Quantity,
+    Time,
     Unsaid,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
@@ -36,10 +38,26 @@ def trend(clause: Clause) -> Proposition | None:
     words = [key for key, _ in (*clause.comparisons, *clause.adjectives)]
     words += [clause.verb.key] if clause.verb is not None else []
     way = next((_DIRECTIONS[word] for word in words if word in _DIRECTIONS), None)
+    changes = isinstance(clause.subject, Measure) and bool(_CHANGING.intersection(words))
     if way is None:
-        return None
-    now = with_fields(of, tense=cast(Any, clause.tense))
-    then = clause.time if not isinstance(clause.time, Unsaid) else Ago(SINCE)
+        return changed(of, clause.tense, clause.time) if changes else None
+    return _compared(of, way, clause.tense, clause.time)
+
+
+_CHANGING = frozenset({"change", "vary", "alter"})
+
+
+def changed(of: Measured, tense: str, time: Time) -> Proposition:
+    """Ask of a measure whether it has become less or more: "has the gap changed?"."""
+    return Both(tuple(_compared(of, way, tense, time) for way in ("less", "more")), "or")
+
+
+def _compared(of: Measured, way: str, tense: str, time: Time) -> Proposition:
+    at = "present" if tense == "perfect" else tense  # "has it been growing": it is more by now
+    now = cast(Measured, with_fields(of, tense=cast(Any, at)))
+    then = Ago(SINCE) if isinstance(time, Unsaid) else time
+    if isinstance(then, Ago) and then.span:  # "over the last ten seconds": against their beginning
+        then = Ago(then.seconds)
     return Compares(now, cast(Any, way), with_fields(of, time=then, tense="past"))
 
 

@@ -118,7 +118,8 @@ def _listed(spoken: Question) -> Question | None:
             Summarise(about=Described(doing=Event(actor=Wanted()) as of), time=time)
             | Listing(of="vehicles", about=Described(doing=Event(actor=Wanted()) as of), time=time)
         ):
-            return Listing("events", time=time, event=of)
+            said = of.time if isinstance(time, Unsaid) else time
+            return Listing("events", time=said, event=replace(of, time=Unsaid()))
         case HowMany(of=Event(actor=Ego(), object=Pronoun(form="who") | Wanted()) as of):
             return Listing("events", time=WholeRide(), event=replace(of, object=None))
         case When(of=Happens(event=Event(actor=Ego(), object=Wanted()) as of)):
