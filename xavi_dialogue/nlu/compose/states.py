@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Road,
     That,
     Thing,
+    Together,
     Unsaid,
     Vehicle,
     Wanted,
@@ -108,6 +109,7 @@ BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" i
 FOR_WHOM = 0.7  # cost of "for the bus" in "that is, for the bus, the lorry"
 RUN_ON = 1.5  # cost of "did" and "was" in one clause
 _SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
+_PLACED = frozenset({"bearing-ahead", "bearing-behind", "bearing-left", "bearing-right"})
 _APART = frozenset({"with", "to", "into", "from", "of"})  # what stands before whom we are near
 Found = tuple[Proposition, float]
 
@@ -116,7 +118,14 @@ def state_of(clause: Clause) -> list[Found]:
     """Compose a clause without a verb; several readings at their costs."""
     bearing = clause.bearings[0][0] if clause.bearings else None
     said = clause.comparisons or clause.adjectives
+    if said and isinstance(together := as_thing(clause.subject), Together):
+        clause.subject = together  # "are the blue and the red one slower than us"
     spoken = clause.subject
+    halted = any(key == "stationary" for key, _ in clause.adjectives)
+    where = next((c for c in clause.complements if c.key in _PLACED), None) if halted else None
+    if where is not None and isinstance(spoken, Described) and as_thing(where.sem) == Ego():
+        clause.complements.remove(where)  # "is the lorry behind us still standing"
+        bearing = where.key.removeprefix("bearing-")
     if isinstance(spoken, Described) and spoken.bearing is None and said and bearing in _SIDES:
         clause.subject = with_fields(spoken, bearing=bearing)  # "is that car behind as fast?"
     extra = ungoverned(clause) - 0.12
@@ -222,7 +231,7 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
         thing = Ego()  # "was it not too fast for this curve?"
     if state in ("close", "far") and isinstance(thing, Pronoun | Ego):
         thing = _near_what(clause, thing)
-    if state in ("dangerous", "safe") and thing in (Ego(), Passenger()):
+    if state in ("dangerous", "safe") and isinstance(thing, Ego | Passenger | Pronoun):
         thing = _from_whom(clause) or thing
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
     beside = None if bearing is None else as_thing(bearing.sem)
