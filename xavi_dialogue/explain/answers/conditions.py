@@ -52,9 +52,11 @@ from xavi_dialogue.explain.answers.sight import busy, minded
 from xavi_dialogue.explain.answers.stages import actor, late, over, still, stuck
 from xavi_dialogue.explain.causes.actions import names_of
 from xavi_dialogue.explain.causes.options import options_at
+from xavi_dialogue.explain.history.thresholds import STANDING
 
 NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
 NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
+HUGGING = 1.0  # [m] below which one that we stand behind is too close
 BIG = 7.0  # [m] from which a vehicle is big
 #: What goes on all the time: how it feels is asked of the ride.
 GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
@@ -241,6 +243,9 @@ def _close(of: Is, asked: Asked) -> Finding:
         return Finding(None, answer=Measures(to_go(asked, asked.now)))  # "is it a long way?"
     if distance.value is None:
         return unknown(distance.gap or "out-of-view")
+    speed = asked.world.measure("speed", Ego(), asked.now).value
+    if of.too and of.state == "close" and speed is not None and speed < STANDING:
+        return Finding(distance.value < HUGGING, known(distance))  # as in any queue
     if headway.value is not None:
         if of.too and NEAR_GAP / 2.0 <= headway.value < NEAR_GAP:
             return Finding(None, answer=Measures(known(gap, headway)))  # a matter of opinion

@@ -16,6 +16,7 @@ from xavi_dialogue.explain.answers.foreseen import chance, collision_chance
 from xavi_dialogue.explain.answers.moments import Window, is_ahead
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.priority import rule_between
+from xavi_dialogue.explain.answers.reacting import for_anybody
 from xavi_dialogue.explain.causes.stopping import stopping_distance
 from xavi_dialogue.explain.facts.approach import following
 from xavi_dialogue.explain.facts.measures.between import leader
@@ -54,7 +55,8 @@ def pulls_up(asked: Asked, event: Event) -> Finding | None:
 
 def _of_now(asked: Asked, event: Event) -> bool:
     """Tell whether it is asked of what is about to come."""
-    if asked.past is not None or event.tense in ("past", "perfect"):
+    could = event.modal == "could" and "early" in event.manner  # "could we stop in time?"
+    if asked.past is not None or (event.tense in ("past", "perfect") and not could):
         return False
     return is_ahead(asked, event.time, event.tense) or event.modal in ("can", "could")
 
@@ -117,7 +119,8 @@ def _we_stop(asked: Asked, event: Event) -> Finding | None:
     named = number(event.object) or (None if event.where is None else number(event.where.to))
     ahead = named if named is not None else leader(asked.world.states, EGO, asked.now)
     if ahead is None or not _comes_up(asked, EGO, ahead):
-        return None
+        told = for_anybody(event, asked) if "early" in event.manner else None
+        return None if told is None else Finding(None, answer=told)
     speed = asked.world.measure("speed", Ego(), asked.now)
     if speed.value is None or speed.value < STANDING:
         return None

@@ -111,6 +111,8 @@ def _as_state(that: Proposition) -> Proposition:
     match that:
         case Not(content=content):
             return replace(that, content=_as_state(content))
+        case Happens(event=event) if event.action in ("pass", "overtake") and "fast" in event.manner:
+            return Happens(replace(event, manner=()))  # "he shot past"
         case Happens(event=event) if event.action in ("go", "move") and event.modal is None:
             state = next((PACES[m] for m in event.manner if m in PACES), None)
             if state is not None and (state == "fast" or not is_us(event.actor)):

@@ -211,6 +211,8 @@ def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | None:
         return None
     verb = clause.verb
     if isinstance(clause.subject, Ego) and clause.because is None:
+        if verb is not None and verb.key == "panic":
+            return Social("feelings", That())
         if liked and clause.that is None and not clause.complements:
             return Social("feelings")
         if clause.feelings:

@@ -65,7 +65,7 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         ring = ring or (number is not None and _on_ring(_road(moment, g), number))
         return event if ring else replace(event, action="move")
     if event.action in _BEFORE_US and event.where is None and event.side is None:
-        return _before_us(_over(event, moment, g))
+        return _before_us(_over(event, moment, g), moment, g)
     return event
 
 
@@ -80,8 +80,16 @@ def _over(event: Event, moment: float, g: Grounder) -> Event:
     return replace(event, action="change-lane", object=None) if along and near else event
 
 
-def _before_us(event: Event) -> Event:
-    """Read "come in front of us", "turn into us" of who crosses our way as doing so before us."""
+def _before_us(event: Event, moment: float, g: Grounder) -> Event:
+    """Read "come in front of us", "turn into us" of who crosses our way as doing so before us.
+
+    Who drives along swerves to our lane.
+    """
+    number = _number(event.actor)
+    look = g.context.look(number, moment) if number else None
+    along = look is not None and look.bearing.partition("-")[0] in ("ahead", "behind", "beside")
+    if event.action == "swerve" and along and look is not None and not look.oncoming:
+        event = replace(event, action="change-lane", object=None)
     ahead = event.tense in ("present", "future") and event.modal in (None, "will", "might")
     ours = isinstance(event.object, Ego) and isinstance(event.actor, Vehicle)
     return replace(event, action="cross") if ahead and ours else event

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     At,
     Back,
     Between,
+    Described,
     Ego,
     Event,
     Measured,
@@ -48,6 +49,9 @@ def measured(
 ) -> Measured:  # fmt: skip
     """Ground a measure; `extreme`: over all of the time that is said."""
     spoken = _corefer(spoken, g)
+    anybody = spoken.thing in (Described(definite=False), Described("car", definite=False))
+    if extreme and anybody and isinstance(spoken.to, Ego):
+        spoken = replace(spoken, thing=Ego(), to=None)  # "the closest anyone came to us"
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)

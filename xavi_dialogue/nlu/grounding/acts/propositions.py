@@ -71,7 +71,9 @@ OF_EVENTS: Final = frozenset(
      "comfortable", "uncomfortable", "safe", "dangerous", "close", "late"),
 )  # fmt: skip
 #: What a vehicle that is seen does anyway, and is not foreseen to do.
-_SHOWN: Final = frozenset(("pass", "come", "appear", "approach", "move", "disappear", "see"))
+_SHOWN: Final = frozenset(
+    ("pass", "come", "appear", "approach", "move", "disappear", "see", "cut-in", "pull-out", "cross")
+)
 _ONLY_EVENTS: Final = frozenset(("necessary", "worth-it", "over", "better"))
 
 
