@@ -154,7 +154,7 @@ State: TypeAlias = Literal[
 #: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be told.
 Kind: TypeAlias = Literal[
     "vehicle", "car", "truck", "bus", "van", "motorcycle", "bicycle", "pedestrian", "tram", "taxi",
-    "emergency",
+    "emergency", "wheelchair", "scooter",
 ]  # fmt: skip
 
 #: Where something is, seen from our car (or from the vehicle named beside it).

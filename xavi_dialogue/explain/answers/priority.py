@@ -126,7 +126,8 @@ def priority_at(
     rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
     rule = rule if met is None else met[1]
     if rule == "none" and vehicle is not None:
-        rule = _changing(asked, vehicle, about) or _walks_first(asked, vehicle, about) or rule
+        rule = _changing(asked, vehicle, about) or rule
+    rule = _walks_first(asked, vehicle, about, waited) or rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -220,11 +221,17 @@ def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
     return "we-change" if any(step in CHANGES for step in meant) else None
 
 
-def _walks_first(asked: Asked, vehicle: int, about: Window) -> Rule | None:
-    """Tell whether we have to let somebody on foot go first: that is planned so."""
+def _walks_first(
+    asked: Asked, vehicle: int | None, about: Window, waited: Episode | None
+) -> Rule | None:
+    """Tell whether we have to let somebody on foot go first: that is planned so, or done."""
+    if vehicle is None:
+        return None
     look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
     if look is None or look.kind not in ON_FOOT or trace is None:
         return None
+    if waited is not None:
+        return "give-way"
     holders = top_holders(asked.world.states, trace, EGO)
     return "give-way" if (vehicle, "right-of-way") in holders else None
 
