@@ -263,3 +263,11 @@ def test_what_did_not_come_about_is_told_so(setting: Setting) -> None:
         assert (found.undone, found.still) == (undone, still)
     found = braking(setting, braked, then=1.0, anyway=1.0)
     assert (found.undone, found.still) == (False, True)
+
+
+def test_whether_we_would_still_be_slow_is_whether_we_would_slow_down(setting: Setting) -> None:
+    for share in (0.9, 0.1):
+        setting.shares = {("after", "slow-down"): share, ("before", "slow-down"): 0.9}
+        found = what_if(Not(Exists(ONE)), Whether(Is("slow", Ego())))
+        assert found.asked == Event("slow-down", tense="present", modal="would")
+        assert found.still is (share > 0.5)

@@ -262,6 +262,9 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
 def _then(question: Question | None) -> Event | None:
     """What is asked of the supposed world: whether we would still have done something."""
     if isinstance(question, Whether):
+        slow = question.that
+        if isinstance(slow, Is) and slow.state == "slow" and is_own(slow.thing):
+            return Event("slow-down", tense=slow.tense, modal="would")  # "would we still be slow"
         event = event_of(question.that)
         own = event is not None and is_own(event.actor)
         return event if own and not is_sooner(question) else None

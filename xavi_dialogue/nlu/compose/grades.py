@@ -5,6 +5,7 @@ from typing import Any, cast
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
+    Compare,
     HowLong,
     HowMany,
     HowMuch,
@@ -32,6 +33,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Relative,
     Road,
+    That,
     Thing,
     Unsaid,
     Wanted,
@@ -133,6 +135,9 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
         return HowMuch(Measured("visibility", value.to, time=clause.time))
     event = value.event if isinstance(value, Happens) else None
     name: Any = state.get(words[-1], "safe")
+    deed = actor in (Pronoun("that"), Pronoun("it"))
+    if clause.modal == "would" and name in ("safe", "dangerous") and deed:
+        return Compare((That(),), "safety")  # "how risky would that have been?"
     return Whether(Is(name, None if event else actor, event, time=clause.time,
                       tense=cast(Any, clause.tense)))  # fmt: skip
 

@@ -222,7 +222,7 @@ class Polar(Comparing):
             return HowMany(passed)  # "did we go past any exits?"
         about = about_whom(clause)
         match of:
-            case Is(state="dangerous" | "safe", thing=Pronoun(), event=None) if (
+            case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (
                 clause.modal == "would"
             ):
                 return Compare((That(),), "safety")  # "would that have been risky?"
