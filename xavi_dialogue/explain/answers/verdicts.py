@@ -38,6 +38,7 @@ from xavi_dialogue.explain.answers.weighing import weigh
 #: Manners that are a matter of opinion: what we did so is met with its reason.
 JUDGED = frozenset(("late", "early", "long"))
 PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
+PASSING = frozenset(("pass", "overtake"))
 DRIVING = frozenset(("move", "go", "turn", "exit-left", "exit-right", "enter", "pass"))
 
 
@@ -111,7 +112,7 @@ def _as_state(that: Proposition) -> Proposition:
     match that:
         case Not(content=content):
             return replace(that, content=_as_state(content))
-        case Happens(event=event) if event.action in ("pass", "overtake") and "fast" in event.manner:
+        case Happens(event=event) if event.action in PASSING and "fast" in event.manner:
             return Happens(replace(event, manner=()))  # "he shot past"
         case Happens(event=event) if event.action in ("go", "move") and event.modal is None:
             state = next((PACES[m] for m in event.manner if m in PACES), None)

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
     Measured,
     Not,
     Passenger,
@@ -27,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     Related,
     That,
+    Thing,
     Unknown,
     Unsaid,
     Vehicle,
@@ -152,6 +154,26 @@ def _see(special: Special) -> Proposition:
     unseen = Ego() if is_other(special.subject) else each
     thing = as_thing(special.object) or as_thing(special.clause.gap) or unseen
     return Related("can-see", special.subject, thing, time_of(special), tense_of(special))
+
+
+def _see_past(special: Special) -> Proposition:
+    """Read "see past the lorry", "see round the corner", "see behind that building"."""
+    to = _beside(special)
+    return Related("sees-past", special.subject, to, time_of(special), tense_of(special))
+
+
+def _emerge(special: Special) -> Proposition:
+    """Read "come out from behind the lorry"."""
+    to = _beside(special)
+    return Related("from", special.subject, to, time_of(special), tense_of(special))
+
+
+def _beside(special: Special) -> Thing:
+    """The thing behind the preposition; a junction or corner is one that cannot be seen round."""
+    phrases = special.match.phrases
+    keys = ("over", "bearing-around", "bearing-behind")
+    to = next((as_thing(phrases[key]) for key in keys if key in phrases), None)
+    return Feature("blind") if to is None or isinstance(to, Junction) else to
 
 
 def _make_do(special: Special) -> Proposition:
@@ -286,7 +308,7 @@ def _signal(special: Special) -> Proposition:
 
 
 _RULES: dict[str, Callable[[Special], Proposition]] = {
-    "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
+    "see-past": _see_past, "emerge": _emerge, "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,
     "had-wrong": had_wrong, "happen-wrong": _is("wrong"),
@@ -302,7 +324,8 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": _leave_space,
     "begin": begun, "change": changed,
-    "missed-chance": _missed, "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
+    "missed-chance": _missed,
+    "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
     "refrain": given_up,
     "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
                               time_of(s), tense_of(s)),

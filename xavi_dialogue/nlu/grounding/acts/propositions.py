@@ -72,8 +72,9 @@ OF_EVENTS: Final = frozenset(
 )  # fmt: skip
 #: What a vehicle that is seen does anyway, and is not foreseen to do.
 _SHOWN: Final = frozenset(
-    ("pass", "come", "appear", "approach", "move", "disappear", "see", "cut-in", "pull-out", "cross")
-)
+    ("pass", "come", "appear", "approach", "move", "disappear", "see", "cut-in", "pull-out",
+     "cross"),
+)  # fmt: skip
 _ONLY_EVENTS: Final = frozenset(("necessary", "worth-it", "over", "better"))
 
 
@@ -116,6 +117,8 @@ def proposition(
         case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
             seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
             return g.proposition(seen, mode, outer)
+        case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
+            return _related(replace(spoken, to=Feature("blind")), g, outer)
         case Related():
             return _related(come_along(spoken), g, outer)
         case Has():
