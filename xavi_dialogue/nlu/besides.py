@@ -265,7 +265,9 @@ def _is_told(before: Act, act: Act) -> bool:
             | Where(of=Pronoun())
         ):
             return True  # "what was the hardest braking, and who was it for?"
-        case Ask(question=Peak()), Repair(kind="why" | "continue"):
+        case Ask(question=Peak()), Repair(kind="why" | "continue") | Elliptic(
+            thing=Pronoun(form="who")
+        ):
             return True  # "what were the longest stops, and what caused each?"
         case Ask(question=Which(among=())), Elliptic(form="same", event=None, besides=False):
             return act.thing is not None  # "who is he waiting for? us?"

@@ -96,8 +96,11 @@ def extreme_told(clause: Clause) -> HowMuch | None:
 def nearest_of(clause: Clause) -> HowMuch | None:
     """Read "when was it closest?" of another vehicle; the answer tells when."""
     thing = as_thing(clause.subject)
-    if clause.verb is not None or not isinstance(thing, Pronoun | Described | Vehicle):
+    still = clause.verb is None or clause.verb.key in ("come", "get")
+    if not still or not isinstance(thing, Pronoun | Described | Vehicle):
         return None
+    if isinstance(thing, Described) and not thing.definite:
+        return None  # "when did anyone come closest?"
     if not clause.focus & {"closest", "nearest"}:
         return None
     of = Measured("distance", thing, Ego(), time=clause.time, tense=cast(Any, clause.tense))

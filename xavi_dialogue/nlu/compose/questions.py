@@ -326,12 +326,12 @@ _CLEFT = frozenset({"when", "where", "why", "how"})
 
 def _pointed(wh: Wh, clause: Clause) -> Question | None:
     """Ask for what stands out, "where did you brake hardest?"; or "who was that for?"."""
+    if wh.kind == "when" and (nearest := nearest_of(clause)) is not None:
+        return nearest
     most = peak_of(clause)
     named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
     if most is not None and (named or wh.kind in _POINTING):
         return most
-    if wh.kind == "when":
-        return nearest_of(clause)
     whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
     ours = wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject)
     return Why(That()) if ours else None

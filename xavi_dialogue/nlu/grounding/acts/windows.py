@@ -237,6 +237,8 @@ def _relative(time: Relative, tense: Tense, g: Grounder) -> Window:
     found = _anchored(time, tense, g)
     if found is None:
         return _coming(context, SOON, said=True)
+    if not found and time.relation == "before" and isinstance(time.anchor, Junction):
+        return _between(max(context.begin, context.now - BESIDE), context.now, context.now)
     if not found:
         g.notes.cost += UNFOUND
         g.notes.presupposed = False
