@@ -191,7 +191,7 @@ def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
     """
     behind = [] if event is None or event.object is None else _slowed_behind(asked, event.object)
     if event is not None and event.action == "block" and behind:
-        found = max(behind, key=lambda e: duration(asked, e))
+        found: Episode | None = max(behind, key=lambda e: duration(asked, e))
     elif event is not None and event.action != "block":
         found = occasion(asked, event)
     else:

@@ -133,7 +133,9 @@ class Adjuncts:
     def _on_without(self, node: Node, clause: Clause) -> None:
         inner = cast(Node, node.parts[-1])
         if inner.name == "gerund":
-            return  # "without looking": how it was done
+            deed = self.propositions.as_deed(self.clause(inner))
+            clause.lacking = deed if isinstance(deed, Event) else None
+            return
         if inner.name in CLAUSES:
             clause.condition = self.clause(inner, clause)
             clause.condition.negated = True

@@ -65,6 +65,7 @@ class Clause:
     led: bool = False  # the condition stands first
     because: "Sem | Clause | None" = None
     without: Sem | None = None
+    lacking: Event | None = None  # what is not done with it: "without stopping"
     infinitive: "Clause | None" = None
     gerund: "Clause | None" = None
     bare: "Clause | None" = None

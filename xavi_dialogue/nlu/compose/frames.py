@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Relative,
     That,
     Thing,
     Unsaid,
@@ -58,7 +59,7 @@ class Frames:
         if clause.contrast is None and inner is not None and inner.contrast is not None:
             clause = inner
         if isinstance(question, Why):
-            question = preferred(question) or _outdone(clause) or question
+            question = preferred(question) or _outdone(clause) or _lacking(question, clause)
         if isinstance(question, Why) and clause.contrast is not None:
             instead = self.contrast(clause, question.of)
             if instead is not None:
@@ -145,6 +146,17 @@ def _of_none(of: Proposition) -> Proposition:
         return of
     every = rewrite(of, lambda part: Pronoun("them-all") if part == NONE_OF_THEM else part)
     return Not(every)
+
+
+def _lacking(question: Why, clause: Clause) -> Why:
+    """Take why something was done without another deed for why that deed was not done then."""
+    lacking, of = clause.lacking, question.of
+    if lacking is None or lacking.action == "do" or not isinstance(of, Happens):
+        return question
+    done = of.event
+    time = Relative("during", done) if isinstance(done.time, Unsaid) else done.time
+    undone = with_fields(lacking, actor=done.actor, tense=done.tense, time=time)
+    return structs.replace(question, of=Not(Happens(undone)))
 
 
 def _without(sem: Sem) -> Proposition | None:
