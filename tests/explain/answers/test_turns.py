@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Happens,
+    Next,
     Now,
     Related,
     Vehicle,
@@ -115,3 +116,9 @@ def test_who_has_to_move_is_the_head_of_the_row(
         ],
     )
     assert told(given, MOVER) == Unblocking(NOW, 2, going, waits)
+
+
+def test_who_goes_next_is_who_goes_before_us() -> None:
+    going = Happens(Event("go", Wanted(), time=Next(), tense="present"))
+    found = told(at_junction({1: "ego", 2: "vehicle", 3: "vehicle"}), going)
+    assert found == Priority(NOW, "give-way", 2, others=(3,), after=(1,), why="across")

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Happens,
     Is,
+    Next,
     Not,
     Proposition,
     Related,
@@ -29,8 +30,9 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import counting, measures, queues
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.moments import is_past
+from xavi_dialogue.explain.answers.moments import Window, is_past
 from xavi_dialogue.explain.answers.naming import number, somebodies
+from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reasons import why
 
 Grounds: TypeAlias = Literal["right", "across"]
@@ -54,6 +56,8 @@ def who(question: Which, asked: Asked) -> Answer:
         if _asks_mover(such) and (found := unblocking(asked)) is not None:
             return found
         if _asks_order(such) and (told := order(asked, question.among)) is not None:
+            return told
+        if _asks_next(such) and (told := _next(asked)) is not None:
             return told
         if _asks_whom(such) and (told := order(asked, ())) is not None:
             return replace(told, after=()) if told.rule == "give-way" else told
@@ -133,6 +137,12 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     told = Priority(asked.now, "give-way", first, others=tuple(rest), after=_numbers(after))
     told = replace(told, apart=apart)
     return replace(told, why=_why(road, before))
+
+
+def _next(asked: Asked) -> Priority | None:
+    """Tell who goes before us now, or after; None where our way meets nobody's."""
+    told = order(asked, ()) or priority_at(asked, None, Window(asked.now, asked.now))
+    return None if told.rule == "none" or told.vehicle is None else reason(asked, told)
 
 
 def unblocking(asked: Asked) -> Answer | None:
@@ -220,6 +230,14 @@ def _asks_order(such: Proposition) -> bool:
             return event.action in LETTING and event.modal in DUTIES
         case Is(state="first", thing=Wanted()):
             return True
+    return False
+
+
+def _asks_next(such: Proposition) -> bool:
+    """Tell whether it is asked who goes next."""
+    match such:
+        case Happens(event=Event(actor=Wanted(), object=None, time=Next(), modal=None) as event):
+            return event.action in GOING
     return False
 
 
