@@ -45,6 +45,7 @@ from xavi_dialogue.domain.findings import (
     Unblocking,
     Verdict,
 )
+from xavi_dialogue.domain.hidden_areas import HiddenAnswer
 from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit, Wavered
 from xavi_dialogue.domain.knowing import Avoidance, Certainty, Grounds, Method, Pivot
 from xavi_dialogue.domain.meaning import Act, Feel, Question, Request
@@ -289,6 +290,7 @@ Answer: TypeAlias = (
     | SupposedOfUs
     | SupposedOfOther
     | LightAnswer
+    | HiddenAnswer
     | Reaction
     | Measures
     | Verdict

@@ -122,6 +122,7 @@ class Listing(Value, frozen=True):
     of: Literal[
         "events", "vehicles", "options", "beliefs", "causes", "reasons", "stops", "decisions",
         "wrong-predictions", "capabilities",
+        "hidden",  # parts of the road
     ]  # fmt: skip
     about: Thing | None = None
     time: Time = Unsaid()

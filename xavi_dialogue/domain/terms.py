@@ -149,7 +149,7 @@ class Feature(Value, frozen=True):
 
     kind: Literal[
         "light", "sign", "crossing", "curb", "parking", "building", "line", "bend", "queue",
-        "space", "way", "obstacle", "headlight",
+        "space", "way", "obstacle", "headlight", "blind",
     ]  # fmt: skip
     colour: str | None = None  # that it is said to show: "the red light"
     rank: int | None = None  # 1 the next one, 2 the one behind it, -1 the last one

@@ -133,6 +133,7 @@ Relation: TypeAlias = Literal[
     "must-yield-to",
     "waiting-for",
     "can-see",
+    "sees-past",  # what hides a part of the road
     "in-the-way-of",
     "same-as",
     "faster-than",

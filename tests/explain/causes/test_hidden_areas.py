@@ -68,3 +68,18 @@ def test_the_lorry_that_hides_the_road_is_named(tmp_path: Path) -> None:
     said = told(tmp_path, 8.5, "What could be behind that lorry?", house=False, routes=LORRY)
     assert said.startswith("I cannot see what is behind the blue lorry")
     assert said.endswith(", so somebody may be there.")
+
+
+def test_seeing_past_it_would_have_saved_time(tmp_path: Path) -> None:
+    said = told(tmp_path, 14.0, "What if you had been able to see past the building?")
+    assert said.startswith("With a clear view past the building on the left, and nobody there")
+    assert "would have saved about" in said
+
+
+@pytest.mark.parametrize(
+    "text", ["Can you see past that building?", "What can you not see?", "Is there a blind corner?"]
+)
+def test_what_hides_the_road_is_told_with_its_side(tmp_path: Path, text: str) -> None:
+    said = told(tmp_path, 9.0, text)
+    assert said.startswith("I cannot see past the building on the left")
+    assert "cannot" not in told(tmp_path, 9.0, "What can you not see?", house=False)

@@ -19,7 +19,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Beyond
 from xavi_dialogue.domain.terms import At, Between
-from xavi_dialogue.explain.answers import causal, factual, lights
+from xavi_dialogue.explain.answers import causal, factual, hidden_areas, lights
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reading import event_of
 from xavi_dialogue.explain.facts.world import World
@@ -73,6 +73,9 @@ def _answer(scene: Asked) -> Answer:
     lit = lights.explainer(act, scene)
     if lit is not None:
         return lit(act, scene)
+    unseen = hidden_areas.explainer(act, scene)
+    if unseen is not None:
+        return unseen(act, scene)
     if isinstance(act, Ask):
         question = act.question
         explainer = causal.explainer(question, scene) or factual.QUESTIONS.get(type(question))

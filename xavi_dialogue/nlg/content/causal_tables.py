@@ -1,10 +1,11 @@
 """Tables: the planner of each type of causal answer, and of refusals."""
 
-from xavi_dialogue.domain import answers, traffic_lights
+from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
 from xavi_dialogue.nlg.content import insights, refusals
 from xavi_dialogue.nlg.content.clarifications import plan_which_one
 from xavi_dialogue.nlg.content.corrections import plan_did_not_happen
 from xavi_dialogue.nlg.content.going import plan_going, plan_unslowed
+from xavi_dialogue.nlg.content.hidden_areas import plan_seeing
 from xavi_dialogue.nlg.content.motives import plan_motion
 from xavi_dialogue.nlg.content.others import plan_other, plan_place, plan_signal
 from xavi_dialogue.nlg.content.own_suppositions import plan_supposed_of_us
@@ -28,6 +29,7 @@ CAUSES: dict[type, Planner] = {
     answers.SupposedOfOther: plan_supposed_of_other,
     answers.Reaction: plan_reaction,
     traffic_lights.SupposedOfLight: plan_supposed_light,
+    hidden_areas.SupposedSeeing: plan_seeing,
     answers.Grounds: insights.plan_grounds,
     answers.Certainty: insights.plan_certainty,
     answers.Method: insights.plan_method,

@@ -1,6 +1,6 @@
 """Tables: the planner of each type of factual answer, and of replies to talk."""
 
-from xavi_dialogue.domain import answers, traffic_lights
+from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
 from xavi_dialogue.nlg.content import (
     beliefs,
     clarifications,
@@ -18,6 +18,7 @@ from xavi_dialogue.nlg.content import (
 )
 from xavi_dialogue.nlg.content import traffic_lights as lights
 from xavi_dialogue.nlg.content.happenings import plan_happenings
+from xavi_dialogue.nlg.content.hidden_areas import plan_sight
 from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures, plan_staying
 from xavi_dialogue.nlg.content.plan import Planner
 from xavi_dialogue.nlg.content.verdicts import plan_verdict
@@ -35,6 +36,7 @@ FACTS: dict[type, Planner] = {
     traffic_lights.LightForeseen: lights.plan_foreseen,
     traffic_lights.LightPassed: lights.plan_passed,
     traffic_lights.TurnOnRed: lights.plan_turn_on_red,
+    hidden_areas.SightTold: plan_sight,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,

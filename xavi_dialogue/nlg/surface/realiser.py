@@ -11,7 +11,7 @@ from xavi_dialogue.nlg.surface.rules import Grammar, load_grammars
 #: The grammars of the passenger's style; their rules may call each other.
 GRAMMARS = ("answer_common", "answer_facts", "answer_measures", "answer_talk", "answer_causes",
             "answer_refusals", "answer_questions", "answer_journeys", "answer_lights",
-            "answer_dangers")  # fmt: skip
+            "answer_dangers", "answer_hidden")  # fmt: skip
 
 
 def grammar() -> Grammar:

@@ -39,7 +39,7 @@ FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the c
             "curb": "the kerb", "parking": "the parking place", "building": "the building",
             "line": "the line", "bend": "the bend", "queue": "the queue", "space": "the space",
             "way": "the way", "obstacle": "the obstacle",
-            "headlight": "the headlights"}  # fmt: skip
+            "headlight": "the headlights", "blind": "the blind corner"}  # fmt: skip
 
 
 @dataclass(slots=True)

@@ -176,6 +176,25 @@ def _beside(special: Special) -> Thing:
     return Feature("blind") if to is None or isinstance(to, Junction) else to
 
 
+def _see_past(special: Special) -> Proposition:
+    """Read "see past the lorry", "see round the corner", "see behind that building"."""
+    to = _beside(special)
+    return Related("sees-past", special.subject, to, time_of(special), tense_of(special))
+
+
+def _emerge(special: Special) -> Proposition:
+    """Read "come out from behind the lorry"."""
+    return Happens(event_of(special, "come", _beside(special)))
+
+
+def _beside(special: Special) -> Thing:
+    """The thing behind the preposition; a junction or corner is one that cannot be seen round."""
+    phrases = special.match.phrases
+    keys = ("over", "bearing-around", "bearing-behind")
+    to = next((as_thing(phrases[key]) for key in keys if key in phrases), None)
+    return Feature("blind") if to is None or isinstance(to, Junction) else to
+
+
 def _make_do(special: Special) -> Proposition:
     effect = special.content
     if effect is None:

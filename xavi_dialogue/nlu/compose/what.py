@@ -140,7 +140,7 @@ class What:
             case "take-time" if isinstance(subject, Wanted) and not clause.gerund:
                 return Why(Compares(Measured("duration", time=time), "more"))
             case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
-                return Listing("vehicles", time=time)
+                return Listing("hidden" if clause.negated else "vehicles", time=time)
             case "assign" | "give-priority" if isinstance(value.object, Wanted):
                 return HowSure(content_of(clause, value), time)  # "what did you give it?"
             case "rest":

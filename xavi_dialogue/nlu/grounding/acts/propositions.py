@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
+    Feature,
     Happens,
     Has,
     Is,
@@ -117,6 +118,8 @@ def proposition(
         case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
             seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
             return g.proposition(seen, mode, outer)
+        case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
+            return _related(replace(spoken, to=Feature("blind")), g, outer)
         case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
             return _related(replace(spoken, to=Feature("blind")), g, outer)
         case Related():

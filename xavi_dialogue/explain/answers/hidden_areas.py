@@ -1,0 +1,233 @@
+"""Hidden areas: what we cannot see past, whether somebody might come from there, and what if not.
+
+Who might come is imagined by the planner. It is spoken of as possible, and never as of somebody.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from planner.hidden_areas import Phantom
+from planner.trace import PlanTrace
+from xavi_dialogue.domain.answers import Answer, NotRecorded
+from xavi_dialogue.domain.hidden_areas import Hider, SightTold, SupposedSeeing
+from xavi_dialogue.domain.meaning import Ask, HowKnow, HowSure, Listing, WhatIf, Whether
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Described,
+    Event,
+    Everyone,
+    Exists,
+    Feature,
+    Happens,
+    Is,
+    Nobody,
+    Proposition,
+    Related,
+    Thing,
+    Vehicle,
+)
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.naming import is_building, is_us
+from xavi_dialogue.explain.answers.reading import unwrapped
+from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.causes.hidden_areas import holding, seeing_past, side_of
+from xavi_dialogue.explain.history.ride import ROUNDING, planned
+
+Explainer: TypeAlias = Callable[[Any, Asked], Answer]
+
+JUST_NOW = 1.5  # [s] for which what was decided on still holds
+TOGETHER = 3.0  # [s] between decisions about one hidden part
+
+
+def explainer(act: object, scene: Asked) -> Explainer | None:
+    """Find who answers an act about what is hidden; None where it is about nothing hidden."""
+    if not isinstance(act, Ask):
+        return None
+    match act.question:
+        case WhatIf(supposed) if _seen_past(supposed) is not None:
+            return lambda asked, here: _supposed(asked.question, here)
+        case Whether(that) if _of_sight(that) is not None:
+            return _told("past")
+        case Listing("hidden"):
+            return _told("what")
+        case Whether(Exists(thing)) if _is_blind(thing):
+            return _told("past")
+        case Whether(that) | HowSure(that) if (from_where := _comes_from(that)) is not None:
+            if not _hiding(scene, from_where, _is_past(that)):
+                return None
+            if isinstance(act.question, Whether) and _is_deed(that):
+                return None if _anybody_new(scene, from_where) else _told("came")
+            return _told("chance")
+        case HowKnow(of) if (from_where := _comes_from(of)) is not None:
+            return _told("known") if _hiding(scene, from_where, _is_past(of)) else None
+    return None
+
+
+def _told(asked: Any) -> Explainer:
+    return lambda act, scene: _tell(asked, act.question, scene)
+
+
+def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
+    """Tell what is hidden, and what may be there."""
+    that = getattr(question, "that", None) or (
+        None if isinstance(question, Listing) else getattr(question, "of", None)
+    )
+    past = _is_past(that) if that is not None else scene.past is not None
+    about = None
+    if isinstance(that, Proposition):
+        about = _of_sight(that) or _comes_from(that)
+    found = _hiding(scene, about, past)
+    if not found:
+        return SightTold(asked, (), past)
+    first = _first(found)
+    slowed = any(one in holding(t) for t in found for one in _fitting(t, about))
+    now = found[-1].sim_time >= scene.now - JUST_NOW
+    told = first if past and not now else found[-1]
+    return SightTold(asked, _hiders(told, _fitting(told, about)), past or not now, slowed)
+
+
+def _supposed(question: WhatIf, scene: Asked) -> Answer:
+    """Tell what would have been, or would be, could we see past what hides the road.
+
+    Raises:
+        Unanswered: the decision must be planned again first, or cannot be.
+    """
+    about = _seen_past(question.supposed)
+    past = _is_past(unwrapped(question.supposed)[0])
+    found = _hiding(scene, about, past=True)
+    if not found:
+        return SupposedSeeing((), scene.now, (), (), 0.0, past)
+    trace = _first(found)
+    again = seeing_past(scene.ride, trace)
+    if again is None:
+        raise Unanswered(NotRecorded("not-recorded", since=trace.sim_time))
+    here = factual(scene.ride.model(trace), trace)
+    there = factual(scene.ride.model(again), again)
+    over = found[-1].sim_time < scene.now - JUST_NOW
+    hiders = _hiders(trace, trace.phantoms)
+    gained = _duration(here) - _duration(there)
+    return SupposedSeeing(
+        hiders, trace.sim_time, planned(trace), planned(again), max(gained, 0.0), past or over
+    )
+
+
+def _duration(drive: Any) -> float:
+    """The expected time [s] of a drive."""
+    known = drive.present("time")
+    mass = sum(weight for _, weight, _ in known)
+    return sum(weight * abs(value) for _, weight, value in known) / mass if mass else 0.0
+
+
+def _hiding(scene: Asked, about: Thing | None, past: bool) -> list[PlanTrace]:
+    """List the decisions about the hidden part that is asked about: of now, else the last."""
+    known = [
+        t for t in scene.ride.traces if t.sim_time <= scene.now + ROUNDING and _fitting(t, about)
+    ]
+    if not known or (not past and known[-1].sim_time < scene.now - JUST_NOW):
+        return []
+    found = [known[-1]]
+    for trace in reversed(known[:-1]):
+        if found[0].sim_time - trace.sim_time > TOGETHER:
+            break
+        found.insert(0, trace)
+    return found
+
+
+def _first(found: list[PlanTrace]) -> PlanTrace:
+    """The first decision at which what is hidden made us slower; else the first of all."""
+    held = [t for t in found if holding(t)]
+    free = [t for t in held if t.under_way is None]
+    return (free or held or found)[0]
+
+
+def _fitting(trace: PlanTrace, about: Thing | None) -> tuple[Phantom, ...]:
+    """Who is imagined behind a vehicle, behind a building, or behind anything."""
+    match about:
+        case Vehicle(number=number):
+            return tuple(one for one in trace.phantoms if one.behind == number)
+        case Feature(kind="building"):
+            return tuple(one for one in trace.phantoms if one.behind is None)
+    return trace.phantoms
+
+
+def _hiders(trace: PlanTrace, phantoms: tuple[Phantom, ...]) -> tuple[Hider, ...]:
+    """What hides the road on which side, with the chance that somebody is there."""
+    nobody: dict[tuple[Any, Any], float] = {}
+    for one in phantoms:
+        key = (one.behind, side_of(trace, one))
+        nobody[key] = nobody.get(key, 1.0) * (1.0 - one.probability)
+    found = (Hider(vehicle, side, round(1.0 - none, 4)) for (vehicle, side), none in nobody.items())
+    return tuple(sorted(found, key=lambda one: -one.probability))
+
+
+def _anybody_new(scene: Asked, about: Thing) -> bool:
+    """Tell whether anybody has come into view since the hidden part was decided on."""
+    since = _hiding(scene, about, past=True)[0].sim_time
+    return any(
+        math.isclose(time, since) or time > since
+        for time in (_first_seen(scene, v) for v in scene.world.vehicles)
+    )
+
+
+def _first_seen(scene: Asked, vehicle: int) -> float:
+    times = (t.sim_time for t in scene.ride.traces if vehicle in t.scene)
+    return next(times, scene.now)
+
+
+# --- What a question is about ---------------------------------------------------------------------
+
+
+def _seen_past(supposed: Proposition) -> Thing | None:
+    """What is supposed to be seen past, or not to be there: a building."""
+    of, negated = unwrapped(supposed)
+    match of:
+        case Related("sees-past", thing, to) if is_us(thing) and not negated:
+            return to
+        case Exists(thing) if negated and (is_building(thing) or _is_blind(thing)):
+            return thing
+    return None
+
+
+def _of_sight(that: Proposition) -> Thing | None:
+    of, _ = unwrapped(that)
+    return of.to if isinstance(of, Related) and of.relation == "sees-past" else None
+
+
+def _is_blind(thing: Thing | None) -> bool:
+    if isinstance(thing, Nobody) and thing.described is not None:
+        return False
+    return isinstance(thing, Feature) and thing.kind == "blind"
+
+
+def _comes_from(that: Proposition | None) -> Thing | None:
+    """What somebody, not known, is said to be behind, or to come from behind."""
+    of, _ = unwrapped(that)
+    if isinstance(of, Believed):
+        of, _ = unwrapped(of.content)
+    where: Thing | None = None
+    match of:
+        case Related("behind" | "from", Nobody() | Everyone() | Described(), to):
+            where = to
+        case Happens(Event(action="come" | "appear" | "pull-out", actor=actor, object=to)) if (
+            isinstance(actor, Nobody | Everyone | Described)
+        ):
+            where = to
+        case Exists(Nobody(Described(bearing="behind", of=to))):
+            where = to
+    return where if isinstance(where, Vehicle) or is_building(where) or _is_blind(where) else None
+
+
+def _is_deed(that: Proposition | None) -> bool:
+    """Tell whether it is asked what somebody did, rather than could have done."""
+    of, _ = unwrapped(that)
+    if isinstance(of, Happens):
+        return of.event.tense == "past" and of.event.modal is None
+    return isinstance(of, Related) and of.relation == "from" and of.tense == "past"
+
+
+def _is_past(that: Proposition | None) -> bool:
+    of, _ = unwrapped(that)
+    if isinstance(of, Happens):
+        return of.event.tense in ("past", "perfect")
+    return isinstance(of, Related | Exists | Is) and of.tense in ("past", "perfect")
