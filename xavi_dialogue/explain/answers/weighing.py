@@ -109,6 +109,8 @@ def _joined(of: Both, asked: Asked) -> Finding:
     """Give several together: all must hold, or one of them."""
     if len(set(of.contents)) == 1:
         return weigh(of.contents[0], asked)
+    if (feared := _feared(of, asked)) is not None:
+        return weigh(feared, asked)
     if of.join == "or" and (halting := stop_or_go(of, asked)) is not None:
         return halting
     if of.join == "or" and (first := of_order(of)) is not None:
@@ -134,6 +136,17 @@ def _joined(of: Both, asked: Asked) -> Finding:
     gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
     believed = tuple(belief for one in told for belief in one.believed)
     return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def _feared(of: Both, asked: Asked) -> Proposition | None:
+    """Find the collision that is asked about beside what comes before it or instead of it."""
+    for part in of.contents:
+        match part:
+            case Happens(event=Event(action="collide" | "nearly-collide") as event) if (
+                not is_past(asked, event.time, event.tense)
+            ):
+                return part
+    return None
 
 
 def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
