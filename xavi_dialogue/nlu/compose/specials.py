@@ -164,26 +164,6 @@ def _see_past(special: Special) -> Proposition:
 
 def _emerge(special: Special) -> Proposition:
     """Read "come out from behind the lorry"."""
-    to = _beside(special)
-    return Related("from", special.subject, to, time_of(special), tense_of(special))
-
-
-def _beside(special: Special) -> Thing:
-    """The thing behind the preposition; a junction or corner is one that cannot be seen round."""
-    phrases = special.match.phrases
-    keys = ("over", "bearing-around", "bearing-behind")
-    to = next((as_thing(phrases[key]) for key in keys if key in phrases), None)
-    return Feature("blind") if to is None or isinstance(to, Junction) else to
-
-
-def _see_past(special: Special) -> Proposition:
-    """Read "see past the lorry", "see round the corner", "see behind that building"."""
-    to = _beside(special)
-    return Related("sees-past", special.subject, to, time_of(special), tense_of(special))
-
-
-def _emerge(special: Special) -> Proposition:
-    """Read "come out from behind the lorry"."""
     return Happens(event_of(special, "come", _beside(special)))
 
 
@@ -327,7 +307,8 @@ def _signal(special: Special) -> Proposition:
 
 
 _RULES: dict[str, Callable[[Special], Proposition]] = {
-    "see-past": _see_past, "emerge": _emerge, "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
+    "see-past": _see_past, "emerge": _emerge,
+    "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,
     "had-wrong": had_wrong, "happen-wrong": _is("wrong"),

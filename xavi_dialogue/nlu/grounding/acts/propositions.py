@@ -120,8 +120,6 @@ def proposition(
             return g.proposition(seen, mode, outer)
         case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
             return _related(replace(spoken, to=Feature("blind")), g, outer)
-        case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
-            return _related(replace(spoken, to=Feature("blind")), g, outer)
         case Related():
             return _related(come_along(spoken), g, outer)
         case Has():
