@@ -159,8 +159,9 @@ def _wavered(that: Proposition, asked: Asked) -> Answer | None:
         case Happens(event=Event(action="change-plan", actor=Ego(), modal=None) as event):
             pass
         case Happens(
-            event=Event(action="go" | "move", actor=Ego(), then=Event(action="stop" | "brake"))
-            as event
+            event=Event(
+                action="go" | "move", actor=Ego(), then=Event(action="stop" | "brake")
+            ) as event
         ):
             pass
         case _:

@@ -142,8 +142,8 @@ def _feared(of: Both, asked: Asked) -> Proposition | None:
     """Find the collision that is asked about beside what comes before it or instead of it."""
     for part in of.contents:
         match part:
-            case Happens(event=Event(action="collide" | "nearly-collide") as event) if (
-                not is_past(asked, event.time, event.tense)
+            case Happens(event=Event(action="collide" | "nearly-collide") as event) if not is_past(
+                asked, event.time, event.tense
             ):
                 return part
     return None
