@@ -133,7 +133,7 @@ def careful_steps(
     keys = [key_of(line) for line in plan.give_ways if key_of(line) in slow]
     if not keys:
         return ()
-    free = Lane(plan.path).caps
+    free = lane_of(plan.path).caps
     most = caution(plan, slow, len(free))
     arcs = np.minimum(driven.motion[:count, 0].astype(np.int64), len(free) - 1)
     bound = most[arcs] < free[arcs] - SLOWER

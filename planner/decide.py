@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -41,6 +42,8 @@ from planner.trajectory import Array, Roads
 from planner.waypoints import way, waypoint
 from sim.network import Crossing
 from sim.scene import EGO, Point, VehicleState
+
+Line: TypeAlias = tuple[tuple[Point, ...], tuple[float, ...]]  # places [m], speeds [m/s]
 
 CROWD = 16  # vehicles of which the goals are recognised at most
 DIGITS: dict[Component, int] = {
@@ -210,10 +213,14 @@ def record(
 
 def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:
     """Record rollouts from index `offset` on; a line that was driven before is referred to."""
-    seen: dict[tuple[tuple[Point, ...], tuple[float, ...]], int] = {}
+    seen: dict[Line, int] = {}
+    lines: dict[tuple[int, ...], Line] = {}  # by the legs: many rollouts have the same
     found = []
     for index, one in enumerate(simulated, offset):
-        line = _line(one)
+        legs = tuple(map(id, one.legs))
+        line = lines.get(legs)
+        if line is None:
+            line = lines[legs] = _line(one)
         first = seen.setdefault(line, index)
         new = first == index
         found.append(
@@ -247,7 +254,7 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
     return tuple(found)
 
 
-def _line(one: Simulated) -> tuple[tuple[Point, ...], tuple[float, ...]]:
+def _line(one: Simulated) -> Line:
     if not one.legs:
         return (), ()
     position = np.vstack((one.legs[0].position[:1], *(leg.position[1:] for leg in one.legs)))
@@ -257,7 +264,8 @@ def _line(one: Simulated) -> tuple[tuple[Point, ...], tuple[float, ...]]:
 
 def points(position: Array) -> tuple[Point, ...]:
     """Positions [m] [N, 2] as the trace records them, to the decimetre."""
-    return tuple((x, y) for x, y in np.round(position, 1).tolist())
+    x, y = np.round(position, 1).T.tolist()
+    return tuple(zip(x, y, strict=True))
 
 
 def numbers(values: Array) -> tuple[float, ...]:
