@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planner.forward import DT, Drive, Lane, Motion, drive
+from planner.forward import DT, Drive, Motion, drive, lane_of
 from planner.hidden_areas import HeldByHidden, Phantom
 from planner.kernels.driving import COMFORT, READY
 from planner.layout import BEFORE_LINE

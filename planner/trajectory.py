@@ -88,6 +88,8 @@ class Roads:
         self.meetings: dict[tuple[str, int, int], float] = {}  # kept by planner.phantoms
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
+        self.before: dict[str, dict[str, float]] | None = None  # kept by planner.waypoints
+        self.sides: dict[frozenset[str], Any] = {}  # by ring, kept by planner.roundabouts
         self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions
         self._lines: dict[tuple[str, ...], Path] = {}
         self._paths: dict[Any, Path] = {}
