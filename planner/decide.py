@@ -29,6 +29,7 @@ from planner.trace import (
     EgoGoal,
     GoalPrediction,
     PlanTrace,
+    RewardTerm,
     Rollout,
     Settings,
     TimedAction,
@@ -215,12 +216,21 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
     """Record rollouts from index `offset` on; a line that was driven before is referred to."""
     seen: dict[Line, int] = {}
     lines: dict[tuple[int, ...], Line] = {}  # by the legs: many rollouts have the same
+    parts: dict[int, dict[Component, float | None]] = {}  # by identity, as they are shared
+    costs: dict[int, dict[RewardTerm, float]] = {}
     found = []
     for index, one in enumerate(simulated, offset):
         legs = tuple(map(id, one.legs))
         line = lines.get(legs)
         if line is None:
             line = lines[legs] = _line(one)
+        if id(one.terms) not in costs:
+            costs[id(one.terms)] = {term: round(cost, 4) for term, cost in one.terms.items()}
+        if id(one.components) not in parts:
+            parts[id(one.components)] = {
+                name: None if value is None else round(value, DIGITS[name])
+                for name, value in one.components.items()
+            }
         first = seen.setdefault(line, index)
         new = first == index
         found.append(
@@ -235,14 +245,11 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 speed=line[1] if new else None,
                 same_as=None if new else first,
                 outcome=one.outcome,
-                components={
-                    name: None if value is None else round(value, DIGITS[name])
-                    for name, value in one.components.items()
-                },
+                components=parts[id(one.components)],
                 reward=one.reward,
                 collided_with=one.legs[-1].collided_with if one.legs else None,
                 held_up=one.held_up,
-                terms={term: round(cost, 4) for term, cost in one.terms.items()},
+                terms=costs[id(one.terms)],
                 weight=None if one.weight is None else round(one.weight, 6),
                 braking=one.braking,
                 lights=one.lights,

@@ -91,6 +91,7 @@ class Roads:
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
         self.before: dict[str, dict[str, float]] | None = None  # kept by planner.waypoints
         self.sides: dict[frozenset[str], Any] = {}  # by ring, kept by planner.roundabouts
+        self.located: dict[tuple[Point, float], Any] = {}  # by pose, kept by planner.tracks
         self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions
         self._lines: dict[tuple[str, ...], Path] = {}
         self._paths: dict[Any, Path] = {}
