@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planner.forward import DT, Drive, Lane, Motion, drive
+from planner.forward import DT, Drive, Motion, drive, lane_of
 from planner.hidden_areas import HeldByHidden, Phantom
 from planner.kernels.driving import COMFORT, READY
 from planner.layout import BEFORE_LINE
@@ -133,7 +133,7 @@ def careful_steps(
     keys = [key_of(line) for line in plan.give_ways if key_of(line) in slow]
     if not keys:
         return ()
-    free = Lane(plan.path).caps
+    free = lane_of(plan.path).caps
     most = caution(plan, slow, len(free))
     arcs = np.minimum(driven.motion[:count, 0].astype(np.int64), len(free) - 1)
     bound = most[arcs] < free[arcs] - SLOWER

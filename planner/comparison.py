@@ -10,6 +10,7 @@ import itertools
 import math
 import random
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import TypeAlias
 
 from planner.hidden_areas import Phantom, PhantomSample
@@ -37,10 +38,9 @@ def draw(
     """
     found: list[Sample | LightSample | PhantomSample] = []
     for vehicle, known in beliefs.items():
-        rng = draws[vehicle]
-        goal = _drawn(rng, [belief.probability for belief in known])
-        ways = [way.probability for way in known[goal].trajectories]
-        found.append(Sample(vehicle, goal, _drawn(rng, ways)))
+        rng, (goals, ways) = draws[vehicle], _summed(tuple(known))
+        goal = _drawn_by(rng, goals)
+        found.append(Sample(vehicle, goal, _drawn_by(rng, ways[goal])))
     for one in lights.varying:
         shares = [course.probability for course in one.courses]
         found.append(LightSample(one.controller, _drawn(draws[one.controller], shares)))
@@ -53,6 +53,21 @@ def draw(
 def source_of(phantom: int) -> str:
     """The name of the generator of one who is imagined."""
     return f"phantom {phantom}"
+
+
+@lru_cache(maxsize=256)
+def _summed(known: tuple[Belief, ...]) -> tuple[list[float], list[list[float]]]:
+    """The running sums of the probabilities of goals, and of the ways to each."""
+    goals = list(itertools.accumulate(belief.probability for belief in known))
+    ways = [
+        list(itertools.accumulate(way.probability for way in belief.trajectories))
+        for belief in known
+    ]
+    return goals, ways
+
+
+def _drawn_by(rng: random.Random, sums: list[float]) -> int:
+    return rng.choices(range(len(sums)), cum_weights=sums)[0]
 
 
 def _drawn(rng: random.Random, probabilities: Sequence[float]) -> int:

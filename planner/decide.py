@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from planner.trace import (
     EgoGoal,
     GoalPrediction,
     PlanTrace,
+    RewardTerm,
     Rollout,
     Settings,
     TimedAction,
@@ -41,6 +43,8 @@ from planner.trajectory import Array, Roads
 from planner.waypoints import way, waypoint
 from sim.network import Crossing
 from sim.scene import EGO, Point, VehicleState
+
+Line: TypeAlias = tuple[tuple[Point, ...], tuple[float, ...]]  # places [m], speeds [m/s]
 
 CROWD = 16  # vehicles of which the goals are recognised at most
 DIGITS: dict[Component, int] = {
@@ -210,10 +214,23 @@ def record(
 
 def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:
     """Record rollouts from index `offset` on; a line that was driven before is referred to."""
-    seen: dict[tuple[tuple[Point, ...], tuple[float, ...]], int] = {}
+    seen: dict[Line, int] = {}
+    lines: dict[tuple[int, ...], Line] = {}  # by the legs: many rollouts have the same
+    parts: dict[int, dict[Component, float | None]] = {}  # by identity, as they are shared
+    costs: dict[int, dict[RewardTerm, float]] = {}
     found = []
     for index, one in enumerate(simulated, offset):
-        line = _line(one)
+        legs = tuple(map(id, one.legs))
+        line = lines.get(legs)
+        if line is None:
+            line = lines[legs] = _line(one)
+        if id(one.terms) not in costs:
+            costs[id(one.terms)] = {term: round(cost, 4) for term, cost in one.terms.items()}
+        if id(one.components) not in parts:
+            parts[id(one.components)] = {
+                name: None if value is None else round(value, DIGITS[name])
+                for name, value in one.components.items()
+            }
         first = seen.setdefault(line, index)
         new = first == index
         found.append(
@@ -228,14 +245,11 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
                 speed=line[1] if new else None,
                 same_as=None if new else first,
                 outcome=one.outcome,
-                components={
-                    name: None if value is None else round(value, DIGITS[name])
-                    for name, value in one.components.items()
-                },
+                components=parts[id(one.components)],
                 reward=one.reward,
                 collided_with=one.legs[-1].collided_with if one.legs else None,
                 held_up=one.held_up,
-                terms={term: round(cost, 4) for term, cost in one.terms.items()},
+                terms=costs[id(one.terms)],
                 weight=None if one.weight is None else round(one.weight, 6),
                 braking=one.braking,
                 lights=one.lights,
@@ -247,7 +261,7 @@ def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> t
     return tuple(found)
 
 
-def _line(one: Simulated) -> tuple[tuple[Point, ...], tuple[float, ...]]:
+def _line(one: Simulated) -> Line:
     if not one.legs:
         return (), ()
     position = np.vstack((one.legs[0].position[:1], *(leg.position[1:] for leg in one.legs)))
@@ -257,7 +271,8 @@ def _line(one: Simulated) -> tuple[tuple[Point, ...], tuple[float, ...]]:
 
 def points(position: Array) -> tuple[Point, ...]:
     """Positions [m] [N, 2] as the trace records them, to the decimetre."""
-    return tuple((x, y) for x, y in np.round(position, 1).tolist())
+    x, y = np.round(position, 1).T.tolist()
+    return tuple(zip(x, y, strict=True))
 
 
 def numbers(values: Array) -> tuple[float, ...]:

@@ -23,7 +23,7 @@ from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
 from planner.traffic_lights import LightPrediction
 from planner.trajectory import Roads
-from planner.waypoints import way
+from planner.waypoints import survey, way
 from sim.network import Location, Network
 from sim.scene import EGO, Command, Scene, Signal
 
@@ -74,6 +74,7 @@ class Driver:
     ) -> None:
         self._frame = Frame(Roads(network), goal, settings, seed, vehicle)
         self._memory = Memory(self._frame.roads)
+        survey(self._frame.roads, goal)
         self._current: _Execution | None = None
         self._last: Decision | None = None
         self._moment: Moment | None = None  # of the last decision

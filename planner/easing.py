@@ -10,6 +10,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.kernels.along import within
+
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -86,9 +88,7 @@ def curvature_of(heading: Array, arc: Array) -> Array:
         gentler = open_ & (np.abs(wider) < np.abs(result))
         result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
         swerve = np.abs(turn) / width + SWERVE * np.abs(bulge) / width**2
-        for k in np.flatnonzero((np.abs(turn) <= ALIKE) & (swerve < np.abs(result))):
-            within = slice(low[k], high[k] + 1)
-            aside = total[within] - total[low[k]] - heading[low[k]] * (arc[within] - arc[low[k]])
-            if np.max(np.abs(aside)) <= JOG:
-                result[k] = math.copysign(swerve[k], result[k])
+        found = np.flatnonzero((np.abs(turn) <= ALIKE) & (swerve < np.abs(result)))
+        found = found[within(total, heading, arc, low[found], high[found], JOG)]
+        result[found] = np.copysign(swerve[found], result[found])
     return result

@@ -8,6 +8,7 @@ step is compiled: see `planner.kernels`.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from planner.manoeuvres import GiveWay
 from planner.obstacles import HOW, Occupancy, Traffic, meeting
 from planner.signals import Lights
 from planner.trace import SAMPLE_PERIOD, HoldUp
-from planner.trajectory import Array, Path
+from planner.trajectory import KEPT, Array, Path
 from sim.scene import Signal
 
 DT = SAMPLE_PERIOD  # [s] step of the simulation
@@ -108,6 +109,12 @@ class Lane:
         return float(self.caps[min(int(arc), len(self.caps) - 1)])
 
 
+@lru_cache(maxsize=KEPT)
+def lane_of(path: Path) -> Lane:
+    """A path prepared for driving, kept."""
+    return Lane(path)
+
+
 def drive(
     plan: ActionPlan,
     start: Motion,
@@ -131,7 +138,7 @@ def drive(
     last = horizon + driving.GAP_HORIZON
     others = meeting(plan.path, plan.lines, traffic, size[1], first, last)
     motion, held, finished, goal_time = driving.drive(
-        _course(plan, np.minimum(Lane(plan.path).caps, pace), traffic.lights, size[0]),
+        _course(plan, np.minimum(lane_of(plan.path).caps, pace), traffic.lights, size[0]),
         float(plan.end),
         math.inf if plan.goal is None else float(plan.goal),
         others.firsts(plan.lines),

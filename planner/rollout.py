@@ -14,7 +14,7 @@ import numpy as np
 
 from planner.actions import ActionPlan, Situation
 from planner.caution import Careful, careful_steps, caution
-from planner.forward import DT, Drive, Hindrances, Lane, Motion, Stops, drive
+from planner.forward import DT, Drive, Hindrances, Motion, Stops, drive, lane_of
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
 from planner.kernels.driving import RIGHT_OF_WAY
@@ -110,7 +110,7 @@ def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> b
 def _drive(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traffic) -> Drive:
     pace: float | Array = task.pace
     if task.slow and plan.give_ways:
-        pace = np.minimum(pace, caution(plan, task.slow, len(Lane(plan.path).caps)))
+        pace = np.minimum(pace, caution(plan, task.slow, len(lane_of(plan.path).caps)))
     return drive(plan, motion, first, traffic, task.size, task.horizon, pace)
 
 

@@ -66,7 +66,15 @@ def roundabout_ahead(roads: Roads, here: Location, view: float) -> Roundabout | 
         lanes = [*ahead.lanes, *entry.via, entry.to_lane]
     assert ring is not None
     exits = tuple(_exits(network, lanes, ring))
-    return Roundabout(way_out(network, ring), entry, len(lanes) - 1, exits)
+    return Roundabout(_side(roads, ring), entry, len(lanes) - 1, exits)
+
+
+def _side(roads: Roads, ring: frozenset[str]) -> Direction:
+    """The side to which a roundabout is left, kept."""
+    found: Direction | None = roads.sides.get(ring)
+    if found is None:
+        found = roads.sides[ring] = way_out(roads.network, ring)
+    return found
 
 
 def _ring(network: Network, lane: str) -> frozenset[str] | None:

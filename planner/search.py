@@ -46,6 +46,8 @@ from planner.waypoints import cost_by, cost_left
 from sim.network import Location
 
 Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
+#: What can be done, and in which order it is tried.
+Options: TypeAlias = tuple[Mapping[Action, ActionPlan], tuple[Action, ...]]
 
 LATE = 1e3  # [s] by which a stop is put behind all that leads on
 ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
@@ -74,7 +76,7 @@ class Search:
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
     compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
-    _plans: dict[tuple[Samples, Node], ActionPlan | Refusal] = field(default_factory=dict)
+    _plans: dict[tuple[Samples, Node], Options] = field(default_factory=dict)
     _expanded: dict[tuple[Situation, Action], ActionPlan | Refusal] = field(default_factory=dict)
     _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
     _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
@@ -179,12 +181,11 @@ class Search:
         outcome: Outcome | None = None
         while outcome is None:
             node = tuple(leg.action for leg in legs)
-            options = self._options(samples, node, legs)
-            if not options:
+            options, inviting = self._options(samples, node, legs)
+            if not inviting:
                 outcome = "dead"
                 break
             searched = len(legs) < self.settings.depth
-            inviting = sorted(options, key=lambda action: self._invites(options[action]))
             action = choose(node, inviting) if searched else inviting[0]
             if action not in options:
                 return None
@@ -236,24 +237,20 @@ class Search:
         end, ahead = (legs[-1].end, legs[-1].ahead) if legs else (self.root.here, ())
         return cost_by(self.task.roads, end.location, ahead, self.task.goal)
 
-    def _options(
-        self, samples: Samples, node: Node, legs: Sequence[Leg]
-    ) -> dict[Action, ActionPlan]:
+    def _options(self, samples: Samples, node: Node, legs: Sequence[Leg]) -> Options:
         """What can be done at a node that was reached under these samples."""
-        options = {}
-        for action in ACTIONS:
-            plan = self._plan(samples, (*node, action), legs)
-            if isinstance(plan, Refusal):
-                self.refusals.setdefault((node, action), plan.reason)
-            else:
-                options[action] = plan
-        return options
-
-    def _plan(self, samples: Samples, branch: Node, legs: Sequence[Leg]) -> ActionPlan | Refusal:
-        key = (samples, branch) if legs else ((), branch)
+        key = (samples, node) if legs else ((), node)
         found = self._plans.get(key)
         if found is None:
-            found = self._plans[key] = self._expand(branch, legs)
+            options = {}
+            for action in ACTIONS:
+                plan = self._expand((*node, action), legs)
+                if isinstance(plan, Refusal):
+                    self.refusals.setdefault((node, action), plan.reason)
+                else:
+                    options[action] = plan
+            inviting = sorted(options, key=lambda action: self._invites(options[action]))
+            found = self._plans[key] = (options, tuple(inviting))
         return found
 
     def _expand(self, branch: Node, legs: Sequence[Leg]) -> ActionPlan | Refusal:

@@ -17,7 +17,7 @@ from planner.manoeuvres import Manoeuvre, ObeyLight
 from planner.obstacles import Obstacle, Traffic
 from planner.routes import onward
 from planner.signals import NO_LIGHTS, Lights
-from planner.trajectory import Array, Path, Roads
+from planner.trajectory import KEPT, Array, Path, Roads
 from sim.network import Location
 from sim.scene import Point, Signal, VehicleState
 
@@ -122,6 +122,16 @@ def leads(track: Observed, other: Observed) -> bool:
 
 def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
     """The lanes that a pose may belong to: the nearest one; inside a junction, its rivals too."""
+    key = (position, heading)
+    found: tuple[Location, ...] | None = roads.located.get(key)
+    if found is None:
+        if len(roads.located) >= KEPT:
+            roads.located.clear()
+        found = roads.located[key] = _lanes_at(roads, position, heading)
+    return found
+
+
+def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
     found = roads.network.locate(position, heading)
     if not found:  # who turns sharply cuts the corner
         found = roads.network.locate(position, heading, *FAR_ASIDE)

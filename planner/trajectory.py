@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.easing import curvature_of, eased
+from planner.kernels.resampling import nearest, resampled
 from planner.shifts import shifted
 from sim.network import Network, angle_between
 from sim.scene import Point
@@ -88,6 +89,9 @@ class Roads:
         self.meetings: dict[tuple[str, int, int], float] = {}  # kept by planner.phantoms
         self.tolls: dict[str, Any] = {}  # kept by planner.waypoints
         self.costs: dict[str, dict[str, float]] = {}  # kept by planner.waypoints
+        self.before: dict[str, dict[str, float]] | None = None  # kept by planner.waypoints
+        self.sides: dict[frozenset[str], Any] = {}  # by ring, kept by planner.roundabouts
+        self.located: dict[tuple[Point, float], Any] = {}  # by pose, kept by planner.tracks
         self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions
         self._lines: dict[tuple[str, ...], Path] = {}
         self._paths: dict[Any, Path] = {}
@@ -169,13 +173,15 @@ def _blended(
     rise += slope * (1.0 - u**2 * (18.0 - 32.0 * u + 15.0 * u**2))
     turning = -60.0 * lateral / blend**2 * u * (1.0 - u) * (1.0 - 2.0 * u)
     turning += slope / blend * u * (-36.0 + 96.0 * u - 60.0 * u**2)
-    shifted = points + aside[:, None] * np.column_stack((-np.sin(heading), np.cos(heading)))
-    steps = np.maximum(np.hypot(*np.diff(shifted, axis=0).T), 1e-3)
+    x, y = points[:, 0] - aside * np.sin(heading), points[:, 1] + aside * np.cos(heading)
+    steps = np.maximum(np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]), 1e-3)
     arc = np.concatenate(([0.0], np.cumsum(steps)))
     stretch = np.maximum(1.0 - aside * bend, 0.2)  # of the shifted line against the line
     curvature = bend / stretch + turning / (stretch**2 + rise**2) ** 1.5
     turned = heading + np.arctan2(rise, stretch)
-    return _path(shifted, arc, turned, curvature, cap, _lanes(line, offset, along, arc))
+    return _path(
+        np.column_stack((x, y)), arc, turned, curvature, cap, _lanes(line, offset, along, arc)
+    )
 
 
 def _path(
@@ -281,18 +287,10 @@ def _hairpins(points: Array) -> NDArray[np.bool_]:
 
 def _interpolate(line: Path, arc: Array) -> tuple[Array, Array, Array, Array]:
     """Points, headings, curvatures and caps of a line at arcs; straight on beyond its end."""
-    beyond = np.maximum(arc - line.length, 0.0)
-    end = line.heading[-1]
-    x = np.interp(arc, line.arc, line.points[:, 0]) + beyond * math.cos(end)
-    y = np.interp(arc, line.arc, line.points[:, 1]) + beyond * math.sin(end)
-    index = np.minimum(np.searchsorted(line.arc, arc + 1e-9), len(line.arc) - 1)
-    curvature = np.where(beyond > 0.0, 0.0, np.interp(arc, line.arc, line.curvature))
-    return (
-        np.column_stack((x, y)),
-        np.interp(arc, line.arc, line.heading),
-        curvature,
-        line.cap[index],
-    )
+    end = float(line.heading[-1])
+    direction = (math.cos(end), math.sin(end))
+    columns = (line.points, line.heading, line.curvature)
+    return resampled(arc, line.arc, columns, line.cap, direction)
 
 
 def _nearest(line: Path, position: Point) -> tuple[float, float, float]:
@@ -302,8 +300,7 @@ def _nearest(line: Path, position: Point) -> tuple[float, float, float]:
     """
     first = line.lanes[1][1] if len(line.lanes) > 1 else line.length
     count = int(np.searchsorted(line.arc, first + OVERSHOOT)) + 1
-    offsets = line.points[:count] - np.array(position)
-    k = int(np.argmin(np.einsum("ij,ij->i", offsets, offsets)))
+    k = nearest(line.points, count, float(position[0]), float(position[1]))
     along, aside = relative(line, k, np.array([position[0]]), np.array([position[1]]))
     arc = float(line.arc[k] + along[0])
     return max(arc, 0.0), float(aside[0]), float(line.heading[k])

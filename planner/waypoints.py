@@ -153,15 +153,32 @@ def _costs_to(roads: Roads, edge: str) -> Mapping[str, float]:
     return found
 
 
+def survey(roads: Roads, goal: EgoGoal) -> None:
+    """Reckon beforehand what the first decision would else reckon for all of the network."""
+    network = roads.network
+    network.distance_to(goal.edge)
+    _costs_to(roads, goal.edge)
+    for edge in _before(roads):
+        toll(roads, network.edge_lanes(edge)[0].id)
+    network.locate((0.0, 0.0), 0.0)
+
+
+def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:
+    """The edges from which each edge is entered, and what crossing over costs [s]."""
+    if roads.before is None:
+        network, before = roads.network, dict[str, dict[str, float]]()
+        for link in network.links:
+            start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
+            across = sum(toll(roads, lane).cost for lane in link.via)
+            known = before.setdefault(end, {})
+            known[start] = min(known.get(start, math.inf), across)
+        roads.before = before
+    return roads.before
+
+
 def _search_back(roads: Roads, target: str) -> dict[str, float]:
     """Dijkstra against the driving direction; lane changes are free."""
-    network = roads.network
-    before: dict[str, dict[str, float]] = {}
-    for link in network.links:
-        start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
-        across = sum(toll(roads, lane).cost for lane in link.via)
-        known = before.setdefault(end, {})
-        known[start] = min(known.get(start, math.inf), across)
+    network, before = roads.network, _before(roads)
     costs: dict[str, float] = {}
     frontier = [(across, start) for start, across in before.get(target, {}).items()]
     heapq.heapify(frontier)

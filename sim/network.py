@@ -7,6 +7,7 @@ anticlockwise from east. `sim.netfile` reads a network from a SUMO net file.
 (buses, trams, bicycles, pedestrians) stands beside them, in `other_lanes` and `other_links`.
 """
 
+import heapq
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -225,19 +226,26 @@ class Network:
 
     def _search_back(self, edge: str) -> dict[str, float]:
         """Dijkstra against the driving direction over edges."""
+        distance: dict[str, float] = {}
+        frontier = [(0.0, edge)]
+        while frontier:
+            far, here = heapq.heappop(frontier)
+            if here in distance:
+                continue
+            distance[here] = far
+            base = far + (0.0 if here == edge else self._edge_lanes[here][0].length)
+            for start, across in self._before.get(here, {}).items():
+                if start not in distance:
+                    heapq.heappush(frontier, (base + across, start))
+        return distance
+
+    @cached_property
+    def _before(self) -> dict[str, dict[str, float]]:
+        """The edges from which each edge is entered, and the length [m] of crossing over."""
         before: dict[str, dict[str, float]] = {}
         for link in self.links:
             start, end = self.lanes[link.from_lane].edge, self.lanes[link.to_lane].edge
             across = sum(self.lanes[lane].length for lane in link.via)
             known = before.setdefault(end, {}).get(start, math.inf)
             before[end][start] = min(known, across)
-        distance: dict[str, float] = {}
-        frontier = {edge: 0.0}
-        while frontier:
-            here = min(frontier, key=lambda name: (frontier[name], name))
-            distance[here] = frontier.pop(here)
-            base = distance[here] + (0.0 if here == edge else self._edge_lanes[here][0].length)
-            for start, across in before.get(here, {}).items():
-                if start not in distance:
-                    frontier[start] = min(frontier.get(start, math.inf), base + across)
-        return distance
+        return before

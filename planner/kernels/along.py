@@ -7,6 +7,8 @@ from numba import njit
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -48,3 +50,25 @@ def place(
     states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
     states[:, 3] = motion[:, 1]
     return states, np.interp(arcs, arc, curvature)
+
+
+@_jit
+def within(
+    total: Floats, heading: Floats, arc: Floats, low: Ints, high: Ints, most: float
+) -> Bools:
+    """Whether stretches of a line lead no more than `most` [m] aside.
+
+    Args:
+        total: [N] integral of the heading along the line.
+        heading, arc: [N] [rad], [m].
+        low, high: [K] first and last index of each stretch.
+        most: [m] aside of the direction in which it begins.
+    """
+    found = np.ones(len(low), np.bool_)
+    for i in range(len(low)):
+        a = low[i]
+        for k in range(a, high[i] + 1):
+            if not abs(total[k] - total[a] - heading[a] * (arc[k] - arc[a])) <= most:
+                found[i] = False
+                break
+    return found

@@ -81,8 +81,9 @@ def first_hit(
 @_jit
 def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float) -> bool:
     """Whether another body comes within `berth` [m] before or behind ours, or touches it."""
-    near = math.hypot(other[0] - own[0], other[1] - own[1])
-    if near >= size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth:
+    dx, dy = other[0] - own[0], other[1] - own[1]
+    near = size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth
+    if dx * dx + dy * dy >= near * near:
         return False
     x, y = own[0] + berth * math.cos(own[2]), own[1] + berth * math.sin(own[2])
     longer = (size[0] + 2.0 * berth, size[1])

@@ -17,6 +17,7 @@ from sim.network import Network
 from sim.scenario import Scenario
 from sim.scene import Command, Scene
 from sim.sumo import Simulation
+from xavi_dialogue.app.tidying import settled
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.state import EPSILON
 from xavi_dialogue.transports.bus import DEFAULT_VEHICLE
@@ -131,6 +132,6 @@ def start(
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     driver = Driver(network, goal, settings_of(scenario), seed, vehicle)
-    with Simulation(scenario, seed) as world:
+    with Simulation(scenario, seed) as world, settled():
         limit = scenario.duration if duration is None else min(duration, scenario.duration)
         yield moments(world, driver, scenario.step, limit)

@@ -7,6 +7,7 @@ from planner.decide import Frame, Moment, root_at
 from planner.search import Root
 from planner.trace import SAMPLE_PERIOD, EgoGoal, Settings, Track
 from planner.trajectory import Roads
+from planner.waypoints import survey
 from sim.network import Lane, Network, point_at
 from sim.scene import EGO, VehicleState
 
@@ -62,6 +63,7 @@ def crowd(
         tracks[name] = _track(lanes[1 + spot.lane], middle + spot.ahead + shift, PACE + spot.faster)
     scene = _scene(tracks)
     frame = Frame(Roads(network), goal, settings, 0, "car")
+    survey(frame.roads, goal)  # as a driver does before it drives
     here = root_at(frame.roads, scene[EGO], 0.0)
     assert here is not None
     return frame, Moment(0, 0.0, scene, tracks, Root(here))

@@ -23,6 +23,7 @@ from xavi_dialogue.app.bench.figures import Figure, Watch, figure, figures_table
 from xavi_dialogue.app.bench.process import Memory, memory, start_up
 from xavi_dialogue.app.bench.svg import Line, Panel, chart
 from xavi_dialogue.app.ride import network_of, settings_of
+from xavi_dialogue.app.tidying import settled
 from xavi_dialogue.app.worker import warm_up
 
 ROAD = "motorway"  # whose roads the made-up moments use
@@ -128,7 +129,7 @@ def crowded(sizes: Sequence[int], shifts: Sequence[float]) -> tuple[Figure, ...]
     for others in sizes:
         for shift in shifts:
             frame, moment = crowd(network, goal, settings_of(scenario), others, shift)
-            with watch.time(f"{others} others, processor time"):
+            with settled(), watch.time(f"{others} others, processor time"):
                 decide(frame, moment)
     return watch.figures()
 

@@ -19,6 +19,7 @@ from sim.scene import Command, Scene
 from sim.sumo import EgoGone, Simulation
 from xavi_dialogue.app.bench.watch import Drive, Observer
 from xavi_dialogue.app.ride import network_of, settings_of
+from xavi_dialogue.app.tidying import settled
 from xavi_dialogue.app.worker import warm_up
 from xavi_dialogue.dialogue.state import EPSILON
 
@@ -103,7 +104,8 @@ def by_planner(
             decisions.append(Decided(taken, len(scene.vehicles) + len(scene.people) - 1))
         return driven.command
 
-    return _driven(world, scenario, network, command, see), tuple(decisions)
+    with settled():
+        return _driven(world, scenario, network, command, see), tuple(decisions)
 
 
 def _driven(
