@@ -15,6 +15,7 @@ from planner.traffic_lights import UNSEEN
 from sim.scene import EGO, Signal
 from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
+from xavi_dialogue.explain.history.thresholds import STALE
 
 REACHED = 1.5  # [m] before a line from which one that is gone from the way ahead was passed
 
@@ -56,7 +57,8 @@ def shown(ride: Ride, signal: Signal, time: float) -> Stretch | None:
     if k < 0:
         return None
     one = known[k]
-    within = time < one.end - ROUNDING if one.changed else time <= one.end + ROUNDING
+    slack = STALE if one is known[-1] else ROUNDING  # between two decisions it goes on
+    within = time < one.end - ROUNDING if one.changed else time <= one.end + slack
     return one if within else None
 
 

@@ -1,5 +1,6 @@
 """Traffic lights: "the red light", "it turned green", "on red", "run the light", "have green"."""
 
+from collections.abc import Iterable
 from typing import Final
 
 from msgspec.structs import replace
@@ -35,12 +36,13 @@ def colour_of(sem: object) -> str | None:
     """Tell the colour of a noun phrase that is a colour of lights and nothing else."""
     if not isinstance(sem, Described) or sem.colour not in LIT:
         return None
-    return sem.colour if sem == Described(colour=sem.colour) else None
+    return sem.colour if sem == Described(colour=sem.colour, definite=sem.definite) else None
 
 
-def on_light(key: str, sem: Sem | None) -> Sem | None:
-    """Take "red" in "on red" for a light that shows it."""
-    colour = colour_of(sem) if key in BY else None
+def on_light(key: str, sem: Sem | None, leaves: Iterable[Leaf]) -> Sem | None:
+    """Take "red" in "on red" or "at a red" for a light that shows it, but not "the red one"."""
+    noun = any(leaf.category == "KIND" for leaf in leaves)
+    colour = colour_of(sem) if key in BY and not noun else None
     return sem if colour is None else Feature("light", colour=colour)
 
 
@@ -83,7 +85,7 @@ def _of_light(event: Event) -> Event:
 
 def ran(special: Special) -> Proposition:
     """Read "you ran the light", "jumped a red": it was red, where nothing else is said."""
-    sem = on_light("on", special.object)
+    sem = on_light("on", special.object, ())
     light = as_thing(sem)
     if not isinstance(light, Feature) or light.kind != "light":
         return Happens(event_of(special, "cross", as_thing(special.object)))

@@ -186,7 +186,8 @@ class Phrases(Adjuncts):
         if leaf.key == "by" and forced and is_named(sem):
             clause.because = sem  # "were you forced to stop by the bus"
             return
-        clause.complements.append(Complement(leaf.key, on_light(leaf.key, sem), node))
+        shown = on_light(leaf.key, sem, leaves_of(node))
+        clause.complements.append(Complement(leaf.key, shown, node))
 
     def _sided(self, key: str, side: str, node: Node, clause: Clause) -> None:
         if key == "from":

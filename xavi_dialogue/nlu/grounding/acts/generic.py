@@ -65,7 +65,8 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         ring = ring or (number is not None and _on_ring(_road(moment, g), number))
         return event if ring else replace(event, action="move")
     if event.action in _BEFORE_US and event.where is None and event.side is None:
-        return _before_us(_over(event, moment, g), moment, g)
+        over = _over(event, moment, g) if event.action == "come" else event
+        return _before_us(over, moment, g)
     return event
 
 
