@@ -61,7 +61,8 @@ class StatedWorld(Facts):
     """Facts as they are stated; what is not stated is not recorded."""
 
     def __init__(self, ride: StatedRide, said: Said) -> None:
-        self.ride, self.said = ride, said
+        super().__init__(ride)
+        self.said = said
 
     @property
     def begin(self) -> float:
