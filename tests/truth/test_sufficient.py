@@ -7,6 +7,7 @@ from msgspec.structs import replace
 
 from planner.trace import Action, EgoGoal, PlannedAction, PlanTrace, WhatIf
 from sim.scene import Scene
+from tests.explain.trust import trusted
 from tests.sources import imports, modules
 from tests.traces import Aim, Chosen, End, Way, World, trace_of
 from xavi_dialogue.app.bench.truth.checker import checked
@@ -19,9 +20,9 @@ from xavi_dialogue.app.ride import Moment
 APART = ("explain", "causal", "nlg", "nlu", "dialogue", "domain")
 ASKED = "Why don't you move to the left lane?"
 LEFT = "I am not moving to the left lane, because that "
-TOLD = (
-    LEFT + "carries a 20 % risk of a collision with vehicle 1, though it would save us 2 seconds."
-)
+RISK = f"{100 * trusted(0.2):.0f} %"  # of moving left; vehicle 1 turns right in a fifth
+RISKY = f"carries a {RISK} risk of a collision"
+TOLD = LEFT + RISKY + " with vehicle 1, though it would save us 2 seconds."
 
 
 def simulate(plan: tuple[str, ...], chosen: Chosen) -> tuple[End, int]:
@@ -74,12 +75,12 @@ def test_an_answer_that_tells_enough_passes() -> None:
         (LEFT + "would save us 2 seconds, but not enough to be worth a lane change.", "risk"),
         ("It is close: moving to the left lane would be about as good.", "sign"),
         ("I now think that moving to the left lane would be better.", "sign"),
-        (TOLD.replace("20 %", "31 %"), "number"),
+        (TOLD.replace(RISK, "31 %"), "number"),
         (TOLD.replace("2 seconds", "4 seconds"), "number"),
         (TOLD.replace("save us", "cost us"), "number"),
         (TOLD.replace("vehicle 1", "vehicle 2"), "reason"),
         (LEFT + "would end in a collision with vehicle 1.", "number"),
-        (LEFT + "would mean sharper steering, and carries a 20 % risk of a collision.", "reason"),
+        (LEFT + f"would mean sharper steering, and {RISKY}.", "reason"),
         ("I am not moving to the left lane, because vehicle 2 is standing in our way.", "reason"),
         ("I moved to the left lane, because stopping would cost us about 5 seconds.", "reason"),
         ("I am staying in my lane, because stopping would cost us about 5 seconds.", "sign"),
@@ -97,7 +98,7 @@ def test_who_is_named_must_hold_us_up() -> None:
 
 @pytest.mark.parametrize("told", ["get there 2 seconds sooner", "not get to our destination"])
 def test_the_destination_is_not_a_waypoint(told: str) -> None:
-    risk = "there would be a 20 % risk of a collision"
+    risk = f"there would be a {RISK} risk of a collision"
     text = f"If I moved to the left lane, {risk}, and we would {told}."
     there, waypoint = trace_of(WORLD), replace(trace_of(WORLD), waypoint=EgoGoal("mid", 10.0, None))
     assert "waypoint" in found(text, trace=waypoint)

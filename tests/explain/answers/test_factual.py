@@ -12,6 +12,7 @@ from tests.explain.facts.scenes import Actor, made, recorded, shifted, speeds, s
 from tests.explain.trust import trusted
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.answers import (
+    Beliefs,
     Closeness,
     Counted,
     Declined,
@@ -178,8 +179,14 @@ def test_what_was_believed_is_of_that_time() -> None:
     actors = {0: Actor(straight(0.0, 0.0, 10.0)), 1: Actor(corner, aims=TURNING)}
     ride = made(actors, 9.0)
     believed = told(ride, Whether(Believed(Happens(Event("exit-left", Vehicle(1))))))
-    assert believed.holds is False
-    assert believed.probability == pytest.approx(0.0)
+    assert isinstance(believed, Beliefs)
+    assert (believed.knew, believed.probability) == (True, pytest.approx(0.0))
+    assert believed.besides[0].actions == ("exit-right",)
+    assert believed.besides[0].probability == pytest.approx(0.9)
+    assert believed.came is not None
+    assert believed.came.action == "exit-left"
+    assert believed.time is not None
+    assert believed.time < believed.came.begin
     sure = told(ride, HowSure(Happens(Event("exit-right", Vehicle(1), time=At(2.0)))))
     assert (sure.probability, sure.time) == (pytest.approx(0.9), 2.0)
     assert sure.came is not None

@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from planner.events import Event as Told
 from planner.trace import PlanTrace
 from tests.explain.causes.decisions import decided, ride, steady
+from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way
 from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.terms import Ego, Vehicle
@@ -78,7 +79,7 @@ def test_an_option_that_seldom_has_it_avoids_it(going: float, left: float, possi
     assert found.mishap == "collide"
     assert found.happened
     assert (found.decisions, found.options) == (1, 1)
-    assert (found.risk, found.other) == (approx(going), approx(left))
+    assert (found.risk, found.other) == (approx(trusted(going)), approx(trusted(left)))
     assert found.contrast is not None
     assert found.contrast.foil == ("change-left",)
     assert found.possible is possible
@@ -87,7 +88,7 @@ def test_an_option_that_seldom_has_it_avoids_it(going: float, left: float, possi
 def test_the_decisions_of_ten_seconds_count() -> None:
     late = avoiding(risky((0.6, 0.0), (0.7, 0.0), times=(4.0, 6.0)), "collide", 9.0)
     assert (late.decisions, late.options) == (2, 2)
-    assert late.risk == approx(0.7)
+    assert (late.risk, late.other) == (approx(trusted(0.7)), approx(trusted(0.0)))
     early = avoiding(risky((0.6, 0.0), (0.7, 0.0), times=(4.0, 6.0)), "collide", 14.5)
     assert early.decisions == 1
     missing = refusal(lambda: avoiding(risky((0.6, 0.0)), "collide", 14.5))
@@ -100,7 +101,7 @@ def test_without_options_nothing_could_be_done() -> None:
     found = avoiding(ride(trace, now=9.0), "collide", 9.0)
     assert (found.possible, found.options, found.decisions) == (False, 0, 1)
     assert found.happened
-    assert (found.risk, found.other) == (1.0, 1.0)
+    assert (found.risk, found.other) == (approx(trusted(1.0)), approx(trusted(1.0)))
     assert found.contrast is not None
     assert found.contrast.foil == ()
 

@@ -20,7 +20,7 @@ BOTH: tuple[Actions, ...] = (("continue",), ("change-left",))
 SHARES = (0.4, 0.3, 0.2, 0.1)
 
 
-def uneven() -> PlanTrace:
+def uneven(plan: Actions = ()) -> PlanTrace:
     """Moving left was tried in three situations of four, and strikes vehicle 1 in one of them.
 
     By their priors, as both were tried in them, that is 0.2 / 0.9; by what the foil stands for
@@ -32,7 +32,7 @@ def uneven() -> PlanTrace:
         return End("collision", collided_with=1) if hit else End(time=12.0)
 
     aims = {1: (Aim("continue", 1.0, tuple(Way(("continue",), p) for p in SHARES)),)}
-    trace = decided(ends, aims, (("continue",), ("change-left", "continue")))
+    trace = decided(ends, aims, (("continue",), ("change-left", "continue")), plan=plan)
     kept = [
         r
         for r in trace.rollouts
@@ -62,8 +62,22 @@ def test_every_answer_tells_the_same_chance_of_an_option() -> None:
     own = collision_chance(scene(traces=[trace]), trace.sim_time)
     assert told.fact_collision == pytest.approx(own)
     assert alone(whole, model, here).fact_collision == pytest.approx(own)
-    well = of_plan(whole, premise).share
-    assert well == pytest.approx(1.0 - own - here.outcomes["dead"] - trusted(0.0, "dead"))
+    well = 1.0 - own - here.outcomes["dead"] - trusted(0.0, "dead")
+    assert of_plan(whole, premise).share == pytest.approx(min(well, 0.99))  # never quite certain
+
+
+def test_how_sure_a_risky_plan_is_tells_the_same_chance() -> None:
+    trace = uneven(("change-left", "continue"))
+    whole = ride(trace)
+    here = plan_of(whole, whole.model(trace))
+    own = collision_chance(scene(traces=[trace]), trace.sim_time)
+    assert own == pytest.approx(trusted(here.outcomes["collision"]))
+    assert own > 0.1
+    well = sum(trusted(here.outcomes[o], o) for o in ("done", "termination"))
+    assert of_plan(whole, Premise(trace, None)).share == pytest.approx(well)
+    rounded = 1e-4  # as the shares of outcomes are in the table
+    rest = 1.0 - own - here.outcomes["dead"] - trusted(0.0, "dead")
+    assert well == pytest.approx(rest, abs=rounded)
 
 
 @pytest.mark.parametrize("wrong", [float("nan"), float("inf"), -float("inf"), 1e9])
