@@ -17,19 +17,20 @@ from typing import IO
 import msgspec
 
 from planner import trace as plan_trace
-from planner.decide import Frame, Moment, decide, root_at
-from planner.search import Root
-from planner.trace import EgoGoal, Settings, TraceError, Track, WhatIf
+from planner.decide import root_at
+from planner.driver import Driver
+from planner.trace import EgoGoal, Settings, TraceError, WhatIf
 from planner.trajectory import Roads
 from planner.whatif import Inapplicable, NotInView, WhatIfError, replan
 from sim.netfile import read_network
 from sim.network import Network, point_at
-from sim.scene import EGO, VehicleState
+from sim.scene import EGO, Scene, VehicleState
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.transports.messages import Failure
 
 READY = b"ready\n"
 ROOM = 40.0  # [m] of lane for the decision that warms up
+STEP = 0.1  # [s] that is driven then
 
 
 class Order(msgspec.Struct, frozen=True):
@@ -66,7 +67,7 @@ def _reason(error: Exception) -> Reason:
 
 
 def warm_up(network: Network) -> None:
-    """Decide once about a car that follows another, so that all kernels are loaded."""
+    """Decide once and drive a step behind another car, so that all kernels are loaded."""
     for lane in network.lanes.values():
         links = network.links_from(lane.id)
         if lane.internal or lane.length < ROOM or not links:
@@ -75,17 +76,11 @@ def warm_up(network: Network) -> None:
         for vehicle, offset in ((EGO, 0.1 * lane.length), (1, 0.6 * lane.length)):
             position, heading = point_at(lane.centreline, offset)
             scene[vehicle] = VehicleState(position, heading, 5.0, 0.0, 4.8, 1.8)
-        here = root_at(roads, scene[EGO], 0.0)
-        if here is None:
+        if root_at(roads, scene[EGO], 0.0) is None:
             continue
-        history = {
-            vehicle: Track(0.0, (state.position,), (state.heading,), (state.speed,))
-            for vehicle, state in scene.items()
-        }
         goal = EgoGoal(network.lanes[links[0].to_lane].edge, 1.0, None)
         settings = Settings(rollouts=4, min_rollouts=1, comparisons=1, reacting=True)
-        frame = Frame(roads, goal, settings, 0, "")
-        decide(frame, Moment(0, 0.0, scene, history, Root(here)))
+        Driver(network, goal, settings, 0).step(Scene(0.0, scene), STEP)
         return
 
 
