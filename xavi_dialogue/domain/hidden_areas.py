@@ -19,9 +19,9 @@ class Hider(Value, frozen=True):
 class SightTold(Value, frozen=True):
     """What we cannot see, and who might come from there; nobody who is only imagined is counted."""
 
-    #: asked: whether we see past it; what we do not see; whether or how surely somebody comes from
-    #: there; whether somebody came; how we know that nobody does
-    asked: Literal["past", "what", "chance", "came", "known"]
+    #: asked: whether we see past it; what we do not see; whether or how surely somebody is there,
+    #: or comes from there; whether somebody came; how we know that nobody does
+    asked: Literal["past", "what", "there", "chance", "came", "known"]
     hiders: tuple[Hider, ...]  # the likeliest first; () nothing that matters is hidden
     past: bool = False
     slowed: bool = False  # we came slowly for it

@@ -1,5 +1,6 @@
 """What could not be seen as a reason: a ride to a house at a corner."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,16 @@ def test_what_is_behind_a_building_is_not_known(tmp_path: Path, text: str) -> No
     said = told(tmp_path, 9.0, text)
     assert said.startswith("I cannot see what is behind the building")
     assert "obody" not in said
+    assert ", so somebody may be there" in said
+
+
+def test_being_there_and_coming_from_there_have_the_same_chance(tmp_path: Path) -> None:
+    there = told(tmp_path, 9.0, "Is there anybody behind the building?")
+    comes = told(tmp_path, 9.0, "Could somebody come from behind the building?")
+    assert comes.startswith("Somebody could come from there")
+    chances = [re.findall(r"at (\d+ %)\.$", one) for one in (there, comes)]
+    assert len(chances[0]) == 1
+    assert chances[0] == chances[1]
 
 
 def test_the_lorry_that_hides_the_road_is_named(tmp_path: Path) -> None:

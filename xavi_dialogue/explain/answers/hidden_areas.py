@@ -58,7 +58,7 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
                 return None
             if isinstance(act.question, Whether) and _is_deed(that):
                 return None if _anybody_new(scene, from_where) else _told("came")
-            return _told("chance")
+            return _told("there" if _is_there(that) else "chance")
         case HowKnow(of) if (from_where := _comes_from(of)) is not None:
             return _told("known") if _hiding(scene, from_where, _is_past(of)) else None
     return None
@@ -216,6 +216,14 @@ def _comes_from(that: Proposition | None) -> Thing | None:
         case Exists(Nobody(Described(bearing="behind", of=to))):
             where = to
     return where if isinstance(where, Vehicle) or is_building(where) or _is_blind(where) else None
+
+
+def _is_there(that: Proposition | None) -> bool:
+    """Tell whether it is asked if somebody is there, rather than comes from there."""
+    of, _ = unwrapped(that)
+    if isinstance(of, Believed):
+        of, _ = unwrapped(of.content)
+    return isinstance(of, Exists) or (isinstance(of, Related) and of.relation == "behind")
 
 
 def _is_deed(that: Proposition | None) -> bool:
