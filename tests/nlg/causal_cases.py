@@ -204,7 +204,16 @@ HEADING = Belief(2, 10.0, (Expectation(("exit-right",), 0.78),))
 KINDS = ("cut-in", "blocked", "turn", "limit", "give-way-line", "hidden", "destination",
          "lane-end", "plan", "starting", "light")  # fmt: skip
 BY_KIND = tuple(
-    MotionReason(deed, (MotionCause(kind, 1 if kind in ("cut-in", "blocked") else None),))  # type: ignore[arg-type]
+    MotionReason(
+        deed,
+        (
+            MotionCause(
+                kind,  # type: ignore[arg-type]
+                1 if kind in ("cut-in", "blocked") else None,
+                side="ahead" if kind == "hidden" else None,
+            ),
+        ),
+    )
     for kind in KINDS
     for deed in (SLOWED, SLOWING)
 )

@@ -4,6 +4,7 @@ from tests.nlg.scenery import NOW
 from xavi_dialogue.domain.answers import Answer, Beliefs, Closeness, PullingUp, Sociable
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.findings import Assurance
+from xavi_dialogue.domain.hidden_areas import Hider, SightTold
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 
 E, V = Ego(), Vehicle(1)
@@ -22,6 +23,9 @@ def grounds(of: Assurance, vehicle: int | None = 1, risk: float | None = 0.008) 
     near = None if vehicle is None else FAR
     return Closeness(vehicle, near, risk=risk, asked="grounds", past=False, grounds=of)
 
+
+BUILDING = Hider(None, "ahead", 0.04)
+LORRY_HIDES = Hider(1, "left", 0.1)
 
 CASES: tuple[Answer, ...] = (
     PullingUp(1, "stands"),
@@ -51,4 +55,13 @@ CASES: tuple[Answer, ...] = (
     Beliefs(1, TURN, (RIGHT,), 0.1, 8.0, came=TURNED, besides=LEFT, knew=True),
     Sociable("feelings"),
     Sociable("feelings", Closeness(1, Measure("distance", E, 17.0, 4.2, to=V))),
+    *(
+        SightTold(asked, hiders, past, slowed)
+        for asked in ("past", "what", "there", "chance", "came", "known")
+        for hiders, past, slowed in (
+            ((BUILDING,), False, True),
+            ((LORRY_HIDES, BUILDING), True, False),
+            ((), False, False),
+        )
+    ),
 )

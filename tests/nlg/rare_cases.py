@@ -51,6 +51,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.facts import Episode, Expectation, Measure
+from xavi_dialogue.domain.hidden_areas import Hider, SupposedSeeing
 from xavi_dialogue.domain.meaning import Feel, Request
 from xavi_dialogue.domain.terms import (
     At,
@@ -311,5 +312,16 @@ CASES: tuple[Answer, ...] = (
         Episode(E, "change-left", 8.0, 11.0),
         replace(EFFORT, foil=("continue",), verdict="close", causes=()),
         ahead=MotionCause("leader", 1, speed=8.0),
+    ),
+    *(
+        SupposedSeeing((hider,) * present, NOW, ("continue",), ("continue",), saved, past)
+        for hider in (Hider(1, "left", 0.1), Hider(None, "right", 0.04))
+        for present in (0, 1)
+        for saved in (0.0, 2.0)
+        for past in (False, True)
+    ),
+    *(
+        MotionReason(SLOWED, (MotionCause("hidden", vehicle, side=side),))
+        for vehicle, side in ((1, "ahead"), (None, "left"), (None, "right"))
     ),
 )

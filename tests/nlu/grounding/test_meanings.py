@@ -266,7 +266,7 @@ def test_a_generic_verb_is_what_the_road_makes_of_it(
         (Car(10.0, 3.5, speed=0.9), "come"),  # it stands
         (Car(10.0, 3.5, speed=1.0), "change-lane"),
         (Car(10.0, 3.5, oncoming=True), "come"),
-        (Car(10.0, 3.5, crossing=True), "come"),
+        (Car(10.0, 3.5, crossing=True), "cross"),  # our way
         (Car(10.0, 3.5, seen=(0.0, 39.0)), "come"),  # out of view
     ],
 )

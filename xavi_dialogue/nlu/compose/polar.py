@@ -6,7 +6,6 @@ from typing import Any, cast
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import (
-    Compare,
     Doing,
     Fault,
     HowAvoid,
@@ -43,17 +42,17 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import as_of
 from xavi_dialogue.nlu.compose.blames import blamed, cleft_cause, rival
 from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause, wanted_pronoun
+from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.comparing import Comparing
 from xavi_dialogue.nlu.compose.expecting import hindsight
 from xavi_dialogue.nlu.compose.nominal import asked_of, event_in
 from xavi_dialogue.nlu.compose.pacing import not_rather, permitted
+from xavi_dialogue.nlu.compose.recast import about_whom, caused_by, judged_so
 from xavi_dialogue.nlu.compose.sem import (
     Group,
     Measure,
     Noun,
     as_thing,
-    is_thing,
 )
 from xavi_dialogue.nlu.compose.tally import counts, exits_passed, tallied
 from xavi_dialogue.nlu.compose.tree import words_of
@@ -86,13 +85,6 @@ def way_asked(of: Proposition) -> Question | None:
     exits = any(isinstance(event.object, Exit) for event in found)
     time = next((e.time for e in found if not isinstance(e.time, Unsaid)), Unsaid())
     return way_at(Ego(), time, found[0].tense, "exit-number" if exits else "turn")
-
-
-def about_whom(clause: Clause) -> Thing | None:
-    """Find of whom a judgement is: "were you wrong about the blue one"."""
-    found = (as_thing(p.sem) for p in clause.complements if p.key in ("about", "with", "on"))
-    vehicles = (Described, Vehicle, Pronoun)
-    return next((thing for thing in found if isinstance(thing, vehicles)), None)
 
 
 def judged(clause: Clause) -> Thing | None:
@@ -131,10 +123,9 @@ def _is_option(clause: Clause) -> bool:
     return options or any(isinstance(sem, Described) and sem.other for sem in named)
 
 
-def _permits(clause: Clause, event: Event) -> bool:
-    """Say whether it is asked if somebody is allowed to do what he does: "may he do that?"."""
-    allowed = "semi-allowed" in clause.aux or event.modal in ("might", "can")
-    return allowed and not isinstance(event.actor, Ego)
+def _our_sureness(thing: Thing | None) -> bool:
+    """Say whether it is we who are said to be sure, or "it" that is said to be."""
+    return isinstance(thing, Ego) or (isinstance(thing, Pronoun) and thing.form in ("it", "that"))
 
 
 class Polar(Comparing):
@@ -220,51 +211,10 @@ class Polar(Comparing):
             return way
         if (passed := exits_passed(clause, of)) is not None:
             return HowMany(passed)  # "did we go past any exits?"
-        about = about_whom(clause)
-        match of:
-            case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (
-                clause.modal == "would"
-            ):
-                return Compare((That(),), "safety")  # "would that have been risky?"
-            case Is(state="wrong" | "right", thing=Ego()) if about is not None:
-                return Whether(structs.replace(of, thing=about), tag)
-            case Happens(
-                event=Event(
-                    action="do", actor=actor, object=Described(such=Is(state="wrong"), doing=None)
-                )
-            ):  # "did we do something wrong?"
-                return Fault(That(), actor)
-            case Happens(event=Event(action="go", actor=Ego(), object=Pronoun()) as of_us) if (
-                of_us.side is not None
-            ):  # "so for this we go to the left?"
-                return Why(Happens(structs.replace(of_us, object=None)), suspect=Pronoun("that"))
-            case Is(state="at-fault", thing=thing, event=event):
-                return Fault(Happens(event) if event is not None else None, thing)
-            case Happens(
-                event=Event(action="do", object=Pronoun(form="this" | "that")) as done
-            ) if _permits(clause, done):
-                return Fault(That(), done.actor, legal=True)
-            case Is(state="sure", thing=Ego() | Pronoun(form="it" | "that")):
-                return HowSure(self._sure_of(clause), clause.time)
-            case Caused(
-                cause=Described(doing=Event(action="leave", actor=Ego()) as event, rank=rank)
-            ):  # "is it the next one that we get off at?"
-                deed = structs.replace(event, object=Exit(rank), tense="present")
-                return Whether(Happens(deed), tag)
-            case Caused(cause=Described(doing=Event(action="do", object=Wanted(), actor=doer))):
-                return Why(That(), suspect=doer)  # "was that something we did?"
-            case Caused(
-                cause=Described(doing=Event(actor=Wanted()) as event) as who, effect=None
-            ) if wanted_pronoun(clause.subject):  # "was it the bus that braked?"
-                whole = structs.replace(who, doing=None)
-                return Whether(Happens(structs.replace(event, actor=whole)), tag)
-            case Caused(
-                cause=Described(doing=Event(object=Wanted()) as event) as who, effect=None
-            ) if wanted_pronoun(clause.subject) and event.action != "do":  # "... you braked for?"
-                whole = structs.replace(who, doing=None)
-                return Whether(Happens(structs.replace(event, object=whole)), tag)
-            case Caused(cause=cause, effect=effect) if is_thing(cause):
-                return Why(effect or That(), suspect=cast(Thing, cause))
+        if isinstance(of, Is) and of.state == "sure" and _our_sureness(of.thing):
+            return HowSure(self._sure_of(clause), clause.time)
+        if (meant := judged_so(clause, of, tag=tag) or caused_by(clause, of, tag=tag)) is not None:
+            return meant
         if clause.because is not None:
             if isinstance(clause.because, Clause):
                 cause_fact = self.propositions.plain(clause.because)

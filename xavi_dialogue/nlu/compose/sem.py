@@ -169,7 +169,9 @@ def as_thing(sem: "Sem | None") -> Thing | None:
 
 def _together(group: Group) -> Together | None:
     """Give the vehicles that are joined by "and"; None for all else."""
-    things = tuple(m for m in group.members if isinstance(m, Described | Vehicle))
+    numbered = any(isinstance(m, Vehicle) for m in group.members)
+    named = (as_thing(m) if numbered and isinstance(m, Quantity) else m for m in group.members)
+    things = tuple(m for m in named if isinstance(m, Described | Vehicle))  # "vehicles 1 and 5"
     joined = group.join == "and" and len(things) == len(group.members)
     return Together(things) if joined else None
 

@@ -93,7 +93,9 @@ def _before_us(event: Event, moment: float, g: Grounder) -> Event:
         event = replace(event, action="change-lane", object=None)
     ahead = event.tense in ("present", "future") and event.modal in (None, "will", "might")
     ours = isinstance(event.object, Ego) and isinstance(event.actor, Vehicle)
-    return replace(event, action="cross") if ahead and ours else event
+    crosses = look is not None and look.bearing.startswith("crossing")
+    before = crosses or event.action != "come"
+    return replace(event, action="cross") if ahead and ours and before else event
 
 
 def _inwards(event: Event, moment: float, g: Grounder) -> Event:
