@@ -64,7 +64,7 @@ __all__ = [
 LANE_CHANGE_TIME = 3.0  # [s]
 LANE_CHANGE_LENGTH = (15.0, 200.0)  # [m] shortest and longest
 SWAY = 10.0 / math.sqrt(3.0)  # peak sideways acceleration of a quintic, times time^2 / width
-TAPER = 10.0  # [m] beyond the end of a lane that merges where one can still move over
+TAPER = 10.0  # [m] beyond the end of a lane that merges where one can move to one that leads on
 BEFORE_EXIT = 10.0  # [m] before an exit of a roundabout at which to choose whether to take it
 DIRECTIONS: dict[Action, Direction] = {
     "exit-left": "left",
@@ -151,7 +151,7 @@ def _room(roads: Roads, lane: str, target: str, wanted: float) -> float:
         if room >= wanted + FAR:
             return room
         if own.joint is None or other.joint is None:
-            return room + (TAPER if own.merges else 0.0)
+            return room + (TAPER if own.merges and other.leads else 0.0)
         lane, target = own.joint.to_lane, other.joint.to_lane
         if lane == target or network.lanes[lane].edge != network.lanes[target].edge:
             return room

@@ -199,12 +199,18 @@ class Simulation:
         self._call(vehicle.setSignals, ego, shown)
 
     def _announce(self, edges: tuple[str, ...]) -> None:
-        """Let the others know where the ego goes: in SUMO, right of way goes by routes."""
-        road: str = self._call(self._api.vehicle.getRoadID, self._ego)
+        """Let the others know where the ego goes: in SUMO, right of way goes by routes.
+
+        Where SUMO finds no lane for the ego, such as in the gap of a corner, it takes it to be at
+        the beginning of its route, and accepts none that leads on from elsewhere: that waits.
+        """
+        vehicle, ego = self._api.vehicle, self._ego
+        road: str = self._call(vehicle.getRoadID, ego)
         if edges != self._announced and road in edges:
             ahead = edges[edges.index(road) :]
-            self._call(self._api.vehicle.setRoute, self._ego, ahead)
-            self._announced = edges
+            if self._call(vehicle.getRoute, ego)[self._call(vehicle.getRouteIndex, ego)] in ahead:
+                self._call(vehicle.setRoute, ego, ahead)
+                self._announced = edges
 
     def _width_to_show(self) -> float:
         """The ego's width [m] as SUMO is to know it in the coming step.

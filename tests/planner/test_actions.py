@@ -340,6 +340,20 @@ def test_who_continues_on_a_lane_that_ends_keeps_room_to_leave_it() -> None:
     assert isinstance(expand(roads, late, "stop", None, VIEW), ActionPlan)
 
 
+def test_who_changes_onto_a_lane_that_ends_too_stays_on_the_road() -> None:
+    lanes = [lane(f"in_{k}", [(0.0, 3.5 * k), (150.0, 3.5 * k)]) for k in range(3)]
+    lanes += [lane("on_0", [(150.0, 0.0), (400.0, 0.0)])]
+    roads = drawn(lanes, [link_to("in_0", "on_0")])
+    for offset in range(60, 150):
+        here = on_lane(roads, "in_1", float(offset))
+        plan = expand(roads, here, "change-left", None, VIEW)
+        assert isinstance(plan, ActionPlan) == (offset <= 121)  # 3 s at 8 m/s, and 5 m to spare
+        if isinstance(plan, ActionPlan):
+            assert plan.path.points[np.searchsorted(plan.path.arc, plan.end), 0] <= 150.0
+        over = expand(roads, here, "change-right", None, VIEW)  # onto one that leads on
+        assert isinstance(over, ActionPlan) == (offset <= 131)
+
+
 def test_the_lane_that_does_not_lead_there_is_the_reason() -> None:
     lanes = [
         lane("in_0", [(0.0, 0.0), (50.0, 0.0)]),

@@ -140,6 +140,21 @@ def test_others_brake_for_the_ego_that_cuts_in(tmp_path: Path) -> None:
     assert min(speeds_of_the_other(tmp_path, lane=1, shift=-3.75, since=4.5, later=8.0)) < 11.0
 
 
+def test_a_new_way_is_told_as_soon_as_sumo_takes_the_ego_to_be_on_a_lane(tmp_path: Path) -> None:
+    """It is decided on while the ego is off every lane, where SUMO accepts no other route."""
+    file = tmp_path / "two.rou.xml"
+    file.write_text(TWO.format(ego=0))
+    motorway = dataclasses.replace(load("motorway"), routes=file, spawn=None)
+    way, routes = ("exit_lane", "ramp"), []
+    with Simulation(motorway, 0) as world:
+        told: list[tuple[float, tuple[str, ...]]] = [(-13.1, ()), (-150.0, ()), (-150.0, way)]
+        for k, (y, known) in enumerate([*told, (-13.1, way), (-13.1, way)]):
+            scene = world.step(Command((750.0 + 0.5 * k, y), 0.0, 5.0, known))
+            assert scene.ego.position == pytest.approx((750.0 + 0.5 * k, y))
+            routes.append(world._engine.api.vehicle.getRoute("ego")[-1])
+    assert routes == ["road_on"] * 4 + ["ramp"]
+
+
 def test_the_ego_can_be_given_back_to_sumo() -> None:
     with Simulation(S1, 0) as world:
         ego = world.scene().ego
