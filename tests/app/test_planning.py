@@ -12,6 +12,7 @@ import msgspec
 import pytest
 
 from planner.decide import decide
+from planner.driver import Driver, DriveStep
 from planner.trace import PlanTrace, WhatIf, decode, encode
 from planner.whatif import replan
 from sim.scenario import load
@@ -222,7 +223,15 @@ def test_a_result_is_one_line(trace: PlanTrace) -> None:
 
 def test_warming_up_takes_a_decision_among_others(monkeypatch: pytest.MonkeyPatch) -> None:
     decided: list[PlanTrace] = []
-    monkeypatch.setattr(worker, "decide", lambda f, m: decided.append(decide(f, m).trace))
+
+    class Watched(Driver):
+        def step(self, scene: Scene, dt: float) -> DriveStep:
+            done = super().step(scene, dt)
+            assert done.trace is not None
+            decided.append(done.trace)
+            return done
+
+    monkeypatch.setattr(worker, "Driver", Watched)
     for name in ("s1", "s2"):
         worker.warm_up(roads(name).network)
     assert len(decided) == 2

@@ -25,7 +25,10 @@ def road(*steps):
 def test_a_turn_is_told_against_another_direction_and_never_against_a_stop(name, now):
     found = told(recorded(name), Why(Happens(Event("turn", tense="past"))), now)
     assert isinstance(found, ChoiceReason)
-    assert found.contrast.foil[-1] in (*DIRECTIONS, "continue")
+    foil = found.contrast.foil
+    assert all(action in (*DIRECTIONS, "continue") for action in foil[-1:])
+    assert bool(foil) == (found.contrast.verdict != "alone")  # nothing else led to the destination
+    assert bool(foil) == (name != "town-0")
     assert found.contrast.way
 
 
