@@ -13,11 +13,10 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause, NeedRollout
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.contrast import factual
-from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered
+from xavi_dialogue.explain.causes.replanned import replanned, saves_time
+from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 
 SLOWED = frozenset[ActionName](("slow-down", "brake", "move"))
-LEAST = 0.5  # [s] of reward that must be saved could one see past it
 HELD = 0.5  # share of the drives in which it makes us slower
 AHEAD = 0.6  # [rad] from our heading within which somebody comes from ahead
 BEFORE = 1.0  # [s] before a slowing at which it may have been decided
@@ -78,15 +77,7 @@ def matters(ride: Ride, trace: PlanTrace) -> bool | None:
     Raises:
         Unanswered: the decision must be planned again first.
     """
-    again = seeing_past(ride, trace)
-    if again is None:
-        return None
-    try:
-        here = factual(ride.model(trace), trace)
-        there = factual(ride.model(again), again)
-    except Unanswered:
-        return None
-    return there.value - here.value >= LEAST
+    return saves_time(ride, trace, seeing_past(ride, trace))
 
 
 def seeing_past(ride: Ride, trace: PlanTrace) -> PlanTrace | None:
@@ -99,10 +90,4 @@ def seeing_past(ride: Ride, trace: PlanTrace) -> PlanTrace | None:
     """
     everybody = tuple(range(len(trace.phantoms)))
     need = NeedRollout(trace_id=trace.trace_id, seen_past=everybody)
-    for extra in ride.record.extra:
-        same = (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
-        if same and extra.what_if is not None and extra.what_if.seen_past == everybody:
-            return extra
-    if ride.cannot_have(need):
-        return None
-    raise Unanswered(need)
+    return replanned(ride, trace, need)

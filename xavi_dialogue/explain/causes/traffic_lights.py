@@ -13,18 +13,17 @@ from xavi_dialogue.domain.answers import MotionCause, NeedRollout
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.causes.replanned import replanned, saves_time
 from xavi_dialogue.explain.facts.light_waits import Hold, holding
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.waiting import top_holders
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered
+from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.traffic_lights import ahead, shown
 
 HELD = frozenset[ActionName](("slow-down", "brake", "stop", "stand", "wait", "move"))
 STILL = frozenset[ActionName](("stop", "stand", "wait"))
 GREEN = LightState.GREEN.value
-LEAST = 0.5  # [s] of reward that must be saved were it green
 
 
 def light_causes(
@@ -91,15 +90,7 @@ def matters(ride: Ride, trace: PlanTrace, signal: Signal) -> bool | None:
     Raises:
         Unanswered: the decision must be planned again first.
     """
-    again = with_light(ride, trace, signal, GREEN)
-    if again is None:
-        return None
-    try:
-        here = factual(ride.model(trace), trace)
-        there = factual(ride.model(again), again)
-    except Unanswered:
-        return None
-    return there.value - here.value >= LEAST
+    return saves_time(ride, trace, with_light(ride, trace, signal, GREEN))
 
 
 def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> PlanTrace | None:
@@ -112,13 +103,7 @@ def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> Plan
     """
     supposed = (LightSupposed(signal.controller, signal.index, state),)
     need = NeedRollout(trace_id=trace.trace_id, lights=supposed)
-    for extra in ride.record.extra:
-        same = (extra.sim_time, extra.decision) == (trace.sim_time, trace.decision)
-        if same and extra.what_if is not None and extra.what_if.lights == supposed:
-            return extra
-    if ride.cannot_have(need):
-        return None
-    raise Unanswered(need)
+    return replanned(ride, trace, need)
 
 
 def _queue(world: World, trace: PlanTrace) -> Iterable[MotionCause]:
