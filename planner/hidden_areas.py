@@ -3,6 +3,8 @@
 SI units. `planner.phantoms` works it out.
 """
 
+from collections.abc import Collection
+
 import msgspec
 
 from sim.scene import Point
@@ -28,7 +30,14 @@ class Phantom(msgspec.Struct, frozen=True, omit_defaults=True):
     link: int  # its way through the junction
     yields: tuple[int, ...]  # the links of the junction by which the ego would give way to it
     meets: tuple[float, ...]  # [m] behind the line, at which each of them comes to its way
-    behind: int | None = None  # the vehicle that hides it; None: a building
+    behind: int | None = None  # the vehicle that hides it, the nearest one; None: a building
+    beyond: tuple[int, ...] = ()  # other vehicles that hide it, too
+    walled: bool = False  # a building hides it, too, behind that vehicle
+
+    def seen_without(self, vehicles: Collection[int]) -> bool:
+        """Tell whether it would be in view without some vehicles."""
+        hiders = () if self.behind is None or self.walled else (self.behind, *self.beyond)
+        return bool(hiders) and all(one in vehicles for one in hiders)
 
     @property
     def met(self) -> dict[tuple[str, int], float]:

@@ -277,6 +277,7 @@ def _phantom(
         return None
     place = min(nearest.stretch.end, lane.length)
     (x, y), heading = point_at(lane.centreline, place)
+    hiders = _hiders(view, (x, y))
     return Phantom(
         lanes=(*nearest.lanes, *theirs.via, theirs.to_lane),
         begin=nearest.stretch.begin,
@@ -292,7 +293,9 @@ def _phantom(
         link=theirs.index,
         yields=tuple(link.index for link in ours),
         meets=tuple(round(meeting(view.roads, link, theirs), 2) for link in ours),
-        behind=_hider(view, (x, y)),
+        behind=next(iter(hiders), None),
+        beyond=hiders[1:],
+        walled=bool(hiders) and nearest.stretch.walled,
     )
 
 
@@ -309,9 +312,9 @@ def _held_by(view: View, nearest: _Nearest) -> float:
     return slowest
 
 
-def _hider(view: View, point: Point) -> int | None:
-    """The vehicle behind which a place is hidden, the nearest of several."""
+def _hiders(view: View, point: Point) -> tuple[int, ...]:
+    """The vehicles behind which a place is hidden, the nearest first."""
     eye = middle(view.ego)
     tall = {name: x for name, x in view.seen.items() if name != EGO and x.kind not in LOW}
     found = [name for name, state in tall.items() if between(eye, point, state)]
-    return min(found, key=lambda name: math.dist(eye, middle(tall[name])), default=None)
+    return tuple(sorted(found, key=lambda name: math.dist(eye, middle(tall[name]))))

@@ -208,10 +208,10 @@ def seen_past(request: WhatIf) -> frozenset[int]:
 
 
 def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
-    """Who may come out of what is hidden: not out of what one sees past, or from behind nobody."""
+    """Who may come out of what is hidden: not out of what one sees past, or sees without some."""
     away, gone = seen_past(request), request.gone
     return tuple(
-        one for k, one in enumerate(trace.phantoms) if k not in away and one.behind not in gone
+        one for k, one in enumerate(trace.phantoms) if k not in away and not one.seen_without(gone)
     )
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sim.buildings import Walls
+from sim.buildings import NO_WALLS, Walls
 from sim.network import Network, point_at
 from sim.scene import Point, Unseen
 
@@ -30,19 +30,32 @@ class Blind:
         self._owners = np.array(owners, dtype=np.int64)
         self._offsets = np.array(offsets)
 
-    def stretches(self, eye: Point, radius: float, walls: Walls) -> tuple[Unseen, ...]:
-        """The stretches of lanes within a radius [m] of the eye that are behind walls."""
+    def stretches(
+        self, eye: Point, radius: float, walls: Walls, buildings: Walls = NO_WALLS
+    ) -> tuple[Unseen, ...]:
+        """The stretches of lanes within a radius [m] of the eye that are behind walls.
+
+        Args:
+            eye: from where one looks.
+            radius: within which one could see.
+            walls: of buildings and tall vehicles.
+            buildings: those of these walls that stay.
+        """
         if not len(walls.starts):
             return ()
         dx, dy = (self._points - eye).T
         near = np.flatnonzero(dx * dx + dy * dy <= radius * radius)
         hidden = near[walls.hide(eye, self._points[near])]
         breaks = np.flatnonzero((np.diff(hidden) > 1) | (np.diff(self._owners[hidden]) != 0)) + 1
-        return tuple(self._stretch(run) for run in np.split(hidden, breaks) if len(run))
+        runs = [run for run in np.split(hidden, breaks) if len(run)]
+        walled = buildings.hide(eye, self._points[[int(run[-1]) for run in runs]])
+        return tuple(self._stretch(run, bool(x)) for run, x in zip(runs, walled, strict=True))
 
-    def _stretch(self, places: "np.ndarray[tuple[int], np.dtype[np.int64]]") -> Unseen:
+    def _stretch(
+        self, places: "np.ndarray[tuple[int], np.dtype[np.int64]]", walled: bool
+    ) -> Unseen:
         """From half a spacing before the first place to half a spacing behind the last."""
         lane = self._lanes[int(self._owners[places[0]])]
         half = lane.length / max(1, round(lane.length / SPACING)) / 2.0
         begin, end = self._offsets[places[0]] - half, self._offsets[places[-1]] + half
-        return Unseen(lane.id, round(float(begin), 2), round(float(end), 2))
+        return Unseen(lane.id, round(float(begin), 2), round(float(end), 2), walled)

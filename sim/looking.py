@@ -106,8 +106,8 @@ class Eyes:
         vehicles[named[self._ego]] = ego
         on_foot = {named[x]: people[x].state for x in people if x in named}
         lights = self._signals.look(time, ego, self._radius)
-        walls = walls.beside(body.state for body in near.values() if body.height >= TALL)
-        unseen = self._blind.stretches(eye_of(ego), self._radius, walls)
+        tall = (body.state for body in near.values() if body.height >= TALL)
+        unseen = self._blind.stretches(eye_of(ego), self._radius, walls.beside(tall), walls)
         scene = Scene(time, _sorted(vehicles), lights, _sorted(on_foot), unseen)
         return View(scene, {x: body.state for x, body in everybody.items()})
 

@@ -77,6 +77,7 @@ class Unseen:
     lane: str
     begin: float  # [m] along its centreline
     end: float  # [m]
+    walled: bool = False  # a building hides its end, whatever vehicles stand there
 
 
 @dataclass(frozen=True, slots=True)

@@ -253,3 +253,23 @@ def test_joint_samples_reckon_with_who_is_imagined() -> None:
     assert sum(found.values()) == pytest.approx(1.0)
     assert found[PhantomSample(0, True), PhantomSample(1, False)] == pytest.approx(0.4 * 0.3)
     assert name_of(0) < 0  # no vehicle has such a name
+
+
+def test_the_nearest_hider_comes_first_and_a_building_behind_it_is_recorded() -> None:
+    lorry = car(95.0, -6.0, 0.0, length=12.0, width=2.5, kind="truck")
+    bus = car(100.0, -12.0, 0.0, length=12.0, width=2.5, kind="bus")
+    found = one(replace(NEAR, walled=True), others={2: bus, 3: lorry})
+    assert (found.behind, found.beyond, found.walled) == (3, (2,), True)
+    assert not one(replace(NEAR, walled=True)).walled  # there is no vehicle before the building
+
+
+def test_without_a_lorry_one_sees_past_it_but_not_past_the_building() -> None:
+    lorry = car(95.0, -6.0, 0.0, length=12.0, width=2.5, kind="truck")
+    fast = Frame(ROADS, EgoGoal("out", 150.0, None), Settings(rollouts=8, min_rollouts=1), 7, "car")
+    behind = msgspec.structs.replace(LIKELY, behind=3)
+    walled = msgspec.structs.replace(behind, walled=True)
+    others = {EGO: car(60.0, speed=12.0), 3: lorry}
+    tracks = {v: Track(5.0, (x.position,), (0.0,), (x.speed,)) for v, x in others.items()}
+    here = replace(moment(LIKELY, behind, walled), scene=others, history=tracks)
+    again = replan(decide(fast, here).trace, ROADS.network, WhatIf(removed=3))
+    assert again.phantoms == (LIKELY, walled)

@@ -1,5 +1,7 @@
 """What of the roads the ego cannot see."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -88,3 +90,18 @@ def test_a_lorry_hides_what_is_before_it() -> None:
 def test_among_cars_everything_is_seen() -> None:
     with Simulation(load("s1"), 0) as world:
         assert world.scene().unseen == ()
+
+
+def test_a_stretch_behind_a_lorry_tells_whether_a_building_hides_it_anyway() -> None:
+    eye, building = (1.75, -40.0), house(-40.0, -40.0, 30.0)
+    lorry = VehicleState((-2.0, -25.0), math.pi / 2.0, 0.0, 0.0, 12.0, 2.5)
+    both = building.beside([lorry])
+    known = {(x.lane, x.end): x.walled for x in BLIND.stretches(eye, 120.0, both, building)}
+    assert set(known.values()) == {True, False}
+    alone = BLIND.stretches(eye, 120.0, NO_WALLS.beside([lorry]), NO_WALLS)
+    assert alone
+    assert not any(stretch.walled for stretch in alone)
+    bare = BLIND.stretches(eye, 120.0, both)
+    assert [(x.lane, x.begin, x.end) for x in bare] == [
+        (x.lane, x.begin, x.end) for x in BLIND.stretches(eye, 120.0, both, building)
+    ]

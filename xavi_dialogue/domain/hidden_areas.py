@@ -28,9 +28,9 @@ class SightTold(Value, frozen=True):
 
 
 class SupposedSeeing(Value, frozen=True):
-    """What would have been had we seen past what hides the road, and nobody been there."""
+    """What would have been had we seen past some who hide the road, and nobody been there."""
 
-    hiders: tuple[Hider, ...]  # () nothing that matters was hidden
+    hiders: tuple[Hider, ...]  # these; () nothing that matters was hidden
     decided: float  # [s] of the decision
     plan: tuple[MacroAction, ...]  # as things were
     then: tuple[MacroAction, ...]  # as it would have been

@@ -31,7 +31,7 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.naming import is_building, is_us
 from xavi_dialogue.explain.answers.reading import unwrapped
 from xavi_dialogue.explain.causes.contrast import factual
-from xavi_dialogue.explain.causes.hidden_areas import holding, seeing_past, side_of
+from xavi_dialogue.explain.causes.hidden_areas import holding, opened, seeing_past, side_of
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
@@ -80,11 +80,11 @@ def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
     found = _hiding(scene, about, past)
     if not found:
         return SightTold(asked, (), past)
-    first = _first(found)
+    first = _first(found, about)
     slowed = any(one in holding(t) for t in found for one in _fitting(t, about))
     now = found[-1].sim_time >= scene.now - JUST_NOW
     told = first if past and not now else found[-1]
-    return SightTold(asked, _hiders(told, _fitting(told, about)), past or not now, slowed)
+    return SightTold(asked, _hiders(told, _fitting(told, about), about), past or not now, slowed)
 
 
 def _supposed(question: WhatIf, scene: Asked) -> Answer:
@@ -98,14 +98,19 @@ def _supposed(question: WhatIf, scene: Asked) -> Answer:
     found = _hiding(scene, about, past=True)
     if not found:
         return SupposedSeeing((), scene.now, (), (), 0.0, past)
-    trace = _first(found)
-    again = seeing_past(scene.ride, trace)
+    trace = _first(found, about)
+    seen = _seen(trace, about)
+    over = found[-1].sim_time < scene.now - JUST_NOW
+    if not seen:  # something else hides them, too
+        hiders = _hiders(trace, _fitting(trace, about), about)
+        plan = planned(trace)
+        return SupposedSeeing(hiders, trace.sim_time, plan, plan, 0.0, past or over)
+    again = seeing_past(scene.ride, trace, seen)
     if again is None:
         raise Unanswered(NotRecorded("not-recorded", since=trace.sim_time))
     here = factual(scene.ride.model(trace), trace)
     there = factual(scene.ride.model(again), again)
-    over = found[-1].sim_time < scene.now - JUST_NOW
-    hiders = _hiders(trace, trace.phantoms)
+    hiders = _hiders(trace, tuple(trace.phantoms[k] for k in seen), about)
     gained = _duration(here) - _duration(there)
     return SupposedSeeing(
         hiders, trace.sim_time, planned(trace), planned(again), max(gained, 0.0), past or over
@@ -134,9 +139,9 @@ def _hiding(scene: Asked, about: Thing | None, past: bool) -> list[PlanTrace]:
     return found
 
 
-def _first(found: list[PlanTrace]) -> PlanTrace:
-    """The first decision at which what is hidden made us slower; else the first of all."""
-    held = [t for t in found if holding(t)]
+def _first(found: list[PlanTrace], about: Thing | None) -> PlanTrace:
+    """The first decision at which the hidden part made us slower; else the first of all."""
+    held = [t for t in found if any(one in _fitting(t, about) for one in holding(t))]
     free = [t for t in held if t.under_way is None]
     return (free or held or found)[0]
 
@@ -145,17 +150,34 @@ def _fitting(trace: PlanTrace, about: Thing | None) -> tuple[Phantom, ...]:
     """Who is imagined behind a vehicle, behind a building, or behind anything."""
     match about:
         case Vehicle(number=number):
-            return tuple(one for one in trace.phantoms if one.behind == number)
+            return tuple(x for x in trace.phantoms if number in (x.behind, *x.beyond))
         case Feature(kind="building"):
-            return tuple(one for one in trace.phantoms if one.behind is None)
+            return tuple(x for x in trace.phantoms if x.behind is None or x.walled)
     return trace.phantoms
 
 
-def _hiders(trace: PlanTrace, phantoms: tuple[Phantom, ...]) -> tuple[Hider, ...]:
+def _seen(trace: PlanTrace, about: Thing | None) -> tuple[int, ...]:
+    """Whom one would see past a vehicle, past a building, or past anything, by their indices."""
+    match about:
+        case Vehicle(number=number):
+            return opened(trace, number)
+        case Feature(kind="building"):
+            return opened(trace, None)
+    return tuple(range(len(trace.phantoms)))
+
+
+def _hiders(
+    trace: PlanTrace, phantoms: tuple[Phantom, ...], about: Thing | None
+) -> tuple[Hider, ...]:
     """What hides the road on which side, with the chance that somebody is there."""
     nobody: dict[tuple[Any, Any], float] = {}
     for one in phantoms:
-        key = (one.behind, side_of(trace, one))
+        hider = one.behind
+        if isinstance(about, Vehicle):
+            hider = about.number
+        elif isinstance(about, Feature) and about.kind == "building":
+            hider = None
+        key = (hider, side_of(trace, one))
         nobody[key] = nobody.get(key, 1.0) * (1.0 - one.probability)
     found = (Hider(vehicle, side, round(1.0 - none, 4)) for (vehicle, side), none in nobody.items())
     return tuple(sorted(found, key=lambda one: -one.probability))

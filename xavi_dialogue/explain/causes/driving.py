@@ -22,7 +22,7 @@ from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS
 from xavi_dialogue.explain.causes.contrast import evidence, factual
-from xavi_dialogue.explain.causes.hidden_areas import hidden_cause
+from xavi_dialogue.explain.causes.hidden_areas import hidden_causes
 from xavi_dialogue.explain.causes.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.involved import LIKELY, expected_actions, holding_up
 from xavi_dialogue.explain.causes.necessity import proven
@@ -110,9 +110,9 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
             lead = close_leader(world, model, plan, deed.begin, speed_at(ride, deed.begin))
         if lead is not None:
             causes = (motion_cause(ride, world, lead, trace, deed.begin), *causes)
-        unseen = hidden_cause(ride, deed)
+        unseen = hidden_causes(ride, deed)
         if unseen is not None:
-            return Reasons((unseen[0],), None, Evidence(traces=(unseen[1].trace_id,)), unseen[1])
+            return Reasons(unseen[0], None, Evidence(traces=(unseen[1].trace_id,)), unseen[1])
     elif deed.action in SLOWING:
         causes = (*causes, *(cause for cause in road if cause.kind in ROAD))
     return Reasons(causes, tried.causation, rests_on, trace)

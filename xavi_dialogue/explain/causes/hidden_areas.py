@@ -24,12 +24,13 @@ BEFORE = 1.0  # [s] before a slowing at which it may have been decided
 Side = Literal["left", "right", "ahead"]
 
 
-def hidden_cause(ride: Ride, deed: Episode) -> tuple[MotionCause, PlanTrace] | None:
+def hidden_causes(ride: Ride, deed: Episode) -> tuple[tuple[MotionCause, ...], PlanTrace] | None:
     """Tell what hides from where somebody might come, for whom the ego slowed down.
 
     Returns:
-        The cause, with who hides it (None: a building), and the decision; None where nothing
-        hidden made it slower, or that does not matter.
+        The first that matters by itself, with who hides it (None: a building), or else all that
+        matter together, and the decision; None where nothing hidden made it slower, or that does
+        not matter.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -43,12 +44,16 @@ def hidden_cause(ride: Ride, deed: Episode) -> tuple[MotionCause, PlanTrace] | N
     if deed.action not in SLOWED or not known:
         return None
     trace = next((t for t in known if t.under_way is None), known[0])
-    needed = matters(ride, trace)
-    if needed is False:
+    held = holding(trace)
+    hiders = tuple(dict.fromkeys((one.behind, side_of(trace, one)) for one in held))
+    for hider, side in hiders:
+        needed = matters(ride, trace, opened(trace, hider, side))
+        if needed is not False:
+            return (MotionCause("hidden", hider, necessary=needed, side=side),), trace
+    together = tuple(k for k, one in enumerate(trace.phantoms) if one in held)
+    if not matters(ride, trace, together):
         return None
-    one = holding(trace)[0]
-    cause = MotionCause("hidden", one.behind, necessary=needed, side=side_of(trace, one))
-    return cause, trace
+    return tuple(MotionCause("hidden", x, necessary=False, side=side) for x, side in hiders), trace
 
 
 def holding(trace: PlanTrace) -> tuple[Phantom, ...]:
@@ -71,23 +76,41 @@ def side_of(trace: PlanTrace, one: Phantom) -> Side:
     return "left" if angle > 0.0 else "right"
 
 
-def matters(ride: Ride, trace: PlanTrace) -> bool | None:
-    """Tell whether a decision would save time could one see past; None where it is not known.
+def opened(trace: PlanTrace, hider: int | None, side: Side | None = None) -> tuple[int, ...]:
+    """List whom one would see if a vehicle, or the buildings (None), on a side hid nobody.
+
+    Those whom something else hides, too, stay out of sight.
+    """
+    return tuple(
+        k
+        for k, one in enumerate(trace.phantoms)
+        if (one.behind is None if hider is None else one.seen_without((hider,)))
+        and side in (None, side_of(trace, one))
+    )
+
+
+def matters(ride: Ride, trace: PlanTrace, seen: tuple[int, ...]) -> bool | None:
+    """Tell whether a decision would save time were some seen not to be there.
+
+    None where it is not known.
 
     Raises:
         Unanswered: the decision must be planned again first.
     """
-    return saves_time(ride, trace, seeing_past(ride, trace))
+    return saves_time(ride, trace, seeing_past(ride, trace, seen)) if seen else False
 
 
-def seeing_past(ride: Ride, trace: PlanTrace) -> PlanTrace | None:
-    """Find the plan made again from a decision as if nothing hid who might come.
+def seeing_past(ride: Ride, trace: PlanTrace, seen: tuple[int, ...]) -> PlanTrace | None:
+    """Find the plan made again from a decision as if some who might come were not there.
 
     None where the planner could not make it.
+
+    Args:
+        ride: the ride.
+        trace: the decision.
+        seen: indices of those who are imagined, and are not there.
 
     Raises:
         Unanswered: it must be made first.
     """
-    everybody = tuple(range(len(trace.phantoms)))
-    need = NeedRollout(trace_id=trace.trace_id, seen_past=everybody)
-    return replanned(ride, trace, need)
+    return replanned(ride, trace, NeedRollout(trace_id=trace.trace_id, seen_past=seen))
