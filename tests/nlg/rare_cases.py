@@ -36,6 +36,7 @@ from xavi_dialogue.domain.answers import (
     Measures,
     MotionCause,
     MotionReason,
+    NobodyElse,
     Options,
     OtherReason,
     OutcomeEstimate,
@@ -100,6 +101,8 @@ LONG_BOTH = replace(
 WAY = replace(LATER, foil=("exit-left",), way=True)
 
 TROUBLE = (Share("time", 4.0), Share("effort", 1.0))
+
+LONG_AGO = Episode(E, "give-way", 4.0, 8.0, object=V)
 
 CASES: tuple[Answer, ...] = (
     Happenings("list", RIDE * 6),
@@ -323,5 +326,25 @@ CASES: tuple[Answer, ...] = (
     *(
         MotionReason(SLOWED, (MotionCause("hidden", vehicle, side=side),))
         for vehicle, side in ((1, "ahead"), (None, "left"), (None, "right"))
+    ),
+    *(
+        NobodyElse(named, others, matter, NOW, past)
+        for named, others, matter in (
+            ((1,), (), False),
+            ((1, 2), (), False),
+            ((1,), (2, 3), False),
+            ((1,), (2, 3), True),
+            ((1,), (2, 3, 4, 5), True),
+            ((1, 2), (3,), None),
+        )
+        for past in (True, False)
+    ),
+    MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="let-go"),
+    MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="slow-down"),
+    MotionReason(
+        Episode(E, "brake", 4.0, 8.0, speed_from=12.0, speed_to=6.0),
+        (MotionCause("turn"),),
+        premise=False,
+        asked="wait",
     ),
 )

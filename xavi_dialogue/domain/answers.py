@@ -55,6 +55,7 @@ from xavi_dialogue.domain.reasons import (
     GoReason,
     MotionCause,
     MotionReason,
+    NobodyElse,
     OtherReason,
     OwnSignal,
     PlaceReason,
@@ -69,18 +70,16 @@ from xavi_dialogue.domain.traffic_lights import LightAnswer
 
 __all__ = [
     "Acknowledged", "Activity", "Again", "Aim", "Altered", "Answer", "Avoidance", "Beliefs",
-    "Bound", "Bystander",
-    "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort", "Comforting",
-    "Compared", "Contrast", "Counted", "Course", "Decided", "Declined", "DidNotHappen",
-    "Effect", "Evidence",
-    "GoReason", "Grounds", "Happenings", "Helpful", "Identified", "Judged", "Lasted", "Located",
-    "Measures", "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout",
-    "NoSuchVehicle", "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options",
-    "OtherReason", "OutcomeEstimate", "OwnSignal", "Pivot", "PlaceReason", "PlanAhead", "Posed",
-    "Priority", "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Sociable",
-    "Staying", "Summit", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle",
-    "Unavailable", "Unblocking", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing",
-    "WhichOne",
+    "Bound", "Bystander", "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort",
+    "Comforting", "Compared", "Contrast", "Counted", "Course", "Decided", "Declined",
+    "DidNotHappen", "Effect", "Evidence", "GoReason", "Grounds", "Happenings", "Helpful",
+    "Identified", "Judged", "Lasted", "Located", "Measures", "Mechanism", "Method", "MotionCause",
+    "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse", "NotApplicable", "NotRecorded",
+    "NotUnderstood", "NothingToAsk", "Options", "OtherReason", "OutcomeEstimate", "OwnSignal",
+    "Pivot", "PlaceReason", "PlanAhead", "Posed", "Priority", "PullingUp", "Reaction", "Reason",
+    "Refusal", "Share", "SignalReason", "Sociable", "Staying", "Summit", "SupposedOfOther",
+    "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable", "Unblocking", "Unfamiliar",
+    "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -281,6 +280,7 @@ Refusal: TypeAlias = (
 Answer: TypeAlias = (
     ChoiceReason
     | MotionReason
+    | NobodyElse
     | GoReason
     | Unslowed
     | OtherReason

@@ -113,6 +113,16 @@ class Bystander(Value, frozen=True):
     gone: bool = False  # we have let it go first
 
 
+class NobodyElse(Value, frozen=True):
+    """Whether others than those told as causes mattered for a deed, by planning without them."""
+
+    named: tuple[int, ...]  # the causes
+    others: tuple[int, ...]  # who else was seen at that decision
+    matter: bool | None  # without all of the others something else is done; None: not known
+    decided: float  # [s]
+    past: bool = True
+
+
 class GoReason(Value, frozen=True):
     """Why the ego went then: whom it had let go, who had to let it, who was not in its way."""
 

@@ -117,7 +117,8 @@ def test_plans_without_vehicles_are_told_from_those_with_all() -> None:
     elsewhere = replace(plain, sim_time=19.0)
     later = replace(plain, decision=99)
     bare = replace(plain, what_if=None)
-    found = ride(RARE, extra=(plain, without, other, elsewhere, later, bare))
+    seen = again(seen_past=(0,))
+    found = ride(RARE, extra=(plain, without, other, elsewhere, later, bare, seen))
     assert found.variants(RARE) == (plain, bare)
     assert found.variants(RARE, (1,)) == (without,)
     assert found.without(RARE, 1) == without

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Back,
     Between,
@@ -104,6 +105,13 @@ BUS = Described(kind="bus")
             HowMuch(Measured("speed", Ego(), time=Now())),
         ),
         (Why(SLOWED), Elliptic(thing=BUS), Why(SLOWED, suspect=Vehicle(1))),
+        (Why(SLOWED), Elliptic(SOMEBODY_ELSE), Why(SLOWED, suspect=SOMEBODY_ELSE)),
+        (
+            Why(SLOWED, suspect=Vehicle(1), alone=True),
+            Elliptic(SOMEBODY_ELSE),
+            Why(SLOWED, suspect=SOMEBODY_ELSE),
+        ),
+        (Doing(Ego(), Now()), Elliptic(SOMEBODY_ELSE), Listing("vehicles")),
         (
             Why(Happens(Event("leave", object=Exit(2)))),
             Elliptic(thing=Described(rank=1), form="why-not"),

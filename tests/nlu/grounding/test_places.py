@@ -5,6 +5,7 @@ import pytest
 from tests.nlu.grounding.fakes import Car, FakeWorld, asked, did, question_of, road
 from xavi_dialogue.domain.meaning import Where, Whether
 from xavi_dialogue.domain.terms import (
+    Between,
     Described,
     Ego,
     Event,
@@ -69,3 +70,25 @@ def test_a_lane_may_be_somebody_s() -> None:
     on = Related("on", Ego(), Lane("own", of=Described(colour="red")))
     found = question_of(asked(Whether(on), RIDE))
     assert found.that.to == Lane("own", of=Vehicle(1))  # type: ignore[union-attr]
+
+
+def counted(rank: int) -> object:
+    """When we slowed down at a junction that is counted."""
+    world = FakeWorld(
+        happened=(
+            did("slow-down", 3.0, 5.0),
+            did("exit-left", 5.0, 8.0, place=CROSS, side="left"),
+            did("slow-down", 18.0, 20.0),
+            did("exit-right", 20.0, 22.0, place=Junction(time=20.0), side="right"),
+        ),
+        now=40.0,
+        facts=road("junction", "junction"),
+    )
+    event = Event("slow-down", object=Junction(rank=rank), tense="past")
+    found = asked(Whether(Happens(event)), world)
+    return question_of(found).that.event.time  # type: ignore[union-attr]
+
+
+def test_junctions_that_are_past_are_counted_from_the_beginning() -> None:
+    assert counted(1) == Between(3.0, 5.0)
+    assert counted(2) == Between(18.0, 20.0)

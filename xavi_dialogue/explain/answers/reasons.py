@@ -13,6 +13,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Why
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
@@ -33,6 +34,7 @@ from xavi_dialogue.explain.answers import (
     deciding,
     going,
     motions,
+    nobody_else,
     onward,
     others,
     refraining,
@@ -86,6 +88,8 @@ def why(question: Why, scene: Asked) -> Answer:
     Raises:
         Unanswered: it was not; or the record lacks it; or rollouts are needed.
     """
+    if question.suspect == SOMEBODY_ELSE:
+        return nobody_else.mattered(scene, why(structs.replace(question, suspect=None), scene))
     of, negated = unwrapped(question.of)
     blamed = check_seen(scene, question.suspect)
     of_causes = question.suspect is not None or isinstance(of, Caused)

@@ -18,7 +18,7 @@ def with_suspect(
     """
     if suspect is None or not isinstance(found, ChoiceReason | MotionReason):
         return found
-    named = _blamed(found)
+    named = blamed(found)
     besides: tuple[int, ...] = ()
     if rival is not None:
         asked = [vehicle for vehicle in named if vehicle in (suspect, rival)]
@@ -42,7 +42,7 @@ def with_suspect(
     return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
 
 
-def _blamed(found: ChoiceReason | MotionReason) -> list[int]:
+def blamed(found: ChoiceReason | MotionReason) -> list[int]:
     """List the vehicles that are causes, most important first."""
     if isinstance(found, MotionReason):
         named = [cause.vehicle for cause in found.causes if cause.vehicle is not None]
@@ -56,18 +56,19 @@ def _blamed(found: ChoiceReason | MotionReason) -> list[int]:
     return list(dict.fromkeys((*named, *_jointly(found))))
 
 
-def _causation(found: ChoiceReason | MotionReason) -> Causation | None:
+def causation_of(found: ChoiceReason | MotionReason) -> Causation | None:
+    """Give what was found of the vehicles on which a deed hangs."""
     return found.causation if isinstance(found, MotionReason) else found.contrast.causation
 
 
 def _jointly(found: ChoiceReason | MotionReason) -> tuple[int, ...]:
-    causation = _causation(found)
+    causation = causation_of(found)
     return () if causation is None else causation.jointly
 
 
 def _unnamed(found: ChoiceReason | MotionReason) -> bool:
     """Tell whether several are it together, of whom it is not known who is needed."""
-    causation = _causation(found)
+    causation = causation_of(found)
     return causation is not None and not causation.minimal
 
 
@@ -76,7 +77,7 @@ def _same_without(found: ChoiceReason | MotionReason, suspect: int) -> bool:
 
     Of several that are so together that is the same done without all of them.
     """
-    causation = _causation(found)
+    causation = causation_of(found)
     if not isinstance(found, ChoiceReason) or causation is None:
         return False
     if causation.kind in ("one", "both"):
@@ -87,7 +88,7 @@ def _same_without(found: ChoiceReason | MotionReason, suspect: int) -> bool:
 
 def _alone(found: ChoiceReason | MotionReason) -> Suspected:
     """Tell that one is the only cause, as far as planning again without it showed."""
-    causation = _causation(found)
+    causation = causation_of(found)
     tried = causation is not None and causation.kind in ("one", "pre-empted")
     return "alone" if tried else "main"
 

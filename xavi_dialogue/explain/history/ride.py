@@ -198,7 +198,8 @@ class Ride:
     def variants(self, trace: PlanTrace, removed: Collection[int] = ()) -> tuple[PlanTrace, ...]:
         """The plans made again from a decision, without some vehicles or with all of them.
 
-        Those for which something was supposed of another vehicle are left out.
+        Those for which something was supposed of another vehicle, of lights, or of what is hidden
+        are left out.
         """
         vehicles = set(trace.scene) - set(removed)
         return tuple(
@@ -208,6 +209,7 @@ class Ride:
             and set(extra.scene) == vehicles
             and (extra.what_if is None or extra.what_if.vehicle is None)
             and not getattr(extra.what_if, "lights", ())
+            and not getattr(extra.what_if, "seen_past", ())
         )
 
     def without(self, trace: PlanTrace, *vehicles: int) -> PlanTrace | None:

@@ -14,11 +14,13 @@ from xavi_dialogue.nlg.content.reactions import plan_reaction
 from xavi_dialogue.nlg.content.reasons import plan_choice
 from xavi_dialogue.nlg.content.signals import plan_own_signal
 from xavi_dialogue.nlg.content.suppositions import plan_supposed_of_other
+from xavi_dialogue.nlg.content.suspects import plan_nobody_else
 from xavi_dialogue.nlg.content.traffic_lights import plan_supposed_light
 
 CAUSES: dict[type, Planner] = {
     answers.ChoiceReason: plan_choice,
     answers.MotionReason: plan_motion,
+    answers.NobodyElse: plan_nobody_else,
     answers.GoReason: plan_going,
     answers.Unslowed: plan_unslowed,
     answers.OtherReason: plan_other,

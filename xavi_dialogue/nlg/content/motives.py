@@ -13,7 +13,7 @@ from xavi_dialogue.nlg.content.manoeuvres import denial, other_verbs
 from xavi_dialogue.nlg.content.plan import Plan
 from xavi_dialogue.nlg.content.proposals import about_cause
 from xavi_dialogue.nlg.content.suspects import suspected
-from xavi_dialogue.nlg.content.tenses import dated, goes_on
+from xavi_dialogue.nlg.content.tenses import began, dated, goes_on
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
@@ -91,6 +91,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
             past=past,
             deed=answer.deed.action,
         ),
+        "when": began(answer.deed, context) if past else None,
         "known": bool(answer.causes),
         "nobody": not answer.causes and _nobody(answer),
         "speed": speed_told(answer.deed.speed_to, context),
@@ -105,7 +106,8 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         who = None if number is None else Who(Vehicle(number), time)
         look = None if number is None else context.look(number, time)
         side = None if look is None else COMING.get(look.bearing)
-        return message("HAD_PRIORITY", who=who, past=past, side=side)
+        when = began(answer.deed, context) if past else None
+        return message("HAD_PRIORITY", who=who, past=past, side=side, when=when)
     pace = answer.deed.action in ("move", "follow", "go", "continue")
     if answer.form == "necessary":
         need = "own" if causes[0].kind in ("plan", "starting") else "yes"
@@ -140,7 +142,8 @@ def _nobody(answer: MotionReason) -> bool:
 
 def _misnamed(answer: MotionReason) -> bool:
     """Whether what we did is far from what the question called it: nowhere near a standstill."""
-    if answer.premise or answer.asked not in STOPS or answer.deed.action in STOPS:
+    halts = STOPS | YIELDS
+    if answer.premise or answer.asked not in halts or answer.deed.action in halts:
         return False
     if any(cause.vehicle is not None for cause in answer.causes[:1]):
         return False

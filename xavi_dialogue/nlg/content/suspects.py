@@ -1,9 +1,15 @@
 """Suspects: whether the vehicle that a question takes for the cause is one, with the reason."""
 
-from xavi_dialogue.domain.reasons import Suspected
+from typing import Final
+
+from xavi_dialogue.domain.reasons import NobodyElse, Suspected
 from xavi_dialogue.domain.terms import Vehicle, Vehicles
+from xavi_dialogue.nlg.content.plan import Plan
+from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Who
+
+FEW: Final = 3  # others who are named
 
 
 def suspected(
@@ -41,6 +47,20 @@ def suspected(
     if told or part in ("none", "neither"):
         return (message("VERDICT_ON", reason=reason, **slots),)
     return (message("SUSPECTED", **slots), reason)
+
+
+def plan_nobody_else(answer: NobodyElse, context: SpeechContext) -> Plan:
+    """Plan whether others than those named mattered; a few others are named."""
+    few = answer.matter and len(answer.others) <= FEW
+    slots = {
+        "alone": not answer.others,
+        "several": len(answer.named) > 1,
+        "named": all_of(answer.named, answer.decided),
+        "others": all_of(answer.others, answer.decided) if few else None,
+        "kind": {True: "other", False: "same", None: "open"}[answer.matter],
+        "past": answer.past,
+    }
+    return Plan((message("NOBODY_ELSE", **slots),))
 
 
 def all_of(vehicles: tuple[int, ...], time: float) -> Who | None:

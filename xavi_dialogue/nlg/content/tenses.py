@@ -9,6 +9,11 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense
 PRESENT = 1.0  # [s] what is so long past still counts as now ...
 #: What is seen at once to be over.
 SEEN_OVER = frozenset(("brake", "slow-down", "speed-up", "stop", "stand", "wait", "give-way"))
+#: What is done at junctions, of which there are several.
+TURNS = frozenset(
+    ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "enter", "leave",
+     "let-go")
+)  # fmt: skip
 OLD = 6.0  # [s] from which a past event is given its time
 NAMED = 0.3  # [s] ... unless that time was named
 
@@ -25,13 +30,22 @@ def goes_on(episode: Episode, now: float) -> bool:
 
 
 def dated(clause: Clause, episode: Episode, context: SpeechContext) -> Clause:
-    """Add when it was to a clause of slowing or waiting that is past and not only just over."""
-    repeated = episode.action in SEEN_OVER
-    old = repeated and episode.end is not None and context.now - episode.end > OLD
-    if not old or context.then or clause.tense != "past":
+    """Add when it was to a clause of slowing, waiting or turning that is past, and not just over.
+
+    It may not be the one that was meant, so that is told even where a time or place was named.
+    """
+    begun = began(episode, context)
+    if begun is None or clause.tense != "past":
         return clause
-    rest = (*clause.rest, Moment(episode.begin))
+    rest = (*clause.rest, begun)
     return Clause(clause.subject, clause.verb, rest, "past", clause.progressive, clause.negated)
+
+
+def began(episode: Episode, context: SpeechContext) -> Moment | None:
+    """Tell when something began of which there may be several, and that is not only just over."""
+    repeated = episode.action in SEEN_OVER or episode.action in TURNS
+    old = repeated and episode.end is not None and context.now - episode.end > OLD
+    return Moment(episode.begin) if old else None
 
 
 def tense_at(time: float, now: float, present: float = PRESENT) -> Tense:

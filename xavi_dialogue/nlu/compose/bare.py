@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Back,
     Ego,
@@ -63,7 +64,8 @@ class BareQuestions(Suppositions):
         if wh.kind == "which":
             return self._bare_which(wh, clause, thing)
         if wh.besides or clause.else_:
-            return [((Elliptic(besides=True),), 0.0)]
+            who = Elliptic(SOMEBODY_ELSE) if wh.kind == "who" and event is None else None
+            return [((who or Elliptic(besides=True),), 0.0)]
         free = wh.kind in ("what", "where") and thing in (None, NEXT) and event is None
         if free and _onward(unit, clause):
             return [((_next(unit),), 0.0)]

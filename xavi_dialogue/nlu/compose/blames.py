@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Junction,
+    Nobody,
     Pronoun,
     Proposition,
     Thing,
@@ -109,6 +110,8 @@ def of_one_alone(act: Act, words: str) -> Act:
     if not isinstance(act, Ask) or not _ALONE.search(words):
         return act
     match act.question:
+        case Why(suspect=Nobody(described=Described(other=True) as thing)) as why:
+            return Ask(replace(why, suspect=thing))
         case Why(suspect=thing, rival=None) as why if thing is not None:
             return Ask(replace(why, alone=True))
         case Whether(

@@ -118,6 +118,8 @@ def event_of(clause: Clause, match: Match) -> Event:
     action = _shown(action, clause, match)
     action = _named(action, thing, clause)
     time = when(clause, match)
+    if action == "let-go" and isinstance(time, Unsaid):
+        time = _let_then(clause)
     place = where(clause, match)
     if action in _AT_EXITS and thing is None and place is not None:
         thing, place = _exit_meant(place)
@@ -143,6 +145,13 @@ def event_of(clause: Clause, match: Match) -> Event:
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
+
+
+def _let_then(clause: Clause) -> Any:
+    """Give the time of "let him go before that", which stands with what he does."""
+    deeds = (part for part in (clause.bare, clause.infinitive) if isinstance(part, Clause))
+    times = (deed.time for deed in deeds if not isinstance(deed.time, Unsaid))
+    return next(times, Unsaid())
 
 
 def _modal(clause: Clause, actor: Thing) -> str | None:

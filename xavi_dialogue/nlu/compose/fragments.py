@@ -14,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Social,
     Whether,
 )
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -52,6 +53,7 @@ from xavi_dialogue.nlu.compose.wishes import bare_wish
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+_THINGS = frozenset({"something", "anything", "another"})
 _STYLE = {
     "simpl": "simpler",
     "short": "shorter",
@@ -195,6 +197,10 @@ class Fragments(BareQuestions):
             return [((Elliptic(besides=True),), 0.1)]
         if thing is None and event is None and isinstance(clause.time, Unsaid):
             return []
+        if thing in (SOMEBODY_ELSE, Nobody(SOMEBODY_ELSE)) and event is None:
+            # "Or something else?" may be of no vehicle.
+            cost = 0.0 if _THINGS.isdisjoint(words_of(unit).split()) else 0.1
+            return [((Elliptic(SOMEBODY_ELSE, time=clause.time),), cost)]
         if isinstance(thing, Nobody) and thing.described is not None:
             denied = thing.described
             if denied.kind == "vehicle" and (denied.colour or denied.bearing or denied.other):

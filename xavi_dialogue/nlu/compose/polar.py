@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Is,
+    Nobody,
     Not,
     Pronoun,
     Proposition,
@@ -37,6 +38,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
     Vehicle,
+    Vehicles,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import as_of
@@ -290,7 +292,9 @@ class Polar(Comparing):
         if value.name == "startle" and isinstance(as_thing(value.object), Ego):
             return Why(That(), suspect=value.subject)  # "did he scare you?"
         if value.name == "matter":
-            return WhatWouldChange(None)
+            whom = as_thing(value.subject)
+            users = isinstance(whom, Vehicle | Vehicles | Described | Nobody)
+            return Why(That(), suspect=whom) if users else WhatWouldChange(None)
         staked = clause.verb is not None and clause.verb.key == "bet"
         if staked and clause.modal == "would" and isinstance(as_thing(value.subject), Ego):
             return HowSure(value.content)  # "would you bet on it?"

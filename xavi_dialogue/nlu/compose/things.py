@@ -177,7 +177,7 @@ class Nouns(Followers):
         if leaf.key == "neither":
             return NONE_OF_THEM
         traits.determiner = "indef"
-        if leaf.key == "somebody":
+        if leaf.key in ("somebody", "nobody"):
             words = {word for part in leaves_of(core) for word in part.words}
             traits.other |= bool({"else", "another"} & words)
         quality = leaf_of(core, "ADJ")

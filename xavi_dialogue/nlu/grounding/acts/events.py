@@ -40,6 +40,7 @@ SIDEWAYS: Final[dict[ActionName, ActionName]] = {
     "exit-left": "change-left", "exit-right": "change-right",
 }  # fmt: skip
 _HELD: Final = frozenset(("wait", "stand", "stop", "give-way", "brake", "slow-down", "let-go"))
+_TURNS: Final = frozenset(("turn", "exit-left", "exit-right", "exit-straight"))
 _HALTS: Final = frozenset(("stand", "stop", "wait"))
 UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
@@ -53,7 +54,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = completed(spoken, g)
+    spoken = _at_junction(completed(spoken, g))
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
@@ -121,6 +122,16 @@ def _window(spoken: Event, mode: Mode, g: Grounder, outer: Window | None) -> Win
         case Relative(relation="during", anchor=Junction()) if spoken.action in _HELD:
             return _before_entering(found, g)
     return found
+
+
+def _at_junction(spoken: Event) -> Event:
+    """Take the junction at which something was done, by its rank, for when that was."""
+    place, past = spoken.object, spoken.tense in ("past", "perfect")
+    if not isinstance(place, Junction) or place.rank is None or not past:
+        return spoken
+    if spoken.action not in _HELD | _TURNS or not isinstance(spoken.time, Unsaid):
+        return spoken
+    return replace(spoken, object=None, time=Relative("during", place))
 
 
 def _before_entering(found: Window, g: Grounder) -> Window:

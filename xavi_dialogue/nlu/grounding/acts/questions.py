@@ -32,6 +32,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Between,
     Described,
@@ -79,6 +80,8 @@ def _why(spoken: Why, g: Grounder) -> Why:
     of = g.proposition(spoken.of, "presupposed")
     instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
     event = first(of, Event)
+    if spoken.suspect == SOMEBODY_ELSE:
+        return replace(spoken, of=of, instead=instead)
     blamed: Thing | None = None if isinstance(spoken.suspect, Nobody) else spoken.suspect
     if blamed is not None and isinstance(spoken.of, That) and asked_who(g.context):
         g.notes.cost += UNASKED

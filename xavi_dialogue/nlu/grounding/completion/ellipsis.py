@@ -33,6 +33,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -146,6 +147,8 @@ def _bare(spoken: Elliptic) -> bool:
 def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
     if spoken.besides:
         return Ask(_besides(question, g))
+    if spoken.thing == SOMEBODY_ELSE:
+        return Ask(_somebody_else(question))
     if question is None:
         return _frameless(spoken, g)
     new: Question = question
@@ -166,6 +169,20 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if spoken.negated:
         new = _negated(new)
     return Ask(new)
+
+
+def _somebody_else(question: Question | None) -> Question:
+    """Ask whether others are why we did what was asked about; else list who is there."""
+    match question:
+        case Why(of=of) if first(of, Vehicle) is None:
+            return replace(question, suspect=SOMEBODY_ELSE, rival=None, alone=False)
+        case Whether(that=Happens(event=Event(actor=Ego(), object=Vehicle()) as event)) if (
+            event.action in _FOR_WHOM
+        ):
+            return Why(Happens(replace(event, object=None)), suspect=SOMEBODY_ELSE)
+        case Which(such=Happens()):
+            return question
+    return Listing("vehicles")
 
 
 def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:

@@ -84,6 +84,11 @@ def junction(thing: Junction, g: Grounder, window: Window) -> Junction:
     if thing.rank is None and past and behind:
         earlier = [v for v in behind if v.begin <= window.end + APART]
         return replace(thing, time=(earlier or list(behind))[-1].begin)
+    if thing.rank is not None and past and behind:  # "the first one" of the ride so far
+        if thing.rank > len(behind):
+            g.notes.cost += NOWHERE
+            return thing
+        return replace(thing, time=behind[thing.rank - 1].begin)
     rank = thing.rank or 1
     if here is not None and rank == 1:
         return replace(thing, time=here.begin)
