@@ -117,7 +117,7 @@ class NobodyElse(Value, frozen=True):
     """Whether others than those told as causes mattered for a deed, by planning without them."""
 
     named: tuple[int, ...]  # the causes
-    others: tuple[int, ...]  # who else was seen at that decision
+    others: tuple[int, ...]  # who else was seen at that decision; those who matter, where known
     matter: bool | None  # without all of the others something else is done; None: not known
     decided: float  # [s]
     past: bool = True

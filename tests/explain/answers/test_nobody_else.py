@@ -64,11 +64,20 @@ def test_the_decision_is_made_again_without_all_others() -> None:
     assert raised.value.result.removed == (2, 3)
 
 
-@pytest.mark.parametrize(("plan", "matter"), [("continue", False), ("stop", True)])
-def test_others_matter_where_something_else_is_done(plan: str, matter: bool) -> None:
+def test_they_do_not_matter_where_the_same_is_done_without_them() -> None:
     trace = seen(1, 2, 3)
-    found = told(trace, without(trace, 2, 3, plan=plan))
-    assert found == NobodyElse((1,), (2, 3), matter, NOW)
+    assert told(trace, without(trace, 2, 3)) == NobodyElse((1,), (2, 3), False, NOW)
+
+
+@pytest.mark.parametrize(
+    ("plans", "matter"),
+    [(("continue", "stop"), (3,)), (("stop", "stop"), (2, 3)), (("continue", "continue"), (2, 3))],
+)
+def test_those_who_matter_alone_are_told(plans: tuple[str, str], matter: object) -> None:
+    trace = seen(1, 2, 3)
+    singly = [without(trace, v, plan=plan) for v, plan in zip((2, 3), plans, strict=True)]
+    found = told(trace, without(trace, 2, 3, plan="stop"), *singly)
+    assert found == NobodyElse((1,), matter, True, NOW)  # type: ignore[arg-type]
 
 
 def test_who_would_have_come_in_its_place_is_a_cause() -> None:

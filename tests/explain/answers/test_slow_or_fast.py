@@ -222,9 +222,10 @@ OFF = (9.0,) * 12 + (0.0, 0.0, 0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0)
         (Span(1.0, 1.0, said=True), 9.0, (PLAN,), True, 1.0),
     ],
 )
-def test_our_speed_is_told_by_the_limit(
-    span: Any, speed: Any, causes: Any, premise: bool, end: float | None
+def test_our_speed_is_told_by_the_limit_where_nobody_holds_us_up(
+    slow: Slow, span: Any, speed: Any, causes: Any, premise: bool, end: float | None
 ) -> None:
+    slow.causes = (LIMIT,)
     found = room.fast(asked(span, speed))
     assert isinstance(found, MotionReason)
     assert (found.causes, found.premise, found.manner) == (causes, premise, "fast")
@@ -233,6 +234,26 @@ def test_our_speed_is_told_by_the_limit(
     assert found.deed.begin == pytest.approx(begin)
     assert found.deed.end == (None if end is None else pytest.approx(end))
     assert found.deed.speed_from == found.deed.speed_to == (12.0 if speed is OFF else speed)
+
+
+@pytest.mark.parametrize(
+    ("speed", "causes", "told"),
+    [
+        (9.0, (LEADER,), (LEADER,)),
+        (18.0, (LEADER,), (LEADER,)),
+        (18.8, (LEADER,), (LIMIT,)),
+        (9.0, (LIMIT,), (LIMIT,)),
+        (OFF, (LEADER,), (MotionCause("starting"), LIMIT)),
+    ],
+)
+def test_below_the_limit_our_speed_is_told_by_who_holds_us_up(
+    slow: Slow, speed: Any, causes: Any, told: Any
+) -> None:
+    slow.causes = causes
+    found = room.fast(asked(None, speed))
+    assert isinstance(found, MotionReason)
+    assert found.causes == told
+    assert found.manner == ("slowly" if told == (LEADER,) else "fast")
 
 
 def test_before_the_record_there_is_no_speed() -> None:

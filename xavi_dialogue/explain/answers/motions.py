@@ -12,6 +12,7 @@ from xavi_dialogue.domain.answers import (
     DidNotHappen,
     MotionCause,
     MotionReason,
+    NeedRollout,
     NotRecorded,
 )
 from xavi_dialogue.domain.discourse import Span
@@ -25,7 +26,7 @@ from xavi_dialogue.explain.causes.driving import Reasons, as_of, reasons_for
 from xavi_dialogue.explain.causes.natural import stopping
 from xavi_dialogue.explain.causes.premise import episode_of
 from xavi_dialogue.explain.causes.roadside import limit_at, setting_off
-from xavi_dialogue.explain.causes.slowness import Slowness, slowness, with_nearest
+from xavi_dialogue.explain.causes.slowness import AT_LIMIT, Slowness, slowness, with_nearest
 from xavi_dialogue.explain.causes.terms import RISK
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import chose
@@ -46,6 +47,7 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
     "avoid": (SLOWING, ("stop", "stand")),
 }
 STILL: tuple[ActionName, ...] = ("stop", "stand")
+FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons by which nothing is in our way
 STANDING = 0.3  # [m/s]
 CREEPING = 2.5  # [m/s] down to which one has not stopped
 RISKY = 0.05  # risk of a collision by which driving on is worse where somebody is in the way too
@@ -168,18 +170,22 @@ def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
 
 
 def fast(scene: Asked) -> Answer:
-    """Tell why we drive as fast as we do: the limit, and setting off.
+    """Tell why we drive as fast as we do: who or what keeps us below the limit, else the limit.
 
     Raises:
-        Unanswered: the record lacks it.
+        Unanswered: the record lacks it; or rollouts are needed.
     """
     time = scene.moment
     speed = speed_at(scene.ride, time)
     if speed is None:
         raise Unanswered(NotRecorded("before-record", since=time))
     limit = limit_at(scene.ride, time)
+    starts = setting_off(scene.ride, time)
+    held = None if limit is None or starts or speed >= AT_LIMIT * limit else _held(scene)
+    if held is not None:
+        return held
     causes: list[MotionCause] = []
-    if setting_off(scene.ride, time):
+    if starts:
         causes.append(MotionCause("starting"))
     if limit is not None:
         causes.append(MotionCause("limit", value=limit))
@@ -192,6 +198,19 @@ def fast(scene: Asked) -> Answer:
         manner="fast",
         limit=limit,
     )
+
+
+def _held(scene: Asked) -> MotionReason | None:
+    """Tell why we do not drive at the limit; None where nothing is known to keep us from it."""
+    try:
+        found = slow(scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    if not isinstance(found, MotionReason) or all(c.kind in FREE for c in found.causes):
+        return None
+    return replace(found, premise=True)
 
 
 def _episode(

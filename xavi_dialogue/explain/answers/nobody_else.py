@@ -1,8 +1,11 @@
 """Nobody else: whether others than the causes told of a deed mattered for it.
 
 All others who were seen at the decision that explains the deed are taken away together, and the
-decision is made again.
+decision is made again. Where something else is done then, the nearest are tried one by one.
 """
+
+import math
+from typing import Final
 
 from planner.trace import PlanTrace
 from sim.scene import EGO
@@ -11,6 +14,8 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.suspects import blamed, causation_of
 from xavi_dialogue.explain.causes.driving import Reasons
 from xavi_dialogue.explain.causes.suppositions import happens_without, planned_without
+
+TRIED: Final = 3  # of the others, the nearest first, who are tried one by one where all matter
 
 
 def mattered(scene: Asked, found: Answer) -> Answer:
@@ -30,8 +35,19 @@ def mattered(scene: Asked, found: Answer) -> Answer:
         return found
     others = tuple(v for v in trace.scene if v not in (EGO, *named))
     matter = _matter(scene, found, trace, others) if others else False
+    if matter:
+        nearest = sorted(others, key=lambda vehicle: _away(trace, vehicle))[:TRIED]
+        needed = [
+            one for one in nearest if len(others) > 1 and _matter(scene, found, trace, (one,))
+        ]
+        others = tuple(needed) or others
     past = found.past or trace is not scene.ride.latest
     return NobodyElse(named, others, matter, trace.sim_time, past)
+
+
+def _away(trace: PlanTrace, vehicle: int) -> float:
+    """How far [m] away a vehicle was."""
+    return math.dist(trace.scene[vehicle].position, trace.scene[EGO].position)
 
 
 def _decision(scene: Asked, names: tuple[str, ...]) -> PlanTrace | None:
