@@ -102,6 +102,14 @@ WAY = replace(LATER, foil=("exit-left",), way=True)
 
 TROUBLE = (Share("time", 4.0), Share("effort", 1.0))
 
+HIDING = (
+    ("hidden", 1, "ahead"), ("hidden", None, "left"), ("hidden", None, "right"),
+    ("may-go-first", 1, None),
+)  # fmt: skip
+OTHERS = (
+    ((1,), (), False), ((1, 2), (), False), ((1,), (2, 3), False), ((1,), (2, 3), True),
+    ((1,), (2, 3, 4, 5), True), ((1, 2), (3,), None),
+)  # fmt: skip
 LONG_AGO = Episode(E, "give-way", 4.0, 8.0, object=V)
 
 CASES: tuple[Answer, ...] = (
@@ -324,19 +332,12 @@ CASES: tuple[Answer, ...] = (
         for past in (False, True)
     ),
     *(
-        MotionReason(SLOWED, (MotionCause("hidden", vehicle, side=side),))
-        for vehicle, side in ((1, "ahead"), (None, "left"), (None, "right"))
+        MotionReason(SLOWED, (MotionCause(kind, vehicle, side=side),))
+        for kind, vehicle, side in HIDING
     ),
     *(
         NobodyElse(named, others, matter, NOW, past)
-        for named, others, matter in (
-            ((1,), (), False),
-            ((1, 2), (), False),
-            ((1,), (2, 3), False),
-            ((1,), (2, 3), True),
-            ((1,), (2, 3, 4, 5), True),
-            ((1, 2), (3,), None),
-        )
+        for named, others, matter in OTHERS
         for past in (True, False)
     ),
     MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="let-go"),

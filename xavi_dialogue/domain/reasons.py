@@ -58,6 +58,7 @@ class MotionCause(Value, frozen=True):
         "roundabout",  # likewise a roundabout
         "limit",  # the speed limit
         "give-way-line",  # a line at which one must be ready to stop
+        "may-go-first",  # somebody who might have to be let go first
         "hidden",  # what cannot be seen, past `vehicle`, or a building
         "destination",
         "lane-end",

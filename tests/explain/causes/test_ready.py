@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
+from msgspec import structs
 
 from planner.events import Event as Told
 from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
@@ -84,6 +86,24 @@ def test_who_might_have_come_first() -> None:
     assert readied((in_the_way(2, 0.0, 2.9),), (2,)) is None  # before
     both = (in_the_way(1, 4.0, 7.0), in_the_way(2, 4.0, 5.0))
     assert readied(both, (1, 2)) == MotionCause("give-way-line", 1)  # longest
+
+
+@pytest.mark.parametrize(
+    ("kind", "since", "told"),
+    [("pedestrian", 4.0, True), ("wheelchair", 5.9, True), ("car", 4.0, False),
+     ("pedestrian", 6.5, False)],
+)  # fmt: skip
+def test_who_might_have_crossed_on_foot(kind: str, since: float, told: bool) -> None:
+    walker = Actor(straight(60.0, 30.0, 1.2, -math.pi / 2.0))
+    held = (in_the_way(1, since, since + 3.0, "right-of-way"),)
+    driven = Driven({0: OURS, 1: walker}, 8.0, held=lambda _: held, roads=lambda _: road()).ride()
+    seen = tuple(
+        structs.replace(t, scene={**t.scene, 1: replace(t.scene[1], kind=kind)})
+        for t in driven.traces
+    )
+    whole = Ride(replace(driven.record, traces=seen))
+    found = ready_for(whole, World(whole), deed(), ())
+    assert found == (MotionCause("may-go-first", 1) if told else None)
 
 
 def test_whom_a_stop_stays_behind() -> None:

@@ -7,7 +7,7 @@ in the way of what it put off; it was about to change lanes; or it had decided t
 from collections.abc import Collection
 from itertools import pairwise
 
-from planner.trace import PlanTrace
+from planner.trace import ON_FOOT, PlanTrace
 from xavi_dialogue.causal.holdups import VehicleHoldUp, hold_ups
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
@@ -21,7 +21,8 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 AHEAD = 1.0  # [s] before an episode, in which the decision for it may lie
 TURNS = frozenset(("exit-left", "exit-right"))
 SOON = 2.5  # [s] after an episode in which a change of lanes belongs to it
-LEAST = 0.05  # share of the rollouts of a plan in which somebody must have held it up
+LEAST = 0.05  # share of the rollouts of a plan in which somebody must have held it up ...
+MIGHT = 0.2  # ... who is on foot, and may not want to cross
 
 
 def ready_for(
@@ -46,9 +47,16 @@ def ready_for(
                 cause = MotionCause("give-way-line", one.vehicle)
             elif ahead and chose(trace, "stop"):
                 cause = MotionCause("leader", one.vehicle)
+            elif _on_foot(trace, one.vehicle) and one.share >= MIGHT and one.began <= end:
+                cause = MotionCause("may-go-first", one.vehicle)
             if cause is not None:
                 found[cause] = max(found.get(cause, 0.0), one.expected)
     return max(found, key=lambda cause: found[cause], default=None)
+
+
+def _on_foot(trace: PlanTrace, name: int) -> bool:
+    """Whether somebody is no vehicle, and so is in no rule of a junction."""
+    return name in trace.scene and trace.scene[name].kind in ON_FOOT
 
 
 def _held(ride: Ride, trace: PlanTrace, deed: Episode, end: float) -> list[VehicleHoldUp]:

@@ -117,9 +117,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     action = _paced(action, clause, match.object)
     action = _shown(action, clause, match)
     action = _named(action, thing, clause)
-    time = when(clause, match)
-    if action == "let-go" and isinstance(time, Unsaid):
-        time = _let_then(clause)
+    time = _let_then(clause, when(clause, match), action)
     place = where(clause, match)
     if action in _AT_EXITS and thing is None and place is not None:
         thing, place = _exit_meant(place)
@@ -147,8 +145,10 @@ def event_of(clause: Clause, match: Match) -> Event:
     )  # fmt: skip
 
 
-def _let_then(clause: Clause) -> Any:
+def _let_then(clause: Clause, time: Any, action: str) -> Any:
     """Give the time of "let him go before that", which stands with what he does."""
+    if action != "let-go" or not isinstance(time, Unsaid):
+        return time
     deeds = (part for part in (clause.bare, clause.infinitive) if isinstance(part, Clause))
     times = (deed.time for deed in deeds if not isinstance(deed.time, Unsaid))
     return next(times, Unsaid())
