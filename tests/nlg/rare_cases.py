@@ -110,6 +110,7 @@ OTHERS = (
     ((1,), (), False), ((1, 2), (), False), ((1,), (2, 3), False), ((1,), (2, 3), True),
     ((1,), (2, 3, 4, 5), True), ((1, 2), (3,), None),
 )  # fmt: skip
+BRAKED = Episode(E, "brake", 4.0, 8.0, speed_to=6.0)
 LONG_AGO = Episode(E, "give-way", 4.0, 8.0, object=V)
 
 CASES: tuple[Answer, ...] = (
@@ -342,10 +343,5 @@ CASES: tuple[Answer, ...] = (
     ),
     MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="let-go"),
     MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="slow-down"),
-    MotionReason(
-        Episode(E, "brake", 4.0, 8.0, speed_from=12.0, speed_to=6.0),
-        (MotionCause("turn"),),
-        premise=False,
-        asked="wait",
-    ),
+    MotionReason(BRAKED, (MotionCause("turn"),), premise=False, asked="wait"),
 )
