@@ -159,9 +159,12 @@ def nobody_first(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("right of way", f"{match[0]}: {sorted(set.union(*first))}")
 
 
-@claim(r"(?P<who>V\d+) (?P<be>is|was) (?P<how>slowing down|stopping|moving in) ahead of us")
+@claim(
+    r"(?P<who>V\d+) (?P<be>is|was) (?P<how>slowing down|stopping|moving in) "
+    r"(?:ahead of us|in that lane)"
+)
 def slows_ahead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that one slows down ahead of us: as seen, or in the drives that it holds up."""
+    """Check that one slows down ahead: as seen, or in the drives that it holds up."""
     who = said.who(match["who"])
     held = [] if said.decision is None else [h for h in held_up(said.decision) if h.vehicle in who]
     if match["how"] == "moving in":

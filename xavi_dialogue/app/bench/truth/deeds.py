@@ -15,7 +15,12 @@ DOING = {
     "turning right": "exit-right",
     "turning left": "exit-left",
 }
-DONE = {"turned right": "exit-right", "turned left": "exit-left"}
+EXITS = ("exit-left", "exit-right", "exit-straight")
+DONE = {
+    "turned right": ("exit-right",),
+    "turned left": ("exit-left",),
+    "left the roundabout": EXITS,
+}
 HARD = -1.5  # [m/s2] a braking that nobody overlooks
 JUST = 3.0  # [s]
 NEARLY = 0.5  # [s] about a decision in which what is told of it was seen
@@ -40,7 +45,7 @@ def turned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         return
     done = [
         e for e in said.ride.events
-        if e.action == DONE[match["how"]] and at[0] - 8.0 <= e.sim_time <= at[1] + 12.0
+        if e.action in DONE[match["how"]] and at[0] - 8.0 <= e.sim_time <= at[1] + 12.0
     ]  # fmt: skip
     if not done:
         yield Fault("manoeuvre", match[0])
