@@ -11,6 +11,7 @@ from planner.kernels.course import Bools
 from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
 from planner.kernels.projection import SIDE_MARGIN, Stretches, project, select
 from planner.kernels.reaction import Ints, react
+from planner.levels import NOBODY_ELSEWHERE, elsewhere
 from planner.manoeuvres import Foe, GiveWay, LetCross
 from planner.signals import NO_LIGHTS, Lights
 from planner.trace import HoldUp
@@ -106,17 +107,20 @@ class Traffic:
             {} if pool is None else pool,
         )
 
-    def reacting(self, own: Array, size: tuple[float, float], first: int) -> "Traffic":
+    def reacting(
+        self, own: Array, size: tuple[float, float], first: int, path: Path | None = None
+    ) -> "Traffic":
         """The motions where the others react to a vehicle; the same object where nobody does.
 
         Args:
             own: [S, 4] states of the vehicle at steps `first`, `first` + 1, ...
             size: length and width [m] of the vehicle.
             first: step of the first of them.
+            path: that it drives along.
         """
-        states, noticed, braking = react(
-            own, size, first, self.states, self.sizes, self.noticed, self.braking
-        )
+        apart = NOBODY_ELSEWHERE if path is None else self.elsewhere(path)
+        others = (self.states, self.sizes, self.noticed, self.braking)
+        states, noticed, braking = react(own, size, first, *others, apart)
         if states is self.states and np.array_equal(noticed, self.noticed):
             return self
         tags = self.tags
@@ -124,6 +128,17 @@ class Traffic:
             late = zip(tags, braking.tolist(), strict=True)
             tags = tuple(object() if brakes else tag for tag, brakes in late)
         return replace(self, states=states, noticed=noticed, braking=braking, tags=tags)
+
+    def elsewhere(self, path: Path) -> Bools:
+        """Who is above or below a path, and not on it [M, T]; [0, 0] where there is no bridge."""
+        if not path.passings:
+            return NOBODY_ELSEWHERE
+        return elsewhere(path.passings, self.states, self.sizes, self.on_foot)
+
+    def beside(self, path: Path) -> Array:
+        """The states without those above or below a path, which are NaN."""
+        there = self.elsewhere(path)
+        return np.where(there[:, :, None], np.nan, self.states) if len(there) else self.states
 
     def since(self, step: int) -> "Traffic":
         """The same motions, with a later step as step 0."""
@@ -225,10 +240,13 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
         first: step from which the occupancy is needed.
         last: step up to which it is needed.
     """
-    stretches = project(
-        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
-    )
-    return Occupancy(traffic, stretches)
+    return Occupancy(traffic, _projected(path, traffic, width, first, last))
+
+
+def _projected(path: Path, traffic: Traffic, width: float, first: int, last: int) -> Stretches:
+    """Where traffic is on a path; see `occupancy`."""
+    line, states = (path.points, path.arc, path.heading), traffic.beside(path)
+    return project(*line, states, traffic.spaces, width, first, last)
 
 
 def meeting(
@@ -270,9 +288,7 @@ def meeting(
 
 def _add(met: Met, path: Path, traffic: Traffic, width: float, first: int, last: int) -> None:
     """Project motions that have not been projected onto a path yet."""
-    found = project(
-        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
-    )
+    found = _projected(path, traffic, width, first, last)
     known = 0 if met.stretches is None else len(met.stretches.last)
     for m, (tag, last_on) in enumerate(zip(traffic.tags, found.last.tolist(), strict=True)):
         met.rows[tag] = known + m if last_on >= 0 else -1
