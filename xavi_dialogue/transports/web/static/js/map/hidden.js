@@ -1,0 +1,95 @@
+/** What we cannot see: hidden parts of the road, and who may come from there. */
+
+import { drawGhost, middleOf } from "./bodies.js";
+import { meet, partOf, pathOf } from "./lines.js";
+import { percent } from "../figures.js";
+
+const HATCH = 8; // [px] between two lines of the hatching
+const CAR = { length: 4.8, width: 1.8 }; // [m] of who is imagined
+const PATHS = new WeakMap(); // by the list of hidden stretches: what is to be drawn
+let hatching = { key: "", pattern: null };
+
+/** Draw the hidden stretches; returns whether any is in view. */
+export function drawHidden(hidden, { context, view, colours, roads }) {
+  if (!hidden?.length || !roads) return false;
+  const inView = pathsOf(hidden, roads).filter((one) => meet(one.box, view.bounds));
+  if (!inView.length) return false;
+  const pattern = patternOf(context, view, colours);
+  view.world(context);
+  context.setLineDash([]);
+  context.lineCap = "butt";
+  for (const colour of [colours.get("map-hidden", 0.32), pattern]) {
+    context.strokeStyle = colour;
+    for (const one of inView) {
+      context.lineWidth = one.width;
+      context.stroke(one.path);
+    }
+  }
+  return true;
+}
+
+function pathsOf(hidden, roads) {
+  let found = PATHS.get(hidden);
+  if (found?.roads !== roads) {
+    const items = [];
+    for (const [id, begin, end] of hidden) {
+      const lane = roads.lanes.get(id) ?? roads.others.get(id);
+      const line = lane ? partOf(lane.line, begin, end) : [];
+      if (line.length > 3) items.push({ path: pathOf(line), width: lane.width, box: boxOf(line) });
+    }
+    PATHS.set(hidden, (found = { roads, items }));
+  }
+  return found.items;
+}
+
+function boxOf(line) {
+  const [xs, ys] = [line.filter((_, i) => i % 2 === 0), line.filter((_, i) => i % 2 === 1)];
+  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+}
+
+/** Slanting lines that stay where they are in the world. */
+function patternOf(context, view, colours) {
+  const key = `${view.ratio} ${colours.get("map-hidden")}`;
+  if (hatching.key !== key) {
+    const size = Math.round(HATCH * view.ratio);
+    const bitmap = new OffscreenCanvas(size, size);
+    const pen = bitmap.getContext("2d");
+    pen.strokeStyle = colours.get("map-hidden", 0.9);
+    pen.lineWidth = 1.3 * view.ratio;
+    for (const shift of [-size, 0, size]) {
+      pen.moveTo(shift - size / 2, -size / 2);
+      pen.lineTo(shift + 1.5 * size, 1.5 * size);
+    }
+    pen.stroke();
+    hatching = { key, pattern: context.createPattern(bitmap, "repeat") };
+  }
+  hatching.pattern.setTransform(new DOMMatrix().scale(1 / view.k, 1 / view.k));
+  return hatching.pattern;
+}
+
+/** Draw who may come out of what is hidden; returns how many are in view. */
+export function drawImagined(detail, { context, view, colours, labels }) {
+  let drawn = 0;
+  for (const [k, one] of (detail?.imagined ?? []).entries()) {
+    const car = { ...CAR, x: one.position[0], y: one.position[1], heading: one.heading };
+    if (!meet([car.x, car.y, car.x, car.y], view.bounds)) continue;
+    drawGhost(context, view, car, colours, { colour: "warn", fill: 0.25, line: 1 });
+    const [x, y] = view.toScreen(...middleOf(car));
+    const chance = percent(one.probability);
+    labels.add({
+      key: `imagined ${k}`,
+      text: `unseen: ${chance}`,
+      short: `? ${chance}`,
+      x,
+      y,
+      reach: 12,
+      weight: 25,
+      wide: true,
+      ink: colours.get("warn"),
+      ground: colours.get("card", 0.92),
+      edge: colours.get("warn", 0.6),
+    });
+    drawn += 1;
+  }
+  return drawn;
+}
