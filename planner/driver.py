@@ -17,7 +17,7 @@ from planner.hidden_areas import Phantom
 from planner.lights import lights
 from planner.lookout import as_foreseen, changed, lookout
 from planner.memory import Memory
-from planner.phantoms import imagined, ways_ahead
+from planner.phantoms import around
 from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
@@ -160,12 +160,11 @@ class Driver:
         return lookout(roads, self._memory.watched, now, horizon, edges)
 
     def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
-        """Who might come out of what is hidden, at the junction ahead."""
+        """Who might come out of what is hidden, at the junction here or ahead."""
         if not scene.unseen:
             return ()
-        here = self._situation(scene)
-        links = ways_ahead(self._frame.roads, here.location, here.speed)
-        return imagined(view_of(self._frame.roads, self._memory, scene), links)
+        view = view_of(self._frame.roads, self._memory, scene)
+        return around(view, self._situation(scene).location)
 
     def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
         """Take up the first action of the plan, unless it is being driven already."""

@@ -1,4 +1,4 @@
-"""What is around the car on the map: people, bicycles, lights, crossings, hidden parts of the road."""
+"""What is around the car on the map: people, lights, crossings, hidden parts of the road."""
 
 import re
 from itertools import pairwise
