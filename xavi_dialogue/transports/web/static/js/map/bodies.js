@@ -118,7 +118,7 @@ const LOOKS = {
   },
   bicycle(pen) {
     const { context, colours, long, broad } = pen;
-    context.fillStyle = colours.get("map-glass");
+    context.fillStyle = colours.get("ink");
     for (const x of [-long / 2, long * 0.2]) context.fillRect(x, -1.2, long * 0.3, 2.4); // wheels
     context.fillRect(long * 0.18, -broad / 2, 1.6, broad); // handlebars
     shoulders(pen, -long * 0.08, broad * 0.3, broad * 0.46, pen.paint);

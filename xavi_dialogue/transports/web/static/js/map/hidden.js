@@ -1,7 +1,7 @@
 /** What we cannot see: hidden parts of the road, and who may come from there. */
 
 import { drawGhost, middleOf } from "./bodies.js";
-import { meet, partOf, pathOf } from "./lines.js";
+import { boundsOf, meet, partOf, trace } from "./lines.js";
 import { percent } from "../figures.js";
 
 const HATCH = 8; // [px] between two lines of the hatching
@@ -12,39 +12,38 @@ let hatching = { key: "", pattern: null };
 /** Draw the hidden stretches; returns whether any is in view. */
 export function drawHidden(hidden, { context, view, colours, roads }) {
   if (!hidden?.length || !roads) return false;
-  const inView = pathsOf(hidden, roads).filter((one) => meet(one.box, view.bounds));
-  if (!inView.length) return false;
+  const { box, byWidth } = pathsOf(hidden, roads);
+  if (!box || !meet(box, view.bounds)) return false;
   const pattern = patternOf(context, view, colours);
   view.world(context);
   context.setLineDash([]);
   context.lineCap = "butt";
   for (const colour of [colours.get("map-hidden", 0.32), pattern]) {
     context.strokeStyle = colour;
-    for (const one of inView) {
-      context.lineWidth = one.width;
-      context.stroke(one.path);
+    for (const [width, path] of byWidth) {
+      context.lineWidth = width;
+      context.stroke(path);
     }
   }
   return true;
 }
 
+/** One path for all lanes of a width: where they overlap, they are no darker. */
 function pathsOf(hidden, roads) {
   let found = PATHS.get(hidden);
   if (found?.roads !== roads) {
-    const items = [];
+    const [byWidth, lines] = [new Map(), []];
     for (const [id, begin, end] of hidden) {
       const lane = roads.lanes.get(id) ?? roads.others.get(id);
       const line = lane ? partOf(lane.line, begin, end) : [];
-      if (line.length > 3) items.push({ path: pathOf(line), width: lane.width, box: boxOf(line) });
+      if (line.length < 4) continue;
+      if (!byWidth.has(lane.width)) byWidth.set(lane.width, new Path2D());
+      trace(byWidth.get(lane.width), line);
+      lines.push(line);
     }
-    PATHS.set(hidden, (found = { roads, items }));
+    PATHS.set(hidden, (found = { roads, byWidth, box: boundsOf(lines, 2) }));
   }
-  return found.items;
-}
-
-function boxOf(line) {
-  const [xs, ys] = [line.filter((_, i) => i % 2 === 0), line.filter((_, i) => i % 2 === 1)];
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+  return found;
 }
 
 /** Slanting lines that stay where they are in the world. */
