@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
 
 import numpy as np
 
@@ -54,6 +53,24 @@ class Motions:
         return self.other.get(courses, self.usual)
 
 
+@dataclass(slots=True, eq=False)
+class Met:
+    """The stretches of one path that motions occupy, as far as these have been projected."""
+
+    stretches: Stretches | None = None
+    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
+
+
+@dataclass(slots=True, eq=False)
+class Pool:
+    """What has been found out of motions and paths; motions are told apart by their tags."""
+
+    #: By path, width, first and last step, and steps in all.
+    met: dict[tuple[Path, float, int, int, int], Met] = field(default_factory=dict)
+    #: Who is above or below a path at each step [T]; by path, and steps in all.
+    elsewhere: dict[tuple[Path, int], dict[object, Bools]] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Traffic:
     """The motions of several vehicles, in one table for the kernels, and what lights show them."""
@@ -68,14 +85,14 @@ class Traffic:
     on_foot: Bools  # [M]
     tags: tuple[object, ...]  # [M] the same where a motion is the same one, to the same step
     lights: Lights = field(default=NO_LIGHTS)
-    pool: "Pool" = field(default_factory=dict)
+    pool: Pool = field(default_factory=Pool)
 
     @classmethod
     def of(
         cls,
         obstacles: Sequence[Obstacle],
         lights: Lights = NO_LIGHTS,
-        pool: "Pool | None" = None,
+        pool: Pool | None = None,
     ) -> "Traffic":
         """The motions of obstacles; one that ends sooner than others stays as it is then.
 
@@ -104,7 +121,7 @@ class Traffic:
             np.array([o.on_foot for o in obstacles], np.bool_),
             tuple(obstacles),
             lights,
-            {} if pool is None else pool,
+            Pool() if pool is None else pool,
         )
 
     def reacting(
@@ -133,7 +150,12 @@ class Traffic:
         """Who is above or below a path, and not on it [M, T]; [0, 0] where there is no bridge."""
         if not path.passings:
             return NOBODY_ELSEWHERE
-        return elsewhere(path.passings, self.states, self.sizes, self.on_foot)
+        known = self.pool.elsewhere.setdefault((path, self.states.shape[1]), {})
+        fresh = self.only([m for m, tag in enumerate(self.tags) if tag not in known])
+        found = elsewhere(path.passings, fresh.states, fresh.sizes, fresh.on_foot)
+        known.update(zip(fresh.tags, found, strict=True))
+        rows = [known[tag] for tag in self.tags]
+        return np.array(rows, np.bool_).reshape(self.states.shape[:2])
 
     def beside(self, path: Path) -> Array:
         """The states without those above or below a path, which are NaN."""
@@ -167,18 +189,6 @@ class Traffic:
 
 
 NOBODY = Traffic.of(())
-
-
-@dataclass(slots=True, eq=False)
-class Met:
-    """The stretches of one path that motions occupy, as far as these have been projected."""
-
-    stretches: Stretches | None = None
-    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
-
-
-#: What has been projected onto paths: by path, width, first and last step, and steps in all.
-Pool: TypeAlias = dict[tuple[Path, float, int, int, int], Met]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -269,9 +279,9 @@ def meeting(
     if not traffic.vehicles:
         return occupancy(path, traffic, width, first, last)
     key = (path, width, first, last, traffic.states.shape[1])
-    met = traffic.pool.get(key)
+    met = traffic.pool.met.get(key)
     if met is None:
-        met = traffic.pool[key] = Met()
+        met = traffic.pool.met[key] = Met()
     fresh = [m for m, tag in enumerate(traffic.tags) if tag not in met.rows]
     if fresh or met.stretches is None:
         _add(met, path, traffic.only(fresh), width, first, last)
