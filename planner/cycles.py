@@ -190,7 +190,7 @@ class _Cycle:
             lasting = self._amber(letters) if AMBER in letters else RED_AMBER
             after = letters.replace(AMBER, RED)
             going = {k for k, letter in enumerate(letters) if letter == ABOUT_TO_GO}
-            return lasting - spent, self._with_green(after, going)
+            return lasting - spent, self._with_green(after, going) if going else after
         if any(letter in letters for letter in GREENS):
             left = residual(quantile, spent, begun=begun)
             return left, "".join(AMBER if letter in GREENS else letter for letter in letters)
@@ -213,12 +213,22 @@ class _Cycle:
     def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
         """Who goes next: who has been held longest, and the arms beside and opposite.
 
-        Of these, those that were held last only go with it where it was held no longer.
+        Of these, those that were held last only go with it where it was held no longer. Where a
+        crossing has been held longer than any arm, an arm goes with which it can be green; where
+        there is none, nobody goes but the people.
         """
         waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
-        if not waiting:
-            return set()
-        first = min(waiting, key=lambda k: (round(held[k], 1), k))
+        order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
+        people = [k for k in self._crossings if letters[k] == RED]
+        longest = min(people, key=lambda k: (round(held[k], 1), k), default=None)
+        if order and longest is not None and held[longest] < held[order[0]] - LEAST:
+            stages = (self._with(first, waiting, held) for first in order)
+            fitting = (x for x in stages if self._with_green(letters, x)[longest] != RED)
+            return next(fitting, set())
+        return self._with(order[0], waiting, held) if order else set()
+
+    def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
+        """An arm that goes, and those beside and opposite that go with it."""
         latest = max(held[k] for k in waiting)
         own = self._links[first][0]
         return {
@@ -241,12 +251,14 @@ class _Cycle:
         return self._with_people(now, ours)
 
     def _with_people(self, letters: str, going: Sequence[Link]) -> str:
-        """The same with crossings green, where all that go over them give way or are held."""
+        """The same with crossings green, where all that go over them turn and give way."""
         found = list(letters)
         for k, crossing in self._crossings.items():
             met = [x for x in going if x.junction == crossing.junction]
             over = [x for x in met if crossing.index in x.other_foes]
-            if letters[k] == RED and all(crossing.index in x.other_yields_to for x in over):
+            turning = all(x.direction != "straight" for x in over)
+            yielding = all(crossing.index in x.other_yields_to for x in over)
+            if letters[k] == RED and turning and yielding:
                 found[k] = LightState.GREEN.value
         return "".join(found)
 
