@@ -178,8 +178,9 @@ def far_to(
     to = reference(clause)
     if to is None and remaining(clause, actor):
         return measured("distance-to-go", clause, Ego())
-    arriving = event is not None and event.action == "arrive"
-    if arriving or isinstance(to, Destination):
+    goal = clause.time.anchor if isinstance(clause.time, Relative) else None
+    arriving = any(isinstance(e, Event) and e.action == "arrive" for e in (event, goal))
+    if arriving or isinstance(to, Destination) or isinstance(goal, Destination):
         return measured("distance-to-go", clause, Ego())
     if event is not None and isinstance(actor, Ego) and to is None and event.tense != "present":
         return measured("distance-driven", clause, Ego())

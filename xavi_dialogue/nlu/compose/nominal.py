@@ -193,6 +193,8 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return Listing("events", whose, time)
         case "evidence":
             return HowKnow(about)
+        case "ride" if isinstance(sem.clause, Happens) and isinstance(time, Unsaid):
+            return Summarise(None, sem.clause.event.time)  # "everything that happened since"
         case "summary" | "ride":
             of = None if isinstance(thing, Unknown) else _other_than_ego(thing)
             return Summarise(of, time)

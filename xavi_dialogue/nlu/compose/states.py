@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
+    Back,
     Caused,
     Compares,
     Described,
@@ -115,12 +116,21 @@ Found = tuple[Proposition, float]
 
 
 def state_of(clause: Clause) -> list[Found]:
+def _said_before(clause: Clause) -> Back | None:
+    """Read "earlier" beside whom a vehicle is said to be as a time, no comparison."""
+    named = clause.objects and isinstance(as_thing(clause.objects[0][0]), Described | Vehicle)
+    soon = [key for key, _ in clause.comparisons] == ["soon"]
+    return Back("before") if soon and named and clause.than is None else None
+
+
     """Compose a clause without a verb; several readings at their costs."""
     bearing = clause.bearings[0][0] if clause.bearings else None
     said = clause.comparisons or clause.adjectives
     if said and isinstance(together := as_thing(clause.subject), Together):
         clause.subject = together  # "are the blue and the red one slower than us"
     spoken = clause.subject
+    if (earlier := _said_before(clause)) is not None:
+        clause.comparisons, clause.time = [], earlier
     halted = any(key == "stationary" for key, _ in clause.adjectives)
     where = next((c for c in clause.complements if c.key in _PLACED), None) if halted else None
     if where is not None and isinstance(spoken, Described) and as_thing(where.sem) == Ego():

@@ -19,10 +19,12 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Described,
+    Destination,
     Ego,
     Event,
     Happens,
     Junction,
+    Next,
     Passenger,
     Pronoun,
     Proposition,
@@ -31,9 +33,11 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Time,
     Unknown,
+    Unsaid,
     Vehicle,
     Wanted,
     WholeRide,
+    Within,
 )
 from xavi_dialogue.nlu.compose.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -195,6 +199,8 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
     if sem is None:
         return Listing("events", time=clause.time)
     if isinstance(sem, Event):
+        if sem.tense == "future" or _lies_ahead(clause.time):
+            return HowMany(cast(Event, with_fields(sem, tense="future", time=Unsaid())))
         return listed(sem, clause.time)
     thing = as_thing(sem)
     if isinstance(thing, Described):
@@ -207,6 +213,15 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
         return Listing("vehicles", thing, clause.time)
     found = asked_of(sem, clause.time)
     return found or Listing("events", time=clause.time)
+
+
+def _lies_ahead(time: Time) -> bool:
+    """Say whether a stretch is still to come: "from here on", "until we arrive"."""
+    if isinstance(time, Relative) and time.relation == "until":
+        return isinstance(time.anchor, Destination) or (
+            isinstance(time.anchor, Event) and time.anchor.tense != "past"
+        )
+    return isinstance(time, Next | Within)
 
 
 _MEETING = frozenset({"approach", "see", "come", "appear", "pass"})

@@ -156,6 +156,13 @@ class WhichOne:
             return Why(fact(value)) if value is not None else Why(That())
         if sem.key == "order":
             thing = as_thing(clause.subject)
+            done = value.event if isinstance(value, Happens) else None
+            if (
+                done is not None
+                and done.action not in ("do", "happen", "go")
+                and done.actor != Ego()
+            ):
+                return Listing("events", time=clause.time, event=done)
             return Listing(
                 "events", None if isinstance(thing, (Ego, Wanted)) else thing, clause.time
             )
