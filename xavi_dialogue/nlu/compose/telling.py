@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
+    Everyone,
     Happens,
     Junction,
     Next,
@@ -204,9 +205,9 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
         return listed(sem, clause.time)
     thing = as_thing(sem)
     if isinstance(thing, Described):
-        met = thing.doing is not None and thing.doing.action in _MEETING
+        met = thing.doing is not None and _is_met(thing.doing)
         if met:
-            return Listing("vehicles", time=WholeRide())
+            return Listing("vehicles", Everyone(thing.kind), WholeRide())
         due = thing.doing is not None and thing.doing.modal is not None  # "you have to yield to"
         if thing.doing is not None and isinstance(thing.doing.object, Wanted) and not due:
             return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
@@ -224,7 +225,9 @@ def _lies_ahead(time: Time) -> bool:
     return isinstance(time, Next | Within)
 
 
-_MEETING = frozenset({"approach", "see", "come", "appear", "pass"})
+def _is_met(doing: Event) -> bool:
+    """Say whether it is all who were met: "that came towards us"; who went past did more."""
+    return doing.action in ("approach", "see", "come", "appear")
 
 
 def listed(event: Event, time: Time) -> Listing:
