@@ -207,7 +207,8 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
     if isinstance(thing, Described):
         met = thing.doing is not None and _is_met(thing.doing)
         if met:
-            return Listing("vehicles", Everyone(thing.kind), WholeRide())
+            whom = None if thing.kind == "vehicle" else Everyone(thing.kind)
+            return Listing("vehicles", whom, WholeRide())
         due = thing.doing is not None and thing.doing.modal is not None  # "you have to yield to"
         if thing.doing is not None and isinstance(thing.doing.object, Wanted) and not due:
             return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
