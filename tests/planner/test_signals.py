@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.cycles import LONG, SHORT, Watched, foresee, residual, supposed
+from planner.cycles import Watched, foresee, supposed
 from planner.forward import DT, Drive, Motion, drive
+from planner.greens import LONG, SHORT, residual
 from planner.kernels.driving import (
     AMBER,
     BEYOND,
