@@ -8,6 +8,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
+from planner.levels import elsewhere
+from planner.trace import ON_FOOT
 from planner.trajectory import Path
 from sim.boxes import overlap
 from sim.scene import VehicleState
@@ -36,6 +40,7 @@ def first_touch(
         for name, other in standing.items()
         if math.dist(other.position, ego.position) <= reach + ego.length + other.length
         and not overlap(_at(path, arc, body), other)
+        and not _on_another_level(path, other)
     }
     last = min(arc + reach, path.length)
     for k in range(1, math.ceil(max(last - arc, 0.0) / SPACING) + 1 if near else 0):
@@ -44,6 +49,15 @@ def first_touch(
             if overlap(there, other):
                 return arc + (k - 1) * SPACING, name
     return None
+
+
+def _on_another_level(path: Path, other: VehicleState) -> bool:
+    """Whether somebody stands above or below a path."""
+    if not path.passings:
+        return False
+    state = np.array([[(*other.position, other.heading, other.speed)]])
+    size, walks = np.array([(other.length, other.width)]), np.array([other.kind in ON_FOOT])
+    return bool(elsewhere(path.passings, state, size, walks)[0, 0])
 
 
 def _at(path: Path, arc: float, body: VehicleState) -> VehicleState:

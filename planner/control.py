@@ -17,7 +17,9 @@ from planner.kernels.driving import (
     FOLLOWING,
     FORESIGHT,
     GAP_HORIZON,
+    LEAST,
     REACTION,
+    RELAXATION,
     safe_speed,
     towards,
 )
@@ -97,7 +99,7 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
         ego.length,
         dt,
     )
-    chosen = _beside(driving, around, chosen, dt)
+    chosen = _at_the_end(driving, _beside(driving, around, chosen, dt), dt)
     return _clear(driving, around, _careful(driving, around, chosen, dt), dt)
 
 
@@ -122,6 +124,19 @@ def _careful(
     if allowed >= motion.speed + COMFORT * dt:
         return chosen
     braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
+    return (min(chosen[0], braking), chosen[1])
+
+
+def _at_the_end(
+    driving: Driving, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Brake as hard as it takes where the road ends: who comes to it fast comes to rest."""
+    motion = driving.motion
+    needed = motion.speed**2 / (2.0 * max(driving.lane.end - motion.arc, LEAST))
+    if needed <= FOLLOWING:
+        return chosen
+    wanted = max(motion.speed - needed * RELAXATION, 0.0)
+    braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
     return (min(chosen[0], braking), chosen[1])
 
 

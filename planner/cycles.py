@@ -1,28 +1,21 @@
 """How a traffic light may go on: from what was seen of its cycle, else from a stated prior.
 
-The prior is a lognormal over how long a green lasts. Its 5 % and 95 % points are SHORT and LONG,
-about the least and the greatest greens that the Traffic Signal Timing Manual names as usual (FHWA
-2008, FHWA-HOP-08-024, Chapter 5). Amber lasts as by the formula of the Institute of Transportation
-Engineers there: a second to react, and braking at 3.05 m/s2. Arms that face one another are taken
-to be green together, and who has been held longest to come next.
-
-How long a green has lasted is reckoned with: if it was seen to begin, as is; else it is a moment
-picked at random within greens, which meets long ones more often (the residual time of a renewal
-process; Feller 1971, An Introduction to Probability Theory II, XI.4).
+How long greens last is told by a prior (`planner.greens`). Amber lasts as by the formula of the
+Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
+FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face one another
+are taken to be green together, and who has been held longest to come next.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from planner.greens import residual
 from planner.traffic_lights import GREENS, UNSEEN, LightCourse, LightPrediction, Showing
 from planner.trajectory import Roads
 from sim.network import Link, angle_between, point_at
 from sim.scene import LightState, Signal
 
-SHORT, LONG = 7.0, 60.0  # [s] of green
-MEDIAN = math.sqrt(SHORT * LONG)  # [s]
-SIGMA = math.log(LONG / SHORT) / (2.0 * 1.645)
 REACTION, BRAKING = 1.0, 3.05  # [s], [m/s2] of who sees amber
 CLEARANCE = 1.0  # [s] for which all are red
 RED_AMBER = 1.0  # [s] of red and amber
@@ -190,7 +183,7 @@ class _Cycle:
             lasting = self._amber(letters) if AMBER in letters else RED_AMBER
             after = letters.replace(AMBER, RED)
             going = {k for k, letter in enumerate(letters) if letter == ABOUT_TO_GO}
-            return lasting - spent, self._with_green(after, going)
+            return lasting - spent, self._with_green(after, going) if going else after
         if any(letter in letters for letter in GREENS):
             left = residual(quantile, spent, begun=begun)
             return left, "".join(AMBER if letter in GREENS else letter for letter in letters)
@@ -213,12 +206,22 @@ class _Cycle:
     def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
         """Who goes next: who has been held longest, and the arms beside and opposite.
 
-        Of these, those that were held last only go with it where it was held no longer.
+        Of these, those that were held last only go with it where it was held no longer. Where a
+        crossing has been held longer than any arm, an arm goes with which it can be green; where
+        there is none, nobody goes but the people.
         """
         waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
-        if not waiting:
-            return set()
-        first = min(waiting, key=lambda k: (round(held[k], 1), k))
+        order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
+        people = [k for k in self._crossings if letters[k] == RED]
+        longest = min(people, key=lambda k: (round(held[k], 1), k), default=None)
+        if order and longest is not None and held[longest] < held[order[0]] - LEAST:
+            stages = (self._with(first, waiting, held) for first in order)
+            fitting = (x for x in stages if self._with_green(letters, x)[longest] != RED)
+            return next(fitting, set())
+        return self._with(order[0], waiting, held) if order else set()
+
+    def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
+        """An arm that goes, and those beside and opposite that go with it."""
         latest = max(held[k] for k in waiting)
         own = self._links[first][0]
         return {
@@ -241,12 +244,14 @@ class _Cycle:
         return self._with_people(now, ours)
 
     def _with_people(self, letters: str, going: Sequence[Link]) -> str:
-        """The same with crossings green, where all that go over them give way or are held."""
+        """The same with crossings green, where all that go over them turn and give way."""
         found = list(letters)
         for k, crossing in self._crossings.items():
             met = [x for x in going if x.junction == crossing.junction]
             over = [x for x in met if crossing.index in x.other_foes]
-            if letters[k] == RED and all(crossing.index in x.other_yields_to for x in over):
+            turning = all(x.direction != "straight" for x in over)
+            yielding = all(crossing.index in x.other_yields_to for x in over)
+            if letters[k] == RED and turning and yielding:
                 found[k] = LightState.GREEN.value
         return "".join(found)
 
@@ -280,43 +285,6 @@ def _parallel(roads: Roads, one: Link, other: Link) -> bool:
         headings.append(point_at(lane.centreline, lane.length)[1])
     apart = abs(angle_between(*headings))
     return min(apart, math.pi - apart) <= PARALLEL
-
-
-def residual(quantile: float, spent: float, *, begun: bool) -> float:
-    """How long [s] a green lasts on, by a quantile.
-
-    Args:
-        quantile: in (0, 1).
-        spent: [s] for which it has been seen.
-        begun: whether it was seen to begin.
-    """
-    survives: Callable[[float], float] = _survival if begun else _excess
-    wanted = (1.0 - quantile) * survives(spent)
-    low, high = spent, spent + LONG
-    while survives(high) > wanted:
-        low, high = high, high + LONG
-    for _ in range(30):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if survives(middle) > wanted else (low, middle)
-    return high - spent
-
-
-def _survival(time: float) -> float:
-    """The probability that a green lasts longer than some time [s]."""
-    return 1.0 if time <= 0.0 else _normal((math.log(MEDIAN) - math.log(time)) / SIGMA)
-
-
-def _excess(time: float) -> float:
-    """The probability that a green picked at a random moment lasts longer [s] from then on."""
-    if time <= 0.0:
-        return 1.0
-    mean = MEDIAN * math.exp(0.5 * SIGMA**2)
-    beyond = _normal((math.log(MEDIAN) + SIGMA**2 - math.log(time)) / SIGMA)
-    return beyond - time / mean * _survival(time)
-
-
-def _normal(x: float) -> float:
-    return 0.5 * math.erfc(-x / math.sqrt(2.0))
 
 
 def watch(

@@ -17,7 +17,7 @@ from planner.hidden_areas import Phantom
 from planner.lights import lights
 from planner.lookout import as_foreseen, changed, lookout
 from planner.memory import Memory
-from planner.phantoms import imagined, ways_ahead
+from planner.phantoms import around
 from planner.routes import Refusal
 from planner.search import Root
 from planner.trace import Action, EgoGoal, PlanTrace, Settings
@@ -25,7 +25,7 @@ from planner.traffic_lights import LightPrediction
 from planner.trajectory import Roads
 from planner.waypoints import survey, way
 from sim.network import Location, Network
-from sim.scene import EGO, Command, Scene, Signal
+from sim.scene import EGO, Command, Scene, Signal, VehicleState
 
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
 PAUSE = 0.3  # [s] between decisions at least
@@ -82,6 +82,7 @@ class Driver:
         self._number = 0
         self._waiting_for: int | None = None
         self._stopped_at: Signal | None = None
+        self._left: str | None = None  # the lane on which the last action ended
         self.finished = False
 
     def step(self, scene: Scene, dt: float) -> DriveStep:
@@ -159,12 +160,11 @@ class Driver:
         return lookout(roads, self._memory.watched, now, horizon, edges)
 
     def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
-        """Who might come out of what is hidden, at the junction ahead."""
+        """Who might come out of what is hidden, at the junction here or ahead."""
         if not scene.unseen:
             return ()
-        here = self._situation(scene)
-        links = ways_ahead(self._frame.roads, here.location, here.speed)
-        return imagined(view_of(self._frame.roads, self._memory, scene), links)
+        view = view_of(self._frame.roads, self._memory, scene)
+        return around(view, self._situation(scene).location)
 
     def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
         """Take up the first action of the plan, unless it is being driven already."""
@@ -195,9 +195,10 @@ class Driver:
 
     def _end_of_the_road(self, plan: ActionPlan) -> float:
         """The arc [m] before which to stop, since the road ends there and the goal is elsewhere."""
-        last = plan.path.lanes[-1][0]
-        leads = self._frame.roads.network.links_from(last)
-        return math.inf if leads or plan.goal is not None else plan.path.length - END_GAP
+        (last, begin), network = plan.path.lanes[-1], self._frame.roads.network
+        if network.links_from(last) or plan.goal is not None:
+            return math.inf
+        return min(plan.path.length, begin + network.lanes[last].length) - END_GAP
 
     def _surprised(self, scene: Scene) -> bool:
         """Whether somebody near does what the last decision did not foresee.
@@ -224,7 +225,8 @@ class Driver:
     def _situation(self, scene: Scene) -> Situation:
         current = self._current
         if current is None:
-            here = root_at(self._frame.roads, self._memory.now[EGO], scene.time)
+            ego = self._memory.now[EGO]
+            here = root_at(self._frame.roads, ego, scene.time) or self._beyond(ego, scene.time)
             if here is None:
                 raise DriverError(f"the ego is on no lane at {scene.time:.1f} s")
             return here
@@ -234,6 +236,14 @@ class Driver:
         return Situation(
             scene.time, ego.position, ego.heading, ego.speed, ego.acceleration, location
         )
+
+    def _beyond(self, ego: VehicleState, time: float) -> Situation | None:
+        """Where it is once it has come out beyond the end of the road, too fast to stop."""
+        if self._left is None:
+            return None
+        end = self._frame.roads.network.lanes[self._left].length
+        location = Location(self._left, end, 0.0)
+        return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, location)
 
     def _drive(self, scene: Scene, dt: float, events: list[Event]) -> Command:
         current = self._current
@@ -273,6 +283,7 @@ class Driver:
             events.append(_event("arrived", time, None))
         elif current.over and not self.finished:
             events.append(_event("action-ended", time, current))
+            self._left = current.plan.path.lane_at(current.motion.arc)[0]
             return None
         return current
 

@@ -99,6 +99,7 @@ class Lane:
 
     def __init__(self, path: Path, end: float = math.inf) -> None:
         """Prepare a path; where it leads to nowhere, a vehicle stops before `end` [m]."""
+        self.end = end  # [m]
         self.caps = braking_caps(path.cap, path.arc, driving.COMFORT)  # [m/s] at every metre
         if math.isfinite(end):
             room = np.maximum(end - np.arange(len(self.caps)), 0.0)

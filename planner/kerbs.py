@@ -8,14 +8,14 @@ import numpy as np
 from planner.kernels.course import Ints
 from planner.tracks import Observed
 from planner.trajectory import Array, Roads
-from planner.walking import direction_of, place_of
+from planner.walking import KERB, direction_of, place_of
 from sim.network import Crossing, angle_between, cumulative, project
 from sim.scene import Point
 
 REACH = 12.0  # [m] from a crossing within which one may be about to use it
 LATELY = 25  # samples within which somebody has just crossed
 LONGEST = 20.0  # [m] of half a crossing at most
-KERB, ASIDE = 0.2, 0.5  # [m] within the ends of a crossing, and beside it, where one is on it
+ASIDE = 0.5  # [m] beside a crossing where one is on it
 
 
 def crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]:

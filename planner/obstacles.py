@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from planner.kernels.course import Bools
 from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
 from planner.kernels.projection import SIDE_MARGIN, Stretches, project, select
 from planner.kernels.reaction import Ints, react
+from planner.levels import NOBODY_ELSEWHERE, elsewhere
 from planner.manoeuvres import Foe, GiveWay, LetCross
 from planner.signals import NO_LIGHTS, Lights
 from planner.trace import HoldUp
@@ -53,6 +53,24 @@ class Motions:
         return self.other.get(courses, self.usual)
 
 
+@dataclass(slots=True, eq=False)
+class Met:
+    """The stretches of one path that motions occupy, as far as these have been projected."""
+
+    stretches: Stretches | None = None
+    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
+
+
+@dataclass(slots=True, eq=False)
+class Pool:
+    """What has been found out of motions and paths; motions are told apart by their tags."""
+
+    #: By path, width, first and last step, and steps in all.
+    met: dict[tuple[Path, float, int, int, int], Met] = field(default_factory=dict)
+    #: Who is above or below a path at each step [T]; by path, and steps in all.
+    elsewhere: dict[tuple[Path, int], dict[object, Bools]] = field(default_factory=dict)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Traffic:
     """The motions of several vehicles, in one table for the kernels, and what lights show them."""
@@ -67,14 +85,14 @@ class Traffic:
     on_foot: Bools  # [M]
     tags: tuple[object, ...]  # [M] the same where a motion is the same one, to the same step
     lights: Lights = field(default=NO_LIGHTS)
-    pool: "Pool" = field(default_factory=dict)
+    pool: Pool = field(default_factory=Pool)
 
     @classmethod
     def of(
         cls,
         obstacles: Sequence[Obstacle],
         lights: Lights = NO_LIGHTS,
-        pool: "Pool | None" = None,
+        pool: Pool | None = None,
     ) -> "Traffic":
         """The motions of obstacles; one that ends sooner than others stays as it is then.
 
@@ -103,20 +121,23 @@ class Traffic:
             np.array([o.on_foot for o in obstacles], np.bool_),
             tuple(obstacles),
             lights,
-            {} if pool is None else pool,
+            Pool() if pool is None else pool,
         )
 
-    def reacting(self, own: Array, size: tuple[float, float], first: int) -> "Traffic":
+    def reacting(
+        self, own: Array, size: tuple[float, float], first: int, path: Path | None = None
+    ) -> "Traffic":
         """The motions where the others react to a vehicle; the same object where nobody does.
 
         Args:
             own: [S, 4] states of the vehicle at steps `first`, `first` + 1, ...
             size: length and width [m] of the vehicle.
             first: step of the first of them.
+            path: that it drives along.
         """
-        states, noticed, braking = react(
-            own, size, first, self.states, self.sizes, self.noticed, self.braking
-        )
+        apart = NOBODY_ELSEWHERE if path is None else self.elsewhere(path)
+        others = (self.states, self.sizes, self.noticed, self.braking)
+        states, noticed, braking = react(own, size, first, *others, apart)
         if states is self.states and np.array_equal(noticed, self.noticed):
             return self
         tags = self.tags
@@ -124,6 +145,22 @@ class Traffic:
             late = zip(tags, braking.tolist(), strict=True)
             tags = tuple(object() if brakes else tag for tag, brakes in late)
         return replace(self, states=states, noticed=noticed, braking=braking, tags=tags)
+
+    def elsewhere(self, path: Path) -> Bools:
+        """Who is above or below a path, and not on it [M, T]; [0, 0] where there is no bridge."""
+        if not path.passings:
+            return NOBODY_ELSEWHERE
+        known = self.pool.elsewhere.setdefault((path, self.states.shape[1]), {})
+        fresh = self.only([m for m, tag in enumerate(self.tags) if tag not in known])
+        found = elsewhere(path.passings, fresh.states, fresh.sizes, fresh.on_foot)
+        known.update(zip(fresh.tags, found, strict=True))
+        rows = [known[tag] for tag in self.tags]
+        return np.array(rows, np.bool_).reshape(self.states.shape[:2])
+
+    def beside(self, path: Path) -> Array:
+        """The states without those above or below a path, which are NaN."""
+        there = self.elsewhere(path)
+        return np.where(there[:, :, None], np.nan, self.states) if len(there) else self.states
 
     def since(self, step: int) -> "Traffic":
         """The same motions, with a later step as step 0."""
@@ -152,18 +189,6 @@ class Traffic:
 
 
 NOBODY = Traffic.of(())
-
-
-@dataclass(slots=True, eq=False)
-class Met:
-    """The stretches of one path that motions occupy, as far as these have been projected."""
-
-    stretches: Stretches | None = None
-    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
-
-
-#: What has been projected onto paths: by path, width, first and last step, and steps in all.
-Pool: TypeAlias = dict[tuple[Path, float, int, int, int], Met]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -225,10 +250,13 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
         first: step from which the occupancy is needed.
         last: step up to which it is needed.
     """
-    stretches = project(
-        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
-    )
-    return Occupancy(traffic, stretches)
+    return Occupancy(traffic, _projected(path, traffic, width, first, last))
+
+
+def _projected(path: Path, traffic: Traffic, width: float, first: int, last: int) -> Stretches:
+    """Where traffic is on a path; see `occupancy`."""
+    line, states = (path.points, path.arc, path.heading), traffic.beside(path)
+    return project(*line, states, traffic.spaces, width, first, last)
 
 
 def meeting(
@@ -251,9 +279,9 @@ def meeting(
     if not traffic.vehicles:
         return occupancy(path, traffic, width, first, last)
     key = (path, width, first, last, traffic.states.shape[1])
-    met = traffic.pool.get(key)
+    met = traffic.pool.met.get(key)
     if met is None:
-        met = traffic.pool[key] = Met()
+        met = traffic.pool.met[key] = Met()
     fresh = [m for m, tag in enumerate(traffic.tags) if tag not in met.rows]
     if fresh or met.stretches is None:
         _add(met, path, traffic.only(fresh), width, first, last)
@@ -270,9 +298,7 @@ def meeting(
 
 def _add(met: Met, path: Path, traffic: Traffic, width: float, first: int, last: int) -> None:
     """Project motions that have not been projected onto a path yet."""
-    found = project(
-        path.points, path.arc, path.heading, traffic.states, traffic.spaces, width, first, last
-    )
+    found = _projected(path, traffic, width, first, last)
     known = 0 if met.stretches is None else len(met.stretches.last)
     for m, (tag, last_on) in enumerate(zip(traffic.tags, found.last.tolist(), strict=True)):
         met.rows[tag] = known + m if last_on >= 0 else -1

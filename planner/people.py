@@ -25,6 +25,7 @@ from planner.tracks import Observed
 from planner.trajectory import Array, Roads
 from planner.walking import (
     HALF_LANE,
+    KERB,
     MEAN,
     WALKING,
     Route,
@@ -150,7 +151,9 @@ def _aims(
         for crossing, back in crossings_near(scenery.roads, here):
             if not came_over(person, crossing):
                 routes.append((crossing, across(person, crossing, back=back, on=False)))
-    ahead = None if on is not None else onward(network, person, settings.horizon * MEAN)
+    waits = any(x.kerb is not None and x.kerb <= KERB for _, x in routes)
+    reach = settings.horizon * MEAN
+    ahead = None if on is not None else onward(network, person, reach, waits=waits)
     share = (1.0 - STAY) / (len(routes) + (ahead is not None))
     aims = []
     for crossing, route in routes:
@@ -225,6 +228,7 @@ def _crossing_excess(
     speed, position = person.speed[first:], person.position[first:]
     pace = _pace(speed)
     start, kerb = (float(position[0, 0]), float(position[0, 1])), route.points[1]
+    assert route.kerb is not None
     best, left = math.dist(start, kerb) / pace, route.kerb / pace
     spent = (len(speed) - 1) * DT
     if route.kerb <= AT_KERB and np.any(speed < WALKING) and route.crossing is not None:

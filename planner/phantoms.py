@@ -31,7 +31,7 @@ from planner.sightlines import between, middle
 from planner.signals import NO_LIGHTS, Lights
 from planner.tracks import lanes_at
 from planner.trajectory import Roads
-from sim.network import Link, Location, Network, point_at, project
+from sim.network import Lane, Link, Location, Network, point_at, project
 from sim.scene import EGO, Point, Signal, Unseen, VehicleState
 
 #: [1/s] of vehicles on a lane before anything is seen of it: 300 an hour, a road in a town by day.
@@ -39,6 +39,7 @@ PRIOR_RATE = 1.0 / 12.0
 LEAST = 0.03  # probability of one below which it is left out
 MOST = 4  # that are imagined at once
 STANDING = 2.0  # [m/s] below which who is seen ahead lets nobody behind it come
+LOOKED_AT = 5.0  # [m] between the places of a lane that are found to be in view or not
 SPACING = 0.5  # [m] between the places of a way that are looked at
 ASIDE = 2.8  # [m] between the middles of two cars with a metre between them
 FASTEST = 20.0  # [m/s] limit above which nobody slows down where ways join: one merges at speed
@@ -94,13 +95,29 @@ class _Nearest:
     hidden: float  # [m] of the road that is hidden within the reach
 
 
+def around(view: View, here: Location) -> tuple[Phantom, ...]:
+    """Who might come at the junction where the ego is, or else at the one that it comes to."""
+    network = view.roads.network
+    inside = network.link_via(here.lane)
+    if inside is not None:
+        before = inside.via[: inside.via.index(here.lane)]
+        driven = sum(network.lanes[lane].length for lane in before) + here.offset
+        found = tuple(one for one in imagined(view, (inside,)) if one.meets[0] > driven)
+        if found:
+            return found
+    return imagined(view, ways_ahead(view.roads, here, view.ego.speed))
+
+
 def ways_ahead(roads: Roads, here: Location, speed: float) -> tuple[Link, ...]:
-    """The links of the junction that somebody comes to who drives at a speed [m/s]."""
-    network = roads.network
+    """The links of the junction that somebody comes to who drives at a speed [m/s].
+
+    Who stands before a line comes to it as soon as it sets off, at READY.
+    """
+    network, reach = roads.network, reach_of(max(speed, READY))
     found: dict[tuple[str, int], Link] = {}
-    for ahead in approaches(roads, here, reach_of(speed)):
+    for ahead in approaches(roads, here, reach):
         last = network.lanes[ahead.lanes[-1]]
-        if ahead.distance <= reach_of(speed) and not last.internal:
+        if ahead.distance <= reach and not last.internal:
             for lane in network.edge_lanes(last.edge):
                 for link in network.links_from(lane.id):
                     found[link.junction, link.index] = link
@@ -277,7 +294,7 @@ def _phantom(
         return None
     place = min(nearest.stretch.end, lane.length)
     (x, y), heading = point_at(lane.centreline, place)
-    hiders = _hiders(view, (x, y))
+    hiders = _hiders(view, _looked_at(lane, nearest.stretch))
     return Phantom(
         lanes=(*nearest.lanes, *theirs.via, theirs.to_lane),
         begin=nearest.stretch.begin,
@@ -297,6 +314,12 @@ def _phantom(
         beyond=hiders[1:],
         walled=bool(hiders) and nearest.stretch.walled,
     )
+
+
+def _looked_at(lane: Lane, stretch: Unseen) -> Point:
+    """The last place of a hidden stretch that was looked at; it ends half a spacing behind."""
+    count = max(1, round(lane.length / LOOKED_AT))
+    return point_at(lane.centreline, stretch.end - lane.length / count / 2.0)[0]
 
 
 def _held_by(view: View, nearest: _Nearest) -> float:

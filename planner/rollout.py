@@ -23,7 +23,7 @@ from planner.obstacles import HOW, Traffic
 from planner.reward import components
 from planner.trace import Action, Component, EgoGoal, HeldUp, HoldUp, Outcome
 from planner.traffic_lights import HeldByLight
-from planner.trajectory import Array, Roads
+from planner.trajectory import Array, Path, Roads
 from sim.network import Location
 from sim.scene import Signal
 
@@ -84,11 +84,11 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
     driven = _drive(task, plan, motion, first, traffic)
     states, curvature = _placed(task, plan, driven)
     if task.reacting:
-        reacted = traffic.reacting(states, task.size, first)
+        reacted = traffic.reacting(states, task.size, first, plan.path)
         if reacted.states is not traffic.states and _matters(plan, states, first, reacted):
             driven = _drive(task, plan, motion, first, reacted)
             states, curvature = _placed(task, plan, driven)
-            reacted = traffic.reacting(states, task.size, first)
+            reacted = traffic.reacting(states, task.size, first, plan.path)
         traffic = reacted
     return _leg(task, plan, driven, traffic, states, curvature)
 
@@ -126,7 +126,9 @@ def _leg(
     """What came of a drive."""
     careless = plan.changes_lane and not task.yielding
     braking = FIRM if task.reacting else 0.0
-    hit, who = first_hit(states, task.size, driven.first, *_real(traffic), careless, braking)
+    hit, who = first_hit(
+        states, task.size, driven.first, *_real(traffic, plan.path), careless, braking
+    )
     count = len(states) if who < 0 else hit + 1
     arc, speed, acceleration = driven.motion[count - 1].tolist()
     last = Motion(arc, speed, acceleration)
@@ -162,12 +164,13 @@ def _leg(
     )
 
 
-def _real(traffic: Traffic) -> tuple[Array, Array]:
+def _real(traffic: Traffic, path: Path) -> tuple[Array, Array]:
     """The motions and sizes of those who can be collided with: who is imagined would brake."""
+    states = traffic.beside(path)
     if min(traffic.vehicles, default=0) >= 0:
-        return traffic.states, traffic.sizes
+        return states, traffic.sizes
     there = np.array(traffic.vehicles) >= 0  # who is imagined comes last
-    return traffic.states[there], traffic.sizes[there]
+    return states[there], traffic.sizes[there]
 
 
 def _leads_on(task: Task, plan: ActionPlan) -> bool:

@@ -82,7 +82,7 @@ class Search:
     _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
     _motions: dict[Samples, Traffic] = field(default_factory=dict)
     _lit: dict[tuple[int, ...], Lights] = field(default_factory=dict)  # by courses
-    _pool: Pool = field(default_factory=dict)
+    _pool: Pool = field(default_factory=Pool)
     _imagined: dict[int, Obstacle] = field(default_factory=dict)  # by index
     # By vehicle, controller and who is imagined: nobody shifts another's.
     _draws: dict[int | str, random.Random] = field(init=False)

@@ -18,7 +18,7 @@ from planner.obstacles import Obstacle, Traffic
 from planner.routes import onward
 from planner.signals import NO_LIGHTS, Lights
 from planner.trajectory import KEPT, Array, Path, Roads
-from sim.network import Location
+from sim.network import Location, angle_between, project
 from sim.scene import Point, Signal, VehicleState
 
 Side: TypeAlias = Literal["left", "right"]
@@ -137,6 +137,7 @@ def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, 
         found = roads.network.locate(position, heading, *FAR_ASIDE)
     if not found:
         return ()
+    found = _on_one_level(roads, found, position, heading)
     nearest = found[0]
     for location in found:  # a vehicle at a waiting line is still before the junction
         outside = not roads.network.lanes[location.lane].internal
@@ -148,6 +149,23 @@ def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, 
         if roads.network.lanes[location.lane].internal
         and abs(location.lateral) <= abs(nearest.lateral) + ON_CENTRELINE
     )
+
+
+def _on_one_level(
+    roads: Roads, found: tuple[Location, ...], position: Point, heading: float
+) -> tuple[Location, ...]:
+    """Those lanes that do not pass above or below the one that leads where a body points."""
+    crossing = [x for x in found[1:] if roads.levels.cross(found[0].lane, x.lane)]
+    if not crossing:
+        return found
+
+    def turned(here: Location) -> float:
+        _, _, along = project(roads.network.lanes[here.lane].centreline, position)
+        return abs(angle_between(heading, along))
+
+    own = min((found[0], *crossing), key=turned)
+    rest = (x for x in found if x != own and not roads.levels.cross(own.lane, x.lane))
+    return (own, *rest)
 
 
 def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:

@@ -5,7 +5,7 @@ rest of one) is led onto it by a quintic blend, so heading and curvature stay co
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from planner.easing import curvature_of, eased
 from planner.kernels.resampling import nearest, resampled
+from planner.levels import Levels, Passing
 from planner.shifts import shifted
 from sim.network import Network, angle_between
 from sim.scene import Point
@@ -40,6 +41,7 @@ class Path:
     curvature: Array  # [1/m] [N] positive to the left
     cap: Array  # [m/s] [N] speed limit, or the speed that the bend allows
     lanes: tuple[tuple[str, float], ...]  # (lane, arc at which it begins), in driving order
+    passings: tuple[Passing, ...] = ()  # the lanes above and below it
 
     @property
     def length(self) -> float:
@@ -93,6 +95,7 @@ class Roads:
         self.sides: dict[frozenset[str], Any] = {}  # by ring, kept by planner.roundabouts
         self.located: dict[tuple[Point, float], Any] = {}  # by pose, kept by planner.tracks
         self.plans: dict[Any, Any] = {}  # by situation, kept by planner.actions
+        self.levels = Levels(network)
         self._lines: dict[tuple[str, ...], Path] = {}
         self._paths: dict[Any, Path] = {}
 
@@ -127,7 +130,9 @@ class Roads:
         if found is None:
             if len(self._paths) >= KEPT:
                 self._paths.clear()
-            found = self._paths[key] = self._path(*key)
+            found, passings = self._path(*key), self.levels.across(lanes)
+            found = replace(found, passings=passings) if passings else found
+            self._paths[key] = found
         return found
 
     def _path(

@@ -29,6 +29,7 @@ SAFE = 1.5  # [s] by which a gap must be longer than crossing takes
 LEAVES = 0.5  # [m] of walking after which it is looked whether that leads onto a road
 SEEN = 15.0  # [m] as far as that is done
 HALF_LANE = 1.6  # [m]
+KERB = 0.2  # [m] to either side of the beginning of a crossing within which one waits there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,7 +37,7 @@ class Route:
     """Where somebody walks, from where he is."""
 
     points: tuple[Point, ...]  # [m]
-    kerb: float  # [m] along it, where he may have to wait; 0 where that is behind him
+    kerb: float | None  # [m] along it, where he may have to wait; None where that is behind him
     crossing: Crossing | None  # that it leads over
 
     @property
@@ -64,26 +65,29 @@ def across(person: Observed, crossing: Crossing, *, back: bool, on: bool) -> Rou
     (x, y), heading = ends[1], point_at(line, cumulative(line)[-1])[1]
     far = (x + AWAY * math.cos(heading), y + AWAY * math.sin(heading))
     if on:
-        return Route((here, ends[1], far), 0.0, crossing)
+        return Route((here, ends[1], far), None, crossing)
     return Route((here, ends[0], ends[1], far), math.dist(here, ends[0]), crossing)
 
 
-def onward(network: Network, person: Observed, reach: float) -> Route:
-    """The route straight on, up to a road for cars, unless it is on one already."""
+def onward(network: Network, person: Observed, reach: float, *, waits: bool = False) -> Route:
+    """The route straight on, up to a road for cars, unless it is on one already.
+
+    Who waits at a kerb may stand right where the road begins, and is not on it.
+    """
     (x, y), heading = place_of(person), direction_of(person)
     cos, sin = math.cos(heading), math.sin(heading)
-    free = reach
-    if not on_road(network, (x, y)):
+    free, half = reach, HALF_LANE - (KERB if waits else 0.0)
+    if not on_road(network, (x, y), half):
         steps = np.arange(0.0, min(reach, SEEN), LEAVES).tolist()
         places = ((a, a + LEAVES) for a in steps)
-        ahead = (a for a, b in places if on_road(network, (x + b * cos, y + b * sin)))
+        ahead = (a for a, b in places if on_road(network, (x + b * cos, y + b * sin), half))
         free = next(ahead, reach)
-    return Route(((x, y), (x + free * cos, y + free * sin)), 0.0, None)
+    return Route(((x, y), (x + free * cos, y + free * sin)), None, None)
 
 
-def on_road(network: Network, position: Point) -> bool:
-    """Whether a place is on a lane for cars."""
-    return bool(network.locate(position, 0.0, HALF_LANE, math.pi))
+def on_road(network: Network, position: Point, half: float = HALF_LANE) -> bool:
+    """Whether a place is on a lane for cars, which reaches so far [m] to each side."""
+    return bool(network.locate(position, 0.0, half, math.pi))
 
 
 def place_of(person: Observed) -> Point:
@@ -142,8 +146,8 @@ def walk(person: Observed, route: Route, pace: float, free: Bools) -> Obstacle:
     """
     steps = np.arange(len(free), dtype=np.float64)
     arcs: Array = pace * STEP * steps
-    at_kerb = math.ceil(route.kerb / (pace * STEP))
-    if route.crossing is not None and route.kerb > 0.0 and not bool(np.all(free[at_kerb:])):
+    at_kerb = 0 if route.kerb is None else math.ceil(route.kerb / (pace * STEP))
+    if route.kerb is not None and not bool(np.all(free[at_kerb:])):
         open_ = np.flatnonzero(free[at_kerb:])
         go = at_kerb + int(open_[0]) if len(open_) else len(free)
         arcs = np.minimum(arcs, route.kerb) + pace * STEP * np.maximum(steps - go, 0.0)

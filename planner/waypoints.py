@@ -161,6 +161,7 @@ def survey(roads: Roads, goal: EgoGoal) -> None:
     for edge in _before(roads):
         toll(roads, network.edge_lanes(edge)[0].id)
     network.locate((0.0, 0.0), 0.0)
+    roads.levels.prepare()
 
 
 def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:

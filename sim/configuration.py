@@ -14,6 +14,7 @@ from sim import appearance
 from sim.checks import edges_of, near
 from sim.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.engine import Engine, SumoFailed
+from sim.mentioned import mentioned
 from sim.netfile import NetworkError, read_network
 from sim.network import Network
 from sim.options import ALWAYS, listed
@@ -193,6 +194,8 @@ class _Inspection:
         if isinstance(self.rider, Added):
             for edge in (self.rider.origin, self.rider.destination):
                 self._check_edge(edge, network)
+        else:
+            self._check_mentioned(self.rider.id)
         step = float(self.engine.call(self.engine.api.simulation.getDeltaT))
         ego = depart(self.engine, self.file, self.rider)
         self._check_ego(ego, network)
@@ -228,6 +231,16 @@ class _Inspection:
         if edge not in edges:
             problem = f"there is no edge {edge!r} for cars{whose}"
             raise TableError(self.file, None, problem, near(edge, edges))
+
+    def _check_mentioned(self, name: str) -> None:
+        """Refuse a vehicle that no file names, rather than wait for it up to the end."""
+        options = ("route-files", "additional-files")
+        values = [self._option(option).split(",") for option in options]
+        files = [Path(text.strip()) for value in values for text in value if text.strip()]
+        if not mentioned(name, files):
+            known = ", ".join(first_departures(self.engine))
+            remedy = f"choose one of those that depart, such as {known}" if known else "nobody does"
+            raise NeverDeparts(self.file, f"no vehicle, trip or flow has the id {name!r}", remedy)
 
     def _check_ego(self, ego: str, network: Network) -> None:
         """Whether a car as ours can drive in the ego's place."""

@@ -3,11 +3,12 @@
 Where roads cross at one level, a map has a junction, at which their lanes end.
 """
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 
 from sim.boxes import Box
-from sim.network import Lane, Network
+from sim.network import Lane, Location, Network
 from sim.scene import Point
 
 ASIDE = 2.0  # [m] from the middle of its lane up to which one is on it
@@ -24,11 +25,17 @@ def apart(network: Network, one: Box, other: Box) -> bool:
 
 
 def _lane(network: Network, box: Box) -> Lane | None:
-    """The lane outside of junctions that a box is on."""
-    found = next(iter(network.locate(box.position, box.heading)), None)
-    if found is None or abs(found.lateral) > ASIDE or network.lanes[found.lane].internal:
+    """The lane outside of junctions that a box is on; on pavements, people walk both ways."""
+    every = {**network.other_lanes, **network.lanes}
+    beside = network.locate_aside(box.position, box.heading, turn=math.pi)
+    found = min((*network.locate(box.position, box.heading), *beside), key=_away, default=None)
+    if found is None or _away(found) > ASIDE or every[found.lane].internal:
         return None
-    return network.lanes[found.lane]
+    return every[found.lane]
+
+
+def _away(place: Location) -> float:
+    return abs(place.lateral)
 
 
 def _around(network: Network, lane: Lane) -> list[Sequence[Point]]:

@@ -1,8 +1,9 @@
-"""What a conversion from OpenDRIVE may have lost: ways, and who goes first.
+"""What a conversion from OpenDRIVE may have lost: ways, lights, and who goes first.
 
 netconvert names the edges of road R `-R` along the road and `R` against it, each with a suffix
 where it splits the road. It ignores <priority> (OpenDRIVE 1.4, section 5.4.1), and joins roads
-by their <link> elements alone.
+by their <link> elements alone. A light beside a road makes all ways of the junction that the
+road leads to controlled, by a programme of netconvert's own: the map has none.
 
 `conversion_warnings` returns one sentence for each thing found, none where all is well.
 """
@@ -13,11 +14,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from sim.network import Link, Network, angle_between
+from sim.scene import Signal
 
 DRIVING = "driving"  # the type of lanes for cars
 NEAR = 10.0  # [m] from the end of one road to the start of another that seems to continue it
 MOST_TURN = math.radians(60.0)  # between the two
 FIRST, BETWEEN, LAST = 10, 5, 1  # priorities to write
+LIGHT = "10000"  # how the types of traffic lights begin
 SHOWN = 6  # edges listed in one warning
 
 
@@ -57,6 +60,7 @@ def conversion_warnings(
         *_dead_ends(network),
         *_parts(network, start),
         *_contradictions(root, turns, network, priority),
+        *_lost_lights(root, network),
     )
 
 
@@ -174,7 +178,10 @@ def _contradictions(
 
 
 def _pairs(junction: ET.Element, turns: tuple[_Turn, ...], network: Network) -> Iterator[_Pair]:
-    """Ways that meet, from different edges, and of which <priority> names one first."""
+    """Ways that meet, from different edges, and of which <priority> names one first.
+
+    Where there are lights, they say who goes.
+    """
     links = _links_by_roads(network)
     here = [turn for turn in turns if turn.junction == junction.get("id")]
 
@@ -188,8 +195,30 @@ def _pairs(junction: ET.Element, turns: tuple[_Turn, ...], network: Network) -> 
         for first in named(rule.get("high")):
             for second in named(rule.get("low")):
                 meet = first.junction == second.junction and second.index in first.foes
-                if meet and first.from_lane != second.from_lane:
+                lit = isinstance(first.control, Signal)
+                if meet and not lit and first.from_lane != second.from_lane:
                     yield _Pair(first, second)
+
+
+def _lost_lights(root: ET.Element, network: Network) -> Iterator[str]:
+    """Lights beside roads that control no way from there."""
+    held = {
+        network.lanes[link.from_lane].edge.split(".")[0]
+        for link in network.links
+        if isinstance(link.control, Signal)
+    }
+    for road in root.iter("road"):
+        if road.get("junction", "-1") != "-1":
+            continue
+        name = road.get("id", "")
+        ends = {"+": (f"-{name}",), "-": (name,)}
+        for signal in road.iterfind("signals/signal"):
+            edges = ends.get(signal.get("orientation", ""), (f"-{name}", name))
+            if signal.get("type", "").startswith(LIGHT) and held.isdisjoint(edges):
+                yield (
+                    f"traffic light {signal.get('id')!r} of road {name!r} was lost: it holds"
+                    " nobody; mend the place, orientation or type of this <signal> in the map"
+                )
 
 
 def _holds(pair: _Pair) -> bool:

@@ -15,6 +15,7 @@ from sim import appearance, routes
 from sim.boxes import overlap
 from sim.departing import depart, forget_stops, step
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
+from sim.levels import apart
 from sim.looking import Eyes, Painted, View
 from sim.names import VehicleNames
 from sim.netfile import read_network
@@ -67,8 +68,8 @@ class Simulation:
         try:
             names, painted = self._start(seed)
             self._names = names
-            roads, radius = read_network(scenario.network), scenario.view_radius
-            self._eyes = Eyes(self._engine, self._ego, radius, names, painted, roads)
+            self._roads, radius = read_network(scenario.network), scenario.view_radius
+            self._eyes = Eyes(self._engine, self._ego, radius, names, painted, self._roads)
             self._view = self._look(None)
         except BaseException:
             self.close()
@@ -127,9 +128,13 @@ class Simulation:
         return self._view.scene
 
     def collisions(self) -> tuple[int, ...]:
-        """The vehicles and people, seen or not, whose box overlaps the ego's now, by name."""
+        """The vehicles and people, seen or not, whose box overlaps the ego's now, by name.
+
+        Those on a bridge over the ego's road, or under it, do not count.
+        """
         ego = self._view.scene.ego
-        hit = [x for x, state in self._view.near.items() if overlap(ego, state)]
+        near = (x for x, state in self._view.near.items() if overlap(ego, state))
+        hit = [x for x in near if not apart(self._roads, ego, self._view.near[x])]
         return tuple(sorted(self._names.of(x) for x in self._names.in_order(hit)))
 
     def sumo_collisions(self) -> tuple[int, ...]:

@@ -49,6 +49,7 @@ class Drivers(NamedTuple):
     pace: Floats  # [m/s] [M]
     noticed: Ints  # [M] steps for which the ego has been on their path
     late: Bools  # [M] who has braked
+    elsewhere: Bools  # [M, T] where they are above or below the ego's way; or [0, 0]
 
 
 class Leader(NamedTuple):
@@ -73,6 +74,7 @@ def react(
     sizes: Floats,
     noticed: Ints,
     braking: Bools,
+    elsewhere: Bools,
 ) -> tuple[Floats, Ints, Bools]:
     """How others move on where a vehicle, the ego, drives along a line.
 
@@ -83,6 +85,7 @@ def react(
         own, size, first: states [S, 4] of the ego from step `first` on; length and width [m].
         states, sizes: [M, T, 4] and [M, 2] of the others, as predicted.
         noticed, braking: [M] steps for which the ego has been on their path; who has braked.
+        elsewhere: [M, T] where they are above or below the ego's way; [0, 0] if nobody is.
 
     Returns:
         The states, `noticed` and `braking` after the line; the same states where nobody reacts.
@@ -91,7 +94,7 @@ def react(
     pace = states[:, min(first, total - 1), 3].copy()
     at, late = np.full(count, float(first)), braking.copy()
     arcs, measured = np.empty((count, total)), np.zeros(count, np.bool_)
-    them = Drivers(states, arcs, measured, sizes, at, pace, noticed.copy(), late)
+    them = Drivers(states, arcs, measured, sizes, at, pace, noticed.copy(), late, elsewhere)
     moved, ends = states, min(first + len(own), total) - 1
     pushes = np.empty(count)  # [m/s2] left to each
     for t in range(first, total - 1):
@@ -142,7 +145,7 @@ def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> 
             continue
         push = math.inf
         if _concerns(paths, m, int(at[m]), x, y, pace[m], sizes[m, 0], ego):
-            push = _push(them, m, moved, t, ego)
+            push = _push(them, m, moved, t, ego, True)
         if push == math.inf:
             noticed[m] = 0
         else:
@@ -153,11 +156,12 @@ def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> 
         if not late[n]:
             continue
         leader = _leader(moved[n, t], (sizes[n, 0], sizes[n, 1]), 0.0)
+        level = not _elsewhere(them, n, int(at[n]))
         for m in range(len(pushes)):
             x, y, k = moved[m, t, 0], moved[m, t, 1], int(at[m])
             near = n != m and _near(x, y, pace[m], sizes[m, 0], leader)
             if near and _concerns(paths, m, k, x, y, pace[m], sizes[m, 0], leader):
-                pushes[m] = min(pushes[m], _push(them, m, moved, t, leader))
+                pushes[m] = min(pushes[m], _push(them, m, moved, t, leader, level))
 
 
 @_jit
@@ -208,15 +212,15 @@ def _concerns(
 
 
 @_jit
-def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader) -> float:
-    """The acceleration [m/s2] that a leader allows a driver at a step; infinite if not ahead."""
+def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader, level: bool) -> float:
+    """The acceleration [m/s2] that a leader, level with the ego or not, allows; or infinite."""
     pace, length, width = them.pace[m], them.sizes[m, 0], them.sizes[m, 1]
     ahead, aside, k = _along(them, m, moved[m, t], leader.x, leader.y)
     cos, sin = _direction(them.paths, m, k)
     along, across = leader.cos * cos + leader.sin * sin, leader.sin * cos - leader.cos * sin
     half = 0.5 * (leader.length * abs(along) + leader.width * abs(across))
     wide = 0.5 * (leader.length * abs(across) + leader.width * abs(along) + width) + BESIDE
-    if abs(aside) >= wide or ahead < -0.5 * length:
+    if abs(aside) >= wide or ahead < -0.5 * length or (level and _elsewhere(them, m, k)):
         return math.inf
     gap, along, across = max(ahead - half, NEAREST), leader.speed * along, leader.speed * across
     if abs(across) > CROSSING:
@@ -224,6 +228,12 @@ def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader) -> float
         if gap > (pace - along) * (clear + CLEARED):
             return math.inf
     return _follow(gap, pace, max(along, 0.0), leader.gain)
+
+
+@_jit
+def _elsewhere(them: Drivers, m: int, k: int) -> bool:
+    """Whether a driver is above or below the ego's way at a sample of its path."""
+    return bool(len(them.elsewhere) > 0 and them.elsewhere[m, k])
 
 
 @_jit

@@ -13,6 +13,7 @@ from planner.trajectory import Path
 from sim.boxes import overlap
 from sim.network import angle_between
 from sim.scene import EGO, Scene, VehicleState
+from tests.planner.nets import drawn, lane
 from tests.planner.worlds import (
     LENGTH,
     START,
@@ -349,3 +350,47 @@ def test_who_goes_first_and_stands_for_good_is_not_waited_for_forever(away: floa
     """After you, then me: a car with priority that waits at the junction lets the ego go."""
     done = ride("s2", {1: along("s2", "west_in_0", away, 0.0)}, lasting=45.0)
     assert done.finished
+
+
+def rushing(start: float, speed: float, target: str = "away") -> tuple[Scene, float, bool]:
+    """Drive for a while on a road of 60 m that leads nowhere.
+
+    Args:
+        start: [m] on it.
+        speed: [m/s]
+        target: edge of the goal, which the ego cannot reach, or has passed.
+
+    Returns:
+        The last scene, the hardest braking [m/s2], and whether the ego has arrived.
+    """
+    lanes = [lane("dead_0", [(0.0, 0.0), (60.0, 0.0)]), lane("away_0", [(0.0, 50.0), (60.0, 50.0)])]
+    driver = Driver(drawn(lanes).network, EgoGoal(target, 10.0, None), QUICK, seed=0)
+    ego, hardest = VehicleState((start, 0.0), 0.0, speed, 0.0, LENGTH, WIDTH), 0.0
+    for k in range(80):
+        scene = Scene(round(k * STEP, 3), {EGO: ego})
+        command = driver.step(scene, STEP).command
+        change = (command.speed - ego.speed) / STEP
+        hardest = max(hardest, -change)
+        ego = VehicleState(command.position, command.heading, command.speed, change, LENGTH, WIDTH)
+    return scene, hardest, driver.finished
+
+
+@pytest.mark.parametrize("target", ["away", "dead"])
+@pytest.mark.parametrize(("speed", "firm"), [(8.0, 3.1), (14.0, 4.4), (18.0, EMERGENCY)])
+def test_a_dead_end_is_braked_for_as_hard_as_it_takes(
+    target: str, speed: float, firm: float
+) -> None:
+    scene, hardest, arrived = rushing(30.0, speed, target)
+    assert not arrived
+    assert scene.ego.speed == pytest.approx(0.0, abs=0.01)
+    assert 58.0 < scene.ego.position[0] <= 60.0
+    assert hardest <= firm + 1e-6
+
+
+def test_who_cannot_stop_before_a_dead_end_stops_beyond_it() -> None:
+    scene, hardest, arrived = rushing(50.0, 20.0)
+    assert not arrived
+    assert hardest == pytest.approx(EMERGENCY)
+    assert scene.ego.speed == pytest.approx(0.0, abs=0.01)
+    assert 60.0 < scene.ego.position[0] < 50.0 + 20.0**2 / (2.0 * EMERGENCY) + 20.0 * 0.6
+    assert scene.ego.position[1] == pytest.approx(0.0, abs=0.01)

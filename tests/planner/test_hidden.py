@@ -13,7 +13,17 @@ from planner.comparison import likeliest
 from planner.decide import Frame, Moment, decide
 from planner.hidden_areas import HeldByHidden, Phantom, PhantomSample
 from planner.kernels.driving import READY
-from planner.phantoms import LEAST, PRIOR_RATE, Counts, View, imagined, meeting, time_across
+from planner.phantoms import (
+    LEAST,
+    PRIOR_RATE,
+    Counts,
+    View,
+    around,
+    imagined,
+    meeting,
+    time_across,
+    ways_ahead,
+)
 from planner.search import Root
 from planner.trace import EgoGoal, PlanTrace, Settings, TraceError, Track, decode, encode
 from planner.trajectory import Roads
@@ -129,6 +139,25 @@ def test_the_lorry_in_the_line_of_sight_is_what_hides() -> None:
     assert one(NEAR, others={3: lorry}).behind == 3
     assert one(NEAR, others={3: replace(lorry, kind="car")}).behind is None
     assert one(NEAR, others={3: replace(lorry, position=(95.0, 30.0))}).behind is None
+
+
+def test_what_hides_is_in_the_line_of_sight_to_the_place_that_was_looked_at() -> None:
+    # Places are 5 m apart, and a stretch ends between two: its end itself may be in view.
+    thin = car(104.0, -16.7, 0.0, length=3.0, width=0.8, kind="truck")
+    assert one(NEAR, others={3: thin}).behind == 3
+    assert one(Unseen("south_0", 0.0, 35.0), others={3: thin}).behind is None
+
+
+def test_who_stands_before_the_line_reckons_with_what_is_hidden_behind_it() -> None:
+    assert ways_ahead(ROADS, Location("in_0", 95.0, 0.0), 0.0) == (MINE,)
+    assert ways_ahead(ROADS, Location("in_0", 60.0, 0.0), 0.0) == ()
+
+
+def test_inside_a_junction_who_may_come_counts_until_their_way_is_reached() -> None:
+    lane_inside = ":J_0"
+    before, beyond = (Location(lane_inside, offset, 0.0) for offset in (4.0, 7.0))
+    assert [x.link for x in around(seeing(NEAR), before)] == [THEIRS.index]
+    assert around(seeing(NEAR), beyond) == ()
 
 
 def test_what_was_seen_of_a_road_changes_what_is_expected_of_it() -> None:

@@ -127,6 +127,24 @@ def light(*states: tuple[float, str]) -> Outlook:
     return Outlook(0.0, (LightPrediction("L", (0,), showings[:1], (course,)),))
 
 
+@pytest.mark.parametrize("away", [0.0, 0.004, 0.1, 0.6])
+def test_who_stands_right_at_the_kerb_waits_for_green(away: float) -> None:
+    roads, person = zebra(control=Signal("L", 0)), standing_at(102.0, -1.6 - away, NORTH)
+    red = light((0.0, "r"), (8.0, "G"))
+    scenery = Scenery(roads, red, STEPS)
+    found = recognise_people(scenery, [person], (), (), Settings())[person.vehicle]
+    for belief in found:
+        for way in belief.trajectories:
+            assert enters(way.motion) >= 8.0
+    assert enters(motion_of(roads, person, "cross", light((0.0, "G")))) < 1.0 + away
+
+
+def test_who_walks_on_the_crossing_at_red_goes_on() -> None:
+    roads, red = zebra(control=Signal("L", 0)), light((0.0, "r"))
+    north = motion_of(roads, walking(102.0, -1.1, NORTH), "cross", red)
+    assert np.nanmax(north.position[:15, 1]) > 1.6
+
+
 def test_people_wait_at_red_and_are_not_thought_to_stay() -> None:
     roads = zebra(control=Signal("L", 0))
     red = light((0.0, "r"), (8.0, "G"))

@@ -9,6 +9,7 @@ import pytest
 from planner.forward import DT
 from planner.kernels.collision import first_hit
 from planner.kernels.reaction import DELAY, FIRM, react
+from planner.levels import NOBODY_ELSEWHERE
 from planner.obstacles import Obstacle, Traffic
 from planner.trajectory import Array
 
@@ -184,9 +185,8 @@ def test_whatever_happens_drivers_keep_to_their_paths(seed: int) -> None:
     own[:, 2] += turn
     given = (others.states.copy(), others.noticed.copy(), others.braking.copy())
     first = int(rng.integers(0, 20))
-    states, _, late = react(
-        own, SIZE, first, others.states, others.sizes, others.noticed, others.braking
-    )
+    them = (others.states, others.sizes, others.noticed, others.braking, NOBODY_ELSEWHERE)
+    states, _, late = react(own, SIZE, first, *them)
     for before, after in zip(given, (others.states, others.noticed, others.braking), strict=True):
         np.testing.assert_array_equal(before, after)
     np.testing.assert_array_equal(states[:, :first], others.states[:, :first])
@@ -194,7 +194,7 @@ def test_whatever_happens_drivers_keep_to_their_paths(seed: int) -> None:
     assert np.all(states[:, :, 0] <= others.states[:, :, 0] + 1e-9)
     np.testing.assert_allclose(states[:, :, 1], others.states[:, :, 1], atol=1e-9)
     assert np.min(np.diff(states[:, :, 3], axis=1)) >= -FIRM * DT - 1e-9
-    again = react(own, SIZE, first, others.states, others.sizes, others.noticed, others.braking)
+    again = react(own, SIZE, first, *them)
     np.testing.assert_array_equal(states, again[0])
 
 

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.cycles import LONG, SHORT, foresee, residual, supposed
+from planner.cycles import Watched, foresee, supposed
 from planner.forward import DT, Drive, Motion, drive
+from planner.greens import LONG, SHORT, residual
 from planner.kernels.driving import (
     AMBER,
     BEYOND,
@@ -40,6 +41,8 @@ from tests.planner.crossroads import (
     shown,
     watched,
 )
+from tests.planner.nets import shipped
+from tests.planner.zebra import zebra
 
 SIZE = (4.8, 1.8)
 HORIZON = 150
@@ -258,6 +261,34 @@ def test_those_opposite_go_together_and_the_held_come_next() -> None:
     for course in known.courses:
         states = [showing.states for showing in course.showings]
         assert states[:4] == [NORTH_SOUTH, AMBERS, ALL_RED, EAST_WEST][: len(states)]
+
+
+PEOPLE = range(20, 24)  # places of the crossings at the junction
+ARMS = {"north and south": 12, "west and east": 7}  # a straight way of each
+
+
+def test_cars_go_after_those_that_cross_though_people_have_lights_of_their_own() -> None:
+    """Crossings at a junction do not go while it is cleared, nor over a straight way that goes."""
+    before = (Showing(0.0, "ggGggrrrrrggGggrrrrrrGrG"), Showing(5.0, "ggGggrrrrrggGggrrrrrrrrr"))
+    seen = Watched("J", tuple(range(24)), before)
+    known = foresee(shipped("junction"), seen, 12.0, 150.0, closely=True)
+    for course in known.courses:
+        states = [showing.states for showing in course.showings]
+        first, ambers, cleared, other, *_ = states
+        assert first[ARMS["north and south"]] == "G"
+        assert ambers[ARMS["north and south"]] == "y"
+        assert set(cleared) == {"r"}
+        assert other[ARMS["west and east"]] == "G"
+        assert sorted(other[k] for k in PEOPLE) == ["G", "G", "r", "r"]
+
+
+def test_people_at_a_crossing_by_itself_have_their_turn() -> None:
+    roads = zebra(control=Signal("J", 0), of_crossing=Signal("J", 1))
+    seen = Watched("J", (0, 1), (Showing(0.0, "Gr"),))
+    known = foresee(roads, seen, 5.0, 150.0, closely=False)
+    (course,) = known.courses
+    states = [showing.states for showing in course.showings]
+    assert states[:7] == ["Gr", "yr", "rr", "rG", "ry", "rr", "Gr"]
 
 
 def test_who_is_held_may_go_sooner_or_later() -> None:

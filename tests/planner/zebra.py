@@ -23,13 +23,20 @@ INDEX = 9
 KEY = ("J", INDEX)
 
 
-def zebra(*, priority: bool = True, control: Control = UNSIGNALLED, lanes: int = 1) -> Roads:
+def zebra(
+    *,
+    priority: bool = True,
+    control: Control = UNSIGNALLED,
+    lanes: int = 1,
+    of_crossing: Control | None = None,
+) -> Roads:
     """The roads.
 
     Args:
         priority: whether people go first.
         control: of the crossing and of the road.
         lanes: of the road, from y = 0 to the left.
+        of_crossing: control of the crossing, where that is another one.
     """
     found: dict[str, Lane] = {}
     links: list[Link] = []
@@ -58,7 +65,7 @@ def zebra(*, priority: bool = True, control: Control = UNSIGNALLED, lanes: int =
             )
         )
     line = ((102.0, -1.6), (102.0, 3.2 * lanes - 1.6))
-    crossing = Crossing(":J_c0_0", "J", INDEX, line, 4.0, ("in",), control)
+    crossing = Crossing(":J_c0_0", "J", INDEX, line, 4.0, ("in",), of_crossing or control)
     return Roads(Network(found, tuple(links), "zebra", crossings=(crossing,)))
 
 

@@ -133,7 +133,8 @@ def test_a_seed_gives_one_ride(file: Path) -> None:
 
 BROKEN = [
     ("", ["does not say who the ego is", "--ego ID", "such as", "other"]),
-    ("?ego=nobody", ["no vehicle 'nobody' departs before 150 s", "such as", "late"]),
+    ("?ego=nobody", ["no vehicle, trip or flow has the id 'nobody'", "such as", "stream.0"]),
+    ("?ego=stream.9", ["no vehicle 'stream.9' departs before 150 s", "such as", "late"]),
     ("?ego=cycle", ["'cycle' is of class 'bicycle'", "--ego-from"]),
     ("?from=top0A0", ["from without more leaves open who the ego is", "--ego-to EDGE"]),
     ("?from=top0A0&to=A0nowhere", ["there is no edge 'A0nowhere' for cars", "A0top0"]),

@@ -1,10 +1,12 @@
 """Which boxes that overlap on the map are on different levels."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from sim.levels import apart
+from sim.network import Network
 from sim.scene import Point, VehicleState
 from tests.planner.nets import drawn, lane, link
 
@@ -33,6 +35,15 @@ def test_a_body_that_reaches_back_onto_a_bridge_is_on_it() -> None:
     over = [link("bridge_0", "ramp_0", via=(":joint_0_0",))]
     network = drawn([lane("east_0", EAST), *parts], over).network
     assert apart(network, car(51.0, 0.0, 0.0), car(50.0, 2.5, 90.0))
+
+
+def test_people_on_the_pavement_of_a_bridge_are_on_another_level() -> None:
+    pavement = replace(lane("walk_0", NORTH), permits=frozenset({"pedestrian"}))
+    roads = Network({"east_0": lane("east_0", EAST)}, (), "x", other_lanes={"walk_0": pavement})
+    for degrees in (90.0, -90.0):
+        walker = replace(car(50.0, 0.5, degrees), length=0.3, width=0.5)
+        assert apart(roads, car(51.0, 0.0, 0.0), walker)
+    assert not apart(roads, car(51.0, 0.0, 0.0), replace(car(45.0, 0.0, 90.0), length=0.3))
 
 
 @pytest.mark.parametrize(

@@ -109,11 +109,12 @@ class Doing(Value, frozen=True):
 
 
 class Compare(Value, frozen=True):
-    """Which of two is better, sooner, safer, smoother, faster, closer."""
+    """Which of several is better, sooner, safer, smoother, faster, closer, ahead."""
 
     options: tuple[Proposition | Thing, ...]
-    by: Literal["best", "time", "safety", "comfort", "speed", "distance", "probability", "size"]
-    least: bool = False  # which is slower, smaller
+    by: Literal["best", "time", "safety", "comfort", "speed", "distance", "probability", "size",
+                "place"]  # fmt: skip
+    least: bool = False  # which is slower, smaller, farther, behind
 
 
 class Listing(Value, frozen=True):

@@ -8,11 +8,13 @@ from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     Claim,
+    Compare,
     Doing,
     Elliptic,
     Question,
     Request,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -27,7 +29,9 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     That,
+    Together,
 )
+from xavi_dialogue.nlu.compose.choosing import compared_by
 from xavi_dialogue.nlu.compose.polar import way_asked
 from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -60,6 +64,19 @@ def chosen_between(units: Sequence[Node], rows: Rows) -> list[tuple[Act, ...] | 
         else:
             found[last], found[index] = (*first[:-1], Ask(asked)), None
     return found
+
+
+def one_of(first: Act, later: Act) -> Act | None:
+    """Ask "the red one or the white one, which is closer?" of these; None for all else."""
+    match first, later:
+        case Elliptic(thing=Together(members=members), form="which"), Ask(question=question):
+            match question:
+                case Compare(options=(Pronoun(form="them-all"),)):
+                    return Ask(structs.replace(question, options=members))
+                case Which(such=such, among=()):
+                    compare = compared_by(such, members)
+                    return Ask(compare or structs.replace(question, among=members))
+    return None
 
 
 def _is_other(unit: Node) -> bool:

@@ -24,6 +24,7 @@ from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
 from xavi_dialogue.nlu.alternatives import chosen_between
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
 from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.evidence import LOST, missing
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
@@ -73,7 +74,8 @@ SHORT = 5
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
-Composed = tuple[list[tuple[tuple[Act, ...], float]], list[Leaf]]
+Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...]]  # acts, their cost, words without a part
+Composed = tuple[list[Row], list[Leaf]]
 
 
 class Parser:
@@ -253,7 +255,7 @@ def _along(
     path: Path, lattice: Lattice, composed: dict[int, Composed], budget: Budget
 ) -> list[_Draft]:
     """Compose the units of a path, in each way that they can be read."""
-    choices: list[list[tuple[tuple[Act, ...], float]]] = []
+    choices: list[list[Row]] = []
     unknown: list[Leaf] = []
     for unit in path.units:
         alternatives, left = _composed(unit, lattice, composed, budget)
@@ -263,7 +265,9 @@ def _along(
     for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        rows = at_same_time(path.units, chosen_between(path.units, combination))
+        pairs = [(acts, extra) for acts, extra, _ in combination]
+        without = [*unknown, *(leaf for _, _, leaves in combination for leaf in leaves)]
+        rows = at_same_time(path.units, chosen_between(path.units, pairs))
         for row in in_its_world(path.units, rows):
             owners.append(len(acts) - (row is None) if row or row is None else None)
             acts.extend(row or ())
@@ -271,9 +275,9 @@ def _along(
         loose = named - len(acts) if named else 0
         acts, owners = fold(acts, owners)
         loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
-        cost = path.cost + sum(extra for _, extra in combination) + LOOSE * loose
+        cost = path.cost + sum(extra for _, extra in pairs) + LOOSE * loose
         cost += PASSED * bool(unknown)
-        found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(unknown)))
+        found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(without)))
     return found
 
 
@@ -288,11 +292,15 @@ def _composed(
         notes = composer.notes
         lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
         lost += sum(max(0.0, cost) for cost in notes.inner.values())
-        found = [(acts, cost + lost + sum(map(oddity, acts))) for acts, cost in read]
-        found.sort(key=lambda entry: entry[1])
-        found = [_accepted(unit, acts, cost) for acts, cost in found[:_ALTERNATIVES]]
+        rows = [(acts, cost + lost + sum(map(oddity, acts)), missing(unit, acts))
+                for acts, cost in read]  # fmt: skip
+        rows = [(acts, cost + LOST * len(leaves), leaves) for acts, cost, leaves in rows]
+        rows.sort(key=lambda entry: entry[1])
+        found = [
+            (*_accepted(unit, acts, cost), leaves) for acts, cost, leaves in rows[:_ALTERNATIVES]
+        ]
         if not found or is_unknown(unit, composer.notes.unknown):
-            found = [((), _unread(unit))]
+            found = [((), _unread(unit), ())]
         composed[key] = (found, composer.notes.unknown)
     return composed[key]
 

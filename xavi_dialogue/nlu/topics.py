@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     WholeRide,
 )
+from xavi_dialogue.nlu.alternatives import one_of
 from xavi_dialogue.nlu.apposition import apposed
 from xavi_dialogue.nlu.merging import grounds, merged
 
@@ -45,7 +46,7 @@ def fold(acts: list[Act], owners: Owners) -> tuple[list[Act], Owners]:
     """Put a thing that is named by itself into the next act, where a pronoun stands for it."""
     for index in range(len(acts) - 1):
         act, later = acts[index : index + 2]
-        one = merged(act, later) or apposed(act, later)
+        one = merged(act, later) or apposed(act, later) or one_of(act, later)
         if one is None and _told_already(act, later):
             one = act
         if one is None:

@@ -6,7 +6,10 @@ from itertools import pairwise
 
 import msgspec
 import pytest
+from msgspec import structs
 
+from planner.traffic_lights import LightCourse, LightPrediction, Showing
+from sim.scene import Light, LightState, PersonState, Scene, Signal, Unseen
 from tests.fakes import s1_moments
 from tests.traces import s1_ride
 from xavi_dialogue.app.dashboard import past as past_module
@@ -107,10 +110,10 @@ def test_nothing_is_told_of_a_ride_that_nobody_has_seen() -> None:
 def test_what_was_missed_is_filled_in_from_histories() -> None:
     moments, trace = Moments(), s1_ride().traces[1]
     ego = trace.scene[0]
-    moments.see(4.0, {0: ego})
+    moments.see(Scene(4.0, {0: ego}))
     moments.learn(trace)
     scenes = msgspec.json.decode(moments.document("r"), type=Past).scenes
-    times = [time for time, _ in scenes]
+    times = [time for time, *_ in scenes]
     assert times == moments.times == sorted(times)
     assert times[0] == min(track.start for track in trace.history.values())
     assert times[-1] == 4.0
@@ -123,10 +126,30 @@ def test_what_was_missed_is_filled_in_from_histories() -> None:
     assert moments.document("r") == before
 
 
+def test_lights_and_hidden_stretches_are_kept() -> None:
+    moments, trace = Moments(), s1_ride().traces[1]
+    person = PersonState((5.0, 1.0), 0.5, 1.4, 0.2, 0.5)
+    light = Light(Signal("J", 3), LightState.RED, 1.0, change_seen=True)
+    unseen = Unseen("a_0", 10.0, 22.0)
+    moments.see(Scene(4.0, {0: trace.scene[0]}, (light,), {9: person}, (unseen,)))
+    green = trace.sim_time - 0.5
+    seen = (Showing(0.0, "r?!"), Showing(green, "G?!"))
+    course = LightCourse(1.0, seen[1:])
+    moments.learn(
+        structs.replace(trace, lights=(LightPrediction("K", (0, 1, 2), seen, (course,)),))
+    )
+    *earlier, last = msgspec.json.decode(moments.document("r"), type=Past).scenes
+    assert [one[0] for one in last[1]] == [0, 9]
+    assert last[2:] == ((("J 3", "red"),), (("a_0", 10.0, 22.0),))
+    for time, _, lights, hidden in earlier:  # from the history; what was hidden is not in it
+        assert lights == (("K 0", "green" if time >= green else "red"),)
+        assert hidden is None
+
+
 def test_moments_that_come_too_often_or_late_are_left_out() -> None:
     moments, ego = Moments(), s1_ride().traces[0].scene[0]
     for time in (0.0, 0.1, 0.2, 0.3, 0.4, 0.1):
-        moments.see(time, {0: replace(ego, speed=time)})
+        moments.see(Scene(time, {0: replace(ego, speed=time)}))
     assert moments.times == [0.0, 0.2, 0.4]
 
 
@@ -134,13 +157,13 @@ def test_of_very_many_moments_the_latest_are_kept(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(past_module, "MAX_MOMENTS", 100)
     moments, ego = Moments(), s1_ride().traces[0].scene[0]
     for k in range(1000):
-        moments.see(0.2 * k, {0: ego})
+        moments.see(Scene(0.2 * k, {0: ego}))
     assert 80 <= len(moments.times) <= 100
     assert moments.times[-1] == 0.2 * 999
     monkeypatch.setattr(past_module, "MAX_BYTES", 2000)
-    moments.see(1000.0, {0: ego})
+    moments.see(Scene(1000.0, {0: ego}))
     for k in range(100):
-        moments.see(1001.0 + k, {0: ego})
+        moments.see(Scene(1001.0 + k, {0: ego}))
     assert len(moments.document("r")) < 2200
 
 

@@ -8,7 +8,7 @@ import msgspec
 import pytest
 
 from sim.netfile import NetworkError, parse_outlines, read_network
-from sim.scene import VehicleState
+from sim.scene import Light, LightState, PersonState, Signal, Unseen, VehicleState
 from xavi_dialogue.app.dashboard import roads
 from xavi_dialogue.transports.messages import SceneReport
 from xavi_dialogue.transports.web.documents import Roads
@@ -133,3 +133,38 @@ def test_a_scene_as_it_was_seen() -> None:
         (0, 0.0, 0.0, 0.0, 10.0, 4.5, 1.8, "car", None, ()),
         (2, 1.23, -2.0, 1.047, 9.88, 4.57, 1.8, "bus", "red", ("left",)),
     )
+
+
+def test_what_is_for_others_and_what_lights_control_is_shown() -> None:
+    network, outlines = roads.read(packed("junction"))
+    shown = roads.shown(network, outlines)
+    assert [lane.id for lane in shown.others] == list(network.other_lanes)
+    assert {lane.use for lane in shown.others} == {"bicycles", "people"}
+    assert {lane.use for lane in shown.lanes} == {"cars"}
+    assert [one.signal for one in shown.crossings].count(None) == 1  # the zebra crossing
+    assert {one.width for one in shown.crossings} == {4.0}
+    controlled = {link.signal for link in shown.links if link.signal is not None}
+    assert controlled
+    assert controlled.isdisjoint(one.signal for one in shown.crossings)
+
+
+def test_people_lights_and_hidden_stretches_of_a_scene_are_shown() -> None:
+    report = SceneReport(
+        ride="r",
+        seq=7,
+        sim_time=3.2,
+        wall_time=99.5,
+        vehicles={0: VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)},
+        people={9: PersonState((5.0, 1.0), 0.5, 1.4, 0.2, 0.5)},
+        lights=(Light(Signal("J", 3), LightState.RED_AMBER, 1.0, change_seen=True),),
+        unseen=(Unseen("a_0", 10.0, 22.345), Unseen("b_0", math.nan, 3.0)),
+        state="driving",
+        speed_factor=1.0,
+        plan=(),
+        traces=0,
+        events=0,
+    )
+    shown = roads.scene(report)
+    assert shown.vehicles[1] == (9, 5.0, 1.0, 0.5, 1.4, 0.2, 0.5, "pedestrian", None, ())
+    assert shown.lights == (("J 3", "red_amber"),)
+    assert shown.hidden == (("a_0", 10.0, 22.3),)

@@ -3,11 +3,12 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.stated import decision, did, look, result, scene
-from xavi_dialogue.domain.answers import Lasted, Staying, Verdict
+from xavi_dialogue.domain.answers import Happenings, Lasted, Staying, Verdict
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import HowLong
 from xavi_dialogue.domain.terms import (
     At,
@@ -236,3 +237,14 @@ def test_following_and_seeing_are_states(told: Any, of: Any, state: Any) -> None
     told.setattr(lasting, "event_lasting", lambda *_: None)
     told.setattr(lasting, "state_lasting", lambda of, _: of)
     assert lasting.how_long(HowLong(of), scene()) == state
+
+
+def test_how_long_somebody_is_there_is_how_long_it_stands_there() -> None:
+    there = HowLong(Is("present", IT, tense="perfect"))
+    stood = Episode(IT, "stop", 15.0)
+    found = result(lasting.how_long, there, scene(episodes=(stood,), looks={1: look(1)}))
+    assert isinstance(found, Happenings)
+    assert found.episodes == (stood,)
+    gone = replace(stood, end=17.0)
+    found = result(lasting.how_long, there, scene(episodes=(gone,), looks={1: look(1)}))
+    assert not isinstance(found, Happenings)

@@ -185,3 +185,12 @@ def test_a_list_has_forty_events_at_most() -> None:
 
 def test_nothing_is_located_by_a_list() -> None:
     assert not isinstance(listed("events"), Located)
+
+
+def test_those_of_a_kind_are_listed() -> None:
+    seen = {1: look(1), 2: look(2, kind="bicycle"), 3: look(3, kind="bus")}
+    for kind, numbers in (("bicycle", [2]), ("car", [1, 3]), ("vehicle", [1, 2, 3])):
+        found = listed("vehicles", more={"about": Everyone(kind)}, looks=seen)  # type: ignore[arg-type]
+        assert sorted(one.vehicle for one in found.looks) == numbers
+    found = listed("vehicles", more={"about": Vehicles((1, 2))}, looks=seen)
+    assert sorted(one.vehicle for one in found.looks) == [1, 2]

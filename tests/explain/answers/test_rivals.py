@@ -86,3 +86,13 @@ def test_what_cannot_be_measured_of_two_is_not_compared() -> None:
     several = Compare((Vehicles((1, 2)),), "speed")
     two = Given(looks={1: look(1), 2: look(2)}).asked()
     assert rivals.rivals(several, two).holds is None  # type: ignore[union-attr]
+
+
+def test_of_several_the_most_is_told_with_the_value_of_each() -> None:
+    values: dict[Any, Any] = {("speed", Vehicle(v)): s for v, s in ((1, 9.0), (2, 12.0), (3, 4.0))}
+    given = Given(looks={v: look(v) for v in (1, 2, 3)}, measures=values)
+    for least, order in ((False, [12.0, 9.0, 4.0]), (True, [4.0, 9.0, 12.0])):
+        question = Compare((Vehicles((1, 2, 3)),), "speed", least)
+        found: Any = rivals.rivals(question, given.asked())
+        assert [fact.value for fact in found.facts] == order
+        assert found.that.comparator == ("less" if least else "more")

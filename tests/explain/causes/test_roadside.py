@@ -177,6 +177,28 @@ def test_a_bend_that_is_planned() -> None:
 
 
 @pytest.mark.parametrize(
+    ("slowest", "again", "told"),
+    [
+        (5, 10.0, "bend"),  # 25 m before the junction
+        (5, 6.0, "turn"),  # it goes on slowly
+        (16, 10.0, "turn"),
+    ],
+)
+def test_what_lies_beyond_the_slowest_place_is_no_reason(
+    slowest: int, again: float, told: str
+) -> None:
+    """The road bends 10 m ahead; the drive planned is slowest after some steps of 2 m."""
+    whole = with_road(ahead(step(40.0, "exit-left")))
+    trace = whole.traces[4]
+    path = tuple((2.0 * k, 0.0 if k < 5 else 0.8 * (k - 4)) for k in range(24))
+    speed = tuple(5.0 if k == slowest else again if k > slowest else 9.0 for k in range(24))
+    rows = tuple(replace(r, path=path, speed=speed) for r in trace.rollouts)
+    deed = Episode(Ego(), "slow-down", 4.0, None, speed_from=10.0)
+    found = road_causes(whole, replace(trace, rollouts=rows), deed)
+    assert [cause.kind for cause in found] == [told]
+
+
+@pytest.mark.parametrize(
     ("plan", "under_way", "turning"),
     [
         (("exit-left",), None, True),

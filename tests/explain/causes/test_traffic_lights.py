@@ -3,7 +3,7 @@
 import pytest
 
 from planner.events import Event as RideEvent
-from tests.explain.lit import STANDS, answer, record
+from tests.explain.lit import LINE, OBEYS, STANDS, answer, driven, record
 from xavi_dialogue.domain.answers import MotionReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Why
@@ -36,6 +36,14 @@ def test_we_slowed_down_for_it_and_do_not_go_because_of_it():
     assert causes(slowed)[0] == ("light", True, "red")
     waits = answer(Ask(Why(Not(Happens(Event("go", tense="present"))))), 25.0)
     assert causes(waits)[0] == ("light", True, "red")
+
+
+def test_what_goes_on_is_told_as_of_now():
+    """Braking from 4 s on, 62 m before the line; at 9 s the car is 27 m before it."""
+    slows = Ask(Why(Happens(Event("slow-down", tense="present"))))
+    (light, *_) = answer(slows, 9.0).causes
+    assert light.value == pytest.approx(LINE - driven(OBEYS)[1][45], abs=1.0)
+    assert light.value < 30.0
 
 
 def test_a_light_that_makes_no_difference_is_no_cause():

@@ -121,6 +121,8 @@ def test_the_road() -> None:
         (0, 1, "only", None),
         (0, 3, "right", "right"),
         (1, 3, "middle", None),
+        (1, 4, None, None),
+        (2, 4, None, None),
         (2, 3, "left", "left"),
     ],
 )

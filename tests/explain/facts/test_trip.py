@@ -104,6 +104,25 @@ def test_a_time_that_half_of_the_drives_never_have_is_not_told(crash: float, kno
     assert found.value == (10.0 if known else None)
 
 
+@pytest.mark.parametrize("aim", [None, EgoGoal("on", 5.0, None)])
+def test_who_is_under_way_at_the_horizon_needs_longer(aim: EgoGoal | None) -> None:
+    """As at a red light: 25 s at the limits say nothing of when one arrives."""
+    trace = trace_of(chancy((10.0, 0.4), (20.0, 0.6)))
+    rows = tuple(
+        replace(row, outcome="termination", components={**row.components, "time": None})
+        if row.components["time"] == 20.0
+        else row
+        for row in trace.rollouts
+    )
+    road = RoadFacts({}, (), 120.0, 25.0)
+    held = replace(trace, rollouts=rows, road=road, waypoint=aim)
+    left = of(expecting(held, 5.0), "time-to-go", at=5.0)
+    assert (left.value, left.low, left.high) == (trace.settings.horizon - 1.0,) * 2 + (None,)
+    assert left.at_least
+    arrival = of(expecting(held, 5.0), "arrival-time", at=5.0)
+    assert (arrival.low, arrival.high) == (5.0 + trace.settings.horizon - 1.0, None)
+
+
 def test_from_a_place_on_the_way_on_the_rest_is_driven_freely() -> None:
     """The drive imagined is 30 of 120 m long: of 40 s of free driving 30 s are left after it."""
     trace = trace_of(chancy((8.0, 1.0)))

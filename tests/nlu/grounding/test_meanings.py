@@ -453,6 +453,32 @@ def test_a_question_of_the_ride_is_put_as_it_is_meant(spoken: Any, meant: Any) -
     assert of_trip(spoken) == meant
 
 
+MET = Event("approach", Ego(), Wanted(), tense="past")
+SEEN = Related("can-see", Ego(), Wanted(), tense="past")
+
+
+@pytest.mark.parametrize(
+    ("spoken", "meant"),
+    [
+        (Which(Described("bus"), Happens(MET)), Listing("vehicles", Everyone("bus"), WholeRide())),
+        (Which(Described(), SEEN), Listing("vehicles", Everyone(), WholeRide())),
+        (
+            HowMany(Described("bicycle", doing=replace(MET, time=Start()))),
+            Listing("vehicles", Everyone("bicycle"), Start()),
+        ),
+        (HowMany(Described(such=SEEN)), Listing("vehicles", Everyone(), WholeRide())),
+        (HowMany(Described(colour="red", such=SEEN)), None),
+        (HowMany(Described(such=replace(SEEN, tense="present"))), None),
+        (
+            When(Happens(Event("give-way", Ego(), Described(definite=False)))),
+            When(Happens(Event("give-way", Ego()))),
+        ),
+    ],
+)
+def test_whom_we_met_is_listed_and_anybody_is_left_open(spoken: Any, meant: Any) -> None:
+    assert of_trip(spoken) == meant
+
+
 def test_whom_we_waited_for_is_whom_we_let_go() -> None:
     waited = Event("wait", Ego(), Wanted(), tense="past")
     found = of_trip(HowMany(Described(doing=waited)))

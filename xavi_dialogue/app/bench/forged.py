@@ -10,7 +10,7 @@ from pathlib import Path
 from planner.events import Event
 from planner.trace import PlanTrace
 from sim.network import Lane, Network, point_at
-from sim.scene import VehicleState
+from sim.scene import Scene, VehicleState
 from xavi_dialogue.app.alive import Alive
 from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
 from xavi_dialogue.app.roads import serve_roads
@@ -143,13 +143,20 @@ class ForgedCar:
     def see(
         self, now: float, vehicles: Mapping[int, VehicleState], state: CarState = "driving"
     ) -> None:
-        """Report a scene at a simulation time [s]."""
+        """Report vehicles at a simulation time [s]."""
+        self.see_all(Scene(now, vehicles), state)
+
+    def see_all(self, scene: Scene, state: CarState = "driving") -> None:
+        """Report a scene."""
         report = SceneReport(
             ride=self.ride,
             seq=self.scenes,
-            sim_time=now,
+            sim_time=scene.time,
             wall_time=time.time(),
-            vehicles=dict(vehicles),
+            vehicles=dict(scene.vehicles),
+            lights=scene.lights,
+            people=dict(scene.people),
+            unseen=scene.unseen,
             state=state,
             speed_factor=1.0,
             plan=("continue",),

@@ -1,11 +1,13 @@
 """Decisions as browsers get them: in short as they are taken, whole on request."""
 
+from planner.hidden_areas import Phantom
 from planner.trace import Action, PlanTrace, VehiclePrediction
 from sim.network import Network, point_at
 from sim.scene import Point
 from xavi_dialogue.app.dashboard.branches import branches, rounded
 from xavi_dialogue.app.dashboard.junction import right_of_way
 from xavi_dialogue.app.dashboard.lines import chance, likeliest, predicted
+from xavi_dialogue.app.dashboard.roads import within
 from xavi_dialogue.app.dashboard.words import (
     deed,
     goal_words,
@@ -21,6 +23,7 @@ from xavi_dialogue.transports.web.documents import (
     DecisionShown,
     Drive,
     GoalShown,
+    ImaginedShown,
     Predicted,
     TimeRange,
     Way,
@@ -79,6 +82,7 @@ def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
         root=branches(trace),
         refused=_refused(model),
         right_of_way=None if known is None else right_of_way(trace, known, _path(ego)),
+        imagined=tuple(_imagined(one) for one in trace.phantoms if within([one.position])),
         rollouts=len(trace.rollouts),
     )
 
@@ -157,6 +161,15 @@ def _predicted(trace: PlanTrace, known: VehiclePrediction) -> Predicted:
             )
             for goal in goals
         ),
+    )
+
+
+def _imagined(one: Phantom) -> ImaginedShown:
+    return ImaginedShown(
+        position=one.position,
+        heading=one.heading,
+        probability=chance(one.probability),
+        behind=one.behind,
     )
 
 

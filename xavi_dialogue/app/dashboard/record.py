@@ -74,7 +74,7 @@ class Record:
             self._begin_anew()
         told = self._take(inputs)
         if isinstance(report, SceneReport) and self.scene is report:
-            self.moments.see(report.sim_time, report.vehicles)
+            self.moments.see(report.scene())
             told.append(scene(report))
         if self.ride is None:
             return begun, []

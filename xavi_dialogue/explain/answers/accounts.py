@@ -35,7 +35,7 @@ from xavi_dialogue.explain.answers.delays import for_whom
 from xavi_dialogue.explain.answers.findings import known as valued
 from xavi_dialogue.explain.answers.mistakes import mistakes
 from xavi_dialogue.explain.answers.moments import SHORT, Window, window
-from xavi_dialogue.explain.answers.naming import first_look, is_us, number, somebodies
+from xavi_dialogue.explain.answers.naming import first_look, is_us, number, of_kind, somebodies
 from xavi_dialogue.explain.answers.occasions import (
     did_not_happen,
     duration,
@@ -54,7 +54,10 @@ MACROS: frozenset[ActionName] = frozenset(
      "continue-next-exit", "stop")
 )  # fmt: skip
 _SLOWING = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
+_WAITING = {"give-way", "wait"}
 _SHIFTING = ("cut-in", "change-left", "change-right")
+_HALTS = ("wait", "stop", "stand")
+BRIEF = 0.8  # [s] of a halt below which it is not told
 DEED = 2.0  # weight from which something is told of another vehicle
 #: How much an episode matters in a summary.
 WEIGHT: dict[ActionName, float] = {
@@ -75,7 +78,7 @@ def listing(question: Listing, asked: Asked) -> Answer:
     about = window(asked, question.time)
     match question.of:
         case "vehicles":
-            return _vehicles(asked, about)
+            return _vehicles(asked, about, question.about)
         case "beliefs":
             return _beliefs(asked, question, about)
         case "wrong-predictions":
@@ -149,6 +152,7 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     if vehicle is not None:
         told = _deeds(asked, vehicle, begin, end)
         told += [e for e in asked.world.account(begin, end) if number(e.object) == vehicle]
+    told = [e for e in told if e.action not in _HALTS or duration(asked, e) >= BRIEF] or told
     if ride:
         told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
     chosen = select(asked, told, TOLD)
@@ -190,7 +194,7 @@ def _weight(asked: Asked, episode: Episode) -> float:
 def _same(asked: Asked, one: Episode, other: Episode) -> bool:
     """Tell whether two are one thing: of one actor at one time, slowing down or stopping."""
     both = any(one.action in alike and other.action in alike for alike in (_SLOWING, _SHIFTING))
-    if one.object != other.object and one.action == other.action == "give-way":
+    if one.object != other.object and {one.action, other.action} <= _WAITING:
         return False
     if {one.action, other.action} & {"give-way"} and {one.action, other.action} & {"brake"}:
         both = False  # for whom, and how much
@@ -231,7 +235,7 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
     return tuple(sorted(told, key=lambda e: e.begin))[:LISTED]
 
 
-def _vehicles(asked: Asked, about: Window) -> Identified:
+def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Identified:
     """Tell who is in view; over a stretch of the ride, all who were seen in it."""
     world = asked.world
     if about.end - about.begin <= SHORT or asked.past is None:
@@ -240,6 +244,11 @@ def _vehicles(asked: Asked, about: Window) -> Identified:
         at = about.end
         times = [t.sim_time for t in asked.ride.traces if about.begin <= t.sim_time <= about.end]
         numbers = tuple(sorted({v for t in times for v in world.in_view(t)}))
+    match whom:
+        case Vehicle() | Vehicles():
+            numbers = tuple(v.number for v in somebodies(asked, whom, at) if isinstance(v, Vehicle))
+        case Everyone(kind=kind):
+            numbers = of_kind(asked, numbers, kind, at)
     found = (first_look(asked, v, at) for v in numbers)
     seen = tuple(sorted((x for x in found if x is not None), key=lambda look: look.distance))
     return Identified(seen, none=not seen)

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Vehicle,
     Vehicles,
+    Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers import causal
@@ -38,7 +39,12 @@ from xavi_dialogue.explain.answers.naming import (
     looks,
     number,
 )
-from xavi_dialogue.explain.answers.occasions import occasion, taken_place
+from xavi_dialogue.explain.answers.occasions import (
+    did_not_happen,
+    occasion,
+    occasions,
+    taken_place,
+)
 from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.places import to_go
 from xavi_dialogue.explain.answers.priority import (
@@ -119,7 +125,8 @@ def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None and of.event.action in GOING_ON:
         of = with_fields(of, event=None)
     if of.event is not None:
-        taken_place(asked, of.event)
+        if not isinstance(of.event.object, Wanted | Vehicles) and not occasions(asked, of.event):
+            raise did_not_happen(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
     told = of.event is not None or (about.said and about.end < asked.now - RECENT)
     if not told and about.instant and is_past(asked, of.time, of.tense):

@@ -51,6 +51,7 @@ from xavi_dialogue.explain.answers.others import why
 from xavi_dialogue.explain.answers.picking import (
     extreme_of,
     in_line,
+    is_to_come,
     lately_lost,
     owed_by_other,
     spent,
@@ -238,7 +239,7 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
             one = weigh(with_wanted(such, candidate), asked)
         except Unanswered:
             continue
-        if isinstance(one.answer, Priority):
+        if isinstance(one.answer, Priority) and not is_to_come(such):
             return one.answer
         chance = one.probability if one.probability is not None else float(bool(one.holds))
         if one.holds or (ahead and chance >= LIKELY):

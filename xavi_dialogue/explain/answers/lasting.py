@@ -3,6 +3,7 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Lasted, Staying
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import HowLong
 from xavi_dialogue.domain.terms import (
     At,
@@ -17,9 +18,16 @@ from xavi_dialogue.domain.terms import (
     Related,
     Unsaid,
     Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.durations import event_lasting, halted, remaining_wait, stands
+from xavi_dialogue.explain.answers.durations import (
+    event_lasting,
+    halted,
+    lasting,
+    remaining_wait,
+    stands,
+)
 from xavi_dialogue.explain.answers.foreseen import EXPECTED, HALTS, chance
 from xavi_dialogue.explain.answers.moments import UNSAID, is_ahead, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us
@@ -45,7 +53,8 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
         if is_us(back) and isinstance(front, Vehicle):
             return staying(asked, front)
     if not isinstance(of, Event):
-        return state_lasting(of, asked)
+        stood = _stands_there(of, asked)
+        return state_lasting(of, asked) if stood is None else lasting(asked, stood)
     if is_us(of.actor) and _to_come(of, asked):
         leader = of.object if isinstance(of.object, Vehicle) else in_front(asked)
         behind = of.action == "follow" or (of.action in HALTS and not halted(asked))
@@ -56,6 +65,15 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
     if of.action == "see" and is_us(of.actor) and isinstance(of.object, Vehicle):
         return state_lasting(Is("visible", of.object, time=of.time, tense=of.tense), asked)
     return event_lasting(of, asked)
+
+
+def _stands_there(of: Proposition, asked: Asked) -> Episode | None:
+    """Find the standstill of somebody of whom it is asked how long he has been there."""
+    match of:
+        case Is(state="present", thing=Vehicle() as who, time=Now() | Unsaid() | WholeRide()):
+            stood = asked.world.episodes(who, ("stop", "stand"))
+            return next((e for e in reversed(stood) if e.end is None), None)
+    return None
 
 
 def _to_come(of: Event | Related, asked: Asked) -> bool:

@@ -1,5 +1,7 @@
 """Measures: how much, of whom, when: values, extremes, ranges over a stretch of the ride."""
 
+from itertools import combinations
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import (
@@ -18,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Thing,
     Vehicle,
+    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
@@ -46,6 +49,7 @@ NUMBERS: frozenset[Attribute] = frozenset(
 )  # fmt: skip
 #: Whose least value says nothing: it is always there.
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
+PAIRS = 3  # of vehicles between which a distance is told
 #: Gaps of who was out of sight then.
 UNSEEN = ("out-of-view", "hidden")
 #: Of two: the other one is ours where none is said.
@@ -100,12 +104,25 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
 def values(asked: Asked, of: Measured) -> tuple[Measure, ...]:
     """Give the values of a measure: of each thing, at its time, or over its stretch of the ride."""
     at = instant(asked, of.time, of.tense)
+    if isinstance(of.thing, Vehicles) and of.thing == of.to:
+        return _of_pairs(asked, of, of.thing.numbers, at)
     things = things_of(asked, of, at)
     about = window(asked, of.time, of.tense)
     moving = of.attribute in NUMBERS and is_past(asked, of.time, of.tense)
     if moving and not about.instant and not is_ahead(asked, of.time, of.tense):
         return tuple(m for thing in things for m in _over(asked, of, thing, about))
     return tuple(m for thing in things for m in value_at(asked, of, thing, at))
+
+
+def _of_pairs(
+    asked: Asked, of: Measured, numbers: tuple[int, ...], at: float
+) -> tuple[Measure, ...]:
+    """Give a value for each pair of several vehicles: how far they are apart."""
+    pairs = list(combinations(numbers, 2))[:PAIRS]
+    return tuple(
+        m for one, other in pairs
+        for m in value_at(asked, replace(of, to=Vehicle(other)), Vehicle(one), at)
+    )  # fmt: skip
 
 
 def value_at(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Measure, ...]:

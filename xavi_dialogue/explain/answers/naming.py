@@ -22,6 +22,8 @@ from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 Somebodies: TypeAlias = tuple[Somebody, ...]
 #: Kinds that passengers mean any vehicle by.
 ANY: frozenset[Kind] = frozenset(("vehicle", "car"))
+#: Kinds that nobody calls a car.
+NO_CAR: frozenset[Kind] = frozenset(("pedestrian", "bicycle", "wheelchair", "scooter"))
 
 
 def number(thing: Thing | None) -> int | None:
@@ -71,10 +73,12 @@ def known(asked: Asked, thing: Vehicle, at: float) -> Vehicle:
 def of_kind(
     asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float, *, strict: bool = False
 ) -> tuple[int, ...]:
-    """Keep those of a kind; "car" is taken for any vehicle unless `strict`."""
-    if kind == "vehicle" or (kind in ANY and not strict):
+    """Keep those of a kind; "car" is taken for any motor vehicle unless `strict`."""
+    if kind == "vehicle":
         return vehicles
     found = ((v, asked.world.look(v, at)) for v in vehicles)
+    if kind in ANY and not strict:
+        return tuple(v for v, look in found if look is None or look.kind not in NO_CAR)
     return tuple(v for v, look in found if look is not None and look.kind == kind)
 
 

@@ -25,6 +25,8 @@ PLAIN: frozenset[ActionName] = frozenset(
 )  # fmt: skip
 #: What is of our seeing a vehicle rather than of its driving.
 SIGHT: tuple[ActionName, ...] = ("see", "appear", "disappear", "signal")
+#: What we do for somebody who crosses our way.
+SLOWED: tuple[ActionName, ...] = ("slow-down", "brake", "stop")
 #: What else an event may be told by, where there is none of its own name.
 OTHERWISE: dict[ActionName, tuple[ActionName, ...]] = {
     "let-go": ("give-way", "wait"),
@@ -59,7 +61,20 @@ def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
         found = _held(asked, replace(event, action=action))
         if found:
             return tuple(sorted(found, key=lambda e: (e.begin, _end(asked, e))))
-    return ()
+    return _while_crossing(asked, event)
+
+
+def _while_crossing(asked: Asked, event: Event) -> tuple[Episode, ...]:
+    """Find our slowing for others that were crossing our way meanwhile."""
+    if event.action not in SLOWED or not is_us(event.actor) or event.object is None:
+        return ()
+    others = [v for v in _each(asked, event.object) if isinstance(v, Vehicle)]
+    crossed = [e for v in others for e in asked.world.episodes(v, ("cross",), object=Ego())]
+    ours = _held(asked, replace(event, object=None)) if crossed else []
+    return tuple(
+        e for e in ours
+        if any(overlaps(asked, x, Window(e.begin, _end(asked, e))) for x in crossed)
+    )  # fmt: skip
 
 
 def _otherwise(event: Event) -> tuple[ActionName, ...]:

@@ -81,6 +81,11 @@ def likeliest(asked: Asked, event: Event) -> Finding:
     return Finding(None, probability=share, answer=told)
 
 
+def is_to_come(such: Proposition) -> bool:
+    """Tell whether it is asked what somebody is going to do, not what the rule is."""
+    return isinstance(such, Happens) and such.event.tense == "future" and such.event.modal is None
+
+
 def in_line(such: Related, seen: tuple[Look, ...], asked: Asked, at: float) -> tuple[Look, ...]:
     """Choose of those in front of or behind another vehicle who is in its lane."""
     of = look_of(asked, such.to, at)

@@ -28,6 +28,7 @@ from xavi_dialogue.explain.answers.sight import others_mind
 from xavi_dialogue.explain.causes.actions import EXITS
 from xavi_dialogue.explain.history.ride import planned
 
+BODY = 1.5  # [m] that somebody who is between two others takes up at least
 LATELY = 10.0  # [s] since when a turn leads the way that we go
 STEP = 0.5  # [s] between the moments at which a relation is tried over a stretch
 COMPARING: dict[Relation, Attribute] = {
@@ -72,6 +73,8 @@ def related(of: Related, asked: Asked) -> Finding:
         numbers = dict.fromkeys(v.number for v in both if isinstance(v, Vehicle))
         seen = looks(asked, tuple(numbers), about.end)
         return Finding(one == other, seen)
+    if of.relation == "between" and isinstance(of.to, Vehicles):
+        return _in_the_middle(of, asked, of.to.numbers, about.end)
     found = [_between(of, asked, thing, to, about) for thing in _each(asked, of.thing, about.end)
              for to in _each(asked, of.to, about.end)]  # fmt: skip
     true = next((one for one in found if one.holds), None)
@@ -110,6 +113,20 @@ def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) 
         lost = any(look.in_view is False for look in facts if hasattr(look, "in_view"))
         return unknown("out-of-view" if lost else "not-recorded", *facts)
     return Finding(holds, (Relating(of.relation, thing, to, at, holds), *facts))
+
+
+def _in_the_middle(of: Related, asked: Asked, sides: tuple[int, ...], at: float) -> Finding:
+    """Weigh that a vehicle is between two others: it is no farther by way of it."""
+    one, other = Vehicle(sides[0]), Vehicle(sides[-1])
+    pairs = ((one, of.thing), (of.thing, other), (one, other))
+    found = [asked.world.measure("distance", a, at, b) for a, b in pairs]
+    near, far, apart = (measure.value for measure in found)
+    if of.thing in (one, other):
+        return Finding(False)
+    if near is None or far is None or apart is None:
+        return unknown("out-of-view")
+    seen = tuple(n for n in (number(of.thing),) if n is not None)
+    return Finding(near + far <= apart - BODY, looks(asked, seen, at))
 
 
 def _facts(of: Related, asked: Asked, thing: Thing, to: Thing, at: float) -> tuple[Fact, ...]:

@@ -10,6 +10,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.explain.causes.course import lines
+from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.nearing import junctions_ahead, to_destination
 from xavi_dialogue.explain.history.ride import Ride, planned
 
@@ -20,6 +21,7 @@ AGAIN = 6.0  # [s] after a standstill in which one is still setting off
 STANDING = 0.3  # [m/s]
 SLACK = 0.5  # [m/s] by which a speed may exceed the limit
 
+PICKED_UP = 2.0  # [m/s] by which one is faster again beyond what one slowed down for
 BENDING = 2.5  # [s] after slowing down in which the bend lies for which it was done
 BEND = math.radians(10.0)  # angle from which the road bends
 
@@ -34,6 +36,7 @@ def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCaus
     if deed.action == "speed-up":
         return speeding_up(ride, deed)
     junction = [_from_here(ride, deed, cause) for cause in _junction(trace, deed)]
+    junction = [] if junction and _beyond_slowest(ride, trace, deed) else junction
     found = [*_destination(ride, trace, deed), *junction, *_lower_limit(ride, deed)]
     found = found[:2] or _bend(ride, trace, deed)
     if deed.action in HALTS:
@@ -85,11 +88,45 @@ def _destination(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCaus
     return [MotionCause("destination", value=to_destination(ride, time))]
 
 
+def _drawn(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[PlanTrace, Motion] | None:
+    """The decision of a deed, or the last one of it before, that has recorded a drive; and that."""
+    known = [t for t in ride.traces if deed.begin - 1.0 <= t.sim_time < trace.sim_time]
+    for decided in (trace, *reversed(known)):
+        motion = next(iter(lines(decided).values()), None)
+        if motion is not None:
+            return decided, motion
+    return None
+
+
+def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
+    """Whether the drive planned is slowest well before the next junction, then faster again."""
+    found = _drawn(ride, trace, deed)
+    if found is None or found[0].road is None or not found[0].road.route:
+        return False
+    distance = found[0].road.route[0].distance
+    low = _slowest(found[1], distance)
+    return low is not None and low < distance - MARGIN
+
+
+def _slowest(motion: Motion, distance: float) -> float | None:
+    """How far off [m] one is slowest before one is faster again; None: not within a distance."""
+    way, lowest, at = 0.0, math.inf, 0.0
+    for k, speed in enumerate(motion.speed):
+        way += math.dist(motion.position[max(k - 1, 0)], motion.position[k])
+        if way > distance:
+            return None
+        if speed < lowest:
+            lowest, at = speed, way
+        elif speed > lowest + PICKED_UP:
+            return at
+    return None
+
+
 def _bend(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
     """A bend of the road that was driven through after slowing down, or is planned to be."""
     end = ride.now if deed.end is None else deed.end
-    driven = ride.motion(EGO)
-    for motion in (driven, *list(lines(trace).values())[:1]):
+    drawn = _drawn(ride, trace, deed)
+    for motion in (ride.motion(EGO), *(() if drawn is None else drawn[1:])):
         headings = [motion.heading[k] for k in motion.within(deed.begin, end + BENDING)]
         turned = [angle_between(heading, headings[0]) for heading in headings]
         if max(map(abs, turned), default=0.0) >= BEND:

@@ -13,7 +13,7 @@ from xavi_dialogue.domain.answers import MotionCause, NeedRollout
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.replanned import replanned, saves_time
+from xavi_dialogue.explain.causes.replanned import gets_further, replanned, saves_time
 from xavi_dialogue.explain.facts.light_waits import Hold, holding
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.waiting import top_holders
@@ -55,6 +55,8 @@ def light_causes(
         return None
     until = ride.now if hold.goes_on else hold.end
     time = min(max(at, hold.begin), until) if deed.action in STILL else trace.sim_time
+    if deed.end is None and hold.goes_on:
+        time = ride.now  # what goes on is told as of now
     one = shown(ride, hold.signal, time) or shown(ride, hold.signal, trace.sim_time)
     if one is None:
         return None
@@ -87,21 +89,32 @@ def _decision(ride: Ride, hold: Hold, deed: Episode, at: float) -> PlanTrace | N
 def matters(ride: Ride, trace: PlanTrace, signal: Signal) -> bool | None:
     """Tell whether a decision would save time were a light green; None where it is not known.
 
+    It would also where the ego gets further until a light beyond holds it.
+
     Raises:
         Unanswered: the decision must be planned again first.
     """
-    return saves_time(ride, trace, with_light(ride, trace, signal, GREEN))
+    again = with_light(ride, trace, signal, GREEN)
+    saves = saves_time(ride, trace, again)
+    if again is None or saves is not False:
+        return saves
+    return gets_further(ride, trace, again)
 
 
 def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> PlanTrace | None:
     """Find the plan made again from a decision with what a light is supposed to show for good.
 
-    None where the planner could not make it.
+    One that is green lets us through its junction: so are those behind it on our way there. None
+    where the planner could not make it.
 
     Raises:
         Unanswered: it must be made first.
     """
-    supposed = (LightSupposed(signal.controller, signal.index, state),)
+    places = [signal.index]
+    if state == GREEN and trace.road is not None:
+        way = [x.place for x in trace.road.lights if x.controller == signal.controller]
+        places += way[way.index(signal.index) + 1 :] if signal.index in way else []
+    supposed = tuple(LightSupposed(signal.controller, place, state) for place in places)
     need = NeedRollout(trace_id=trace.trace_id, lights=supposed)
     return replanned(ride, trace, need)
 

@@ -191,8 +191,15 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
                 "level": isinstance(one.to, Vehicle),
                 "reach": isinstance(one.to, Junction),
             }
-            slots["bound"] = one.low is not None and one.high is None
+            slots["bound"] = _is_bound(one)
+        case "arrival-time":
+            slots["bound"] = _is_bound(one)
     return slots
+
+
+def _is_bound(one: Measure) -> bool:
+    """Whether a time is only known to be longer than its value."""
+    return one.low is not None and one.high is None
 
 
 def degree(acceleration: float) -> str:

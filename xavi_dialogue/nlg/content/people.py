@@ -1,5 +1,6 @@
 """People: who it is, how many there are, and where they are."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -64,14 +65,26 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
         return Plan((message("PLAIN", it=clause),), told)
     if len(answer.looks) == 1:
         return _one(answer, answer.looks[0], facts, context)
-    looks = answer.looks[:MANY]
-    past = _past(looks[0], context)
-    whos = tuple(_who(look, context) for look in looks)
+    past = any(not look.in_view for look in answer.looks)
+    if past or len(answer.looks) > MANY or not any(map(_telling_one, answer.looks)):
+        return _by_kind(answer.looks, context)
+    whos = tuple(_who(look, context) for look in answer.looks)
     amount = Number(len(answer.looks), "vehicle")
-    first = message("IDENTIFIED_MANY", can="could" if past else "can", number=amount, looks=whos)
-    left = len(answer.looks) - len(looks)
-    rest = (message("AND_MORE", number=str(left)),) if left else ()
-    return Plan((first,), (*rest, *facts))
+    can = "could" if _past(answer.looks[0], context) else "can"
+    return Plan((message("IDENTIFIED_MANY", can=can, number=amount, looks=whos),), facts)
+
+
+def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
+    """Tell of many by colour and kind, with how many there are of each."""
+    heads = Counter(
+        " ".join(part for part in (look.colour, word("vehicles", "kind", look.kind)) if part)
+        if _telling_one(look) else word("vehicles", "kind", look.kind)
+        for look in looks
+    )  # fmt: skip
+    rows = [number(Number(count, head)) for head, count in heads.items()]
+    past = _past(looks[0], context) or any(not look.in_view for look in looks)
+    many = number(Number(len(looks), "other")) if len(rows) > 1 else None
+    return Plan((message("IDENTIFIED_KINDS", past=past, many=many, rows=listed(rows)),))
 
 
 def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
@@ -200,7 +213,8 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         return replace(plan, core=(message(rule, it=plan.core[0]), *plan.core[1:]))
     if isinstance(answer.of, Event) and isinstance(answer.of.object, Exit):
         return Plan((exits_passed(answer),))
-    facts = tuple(fact_message(f, context) for f in answer.facts)
+    apart = (f for f in answer.facts if not isinstance(f, Look) or _telling_one(f))
+    facts = tuple(fact_message(f, context) for f in apart)
     span = _span(answer, context)
     if isinstance(answer.of, Event):
         never = answer.count == 0
@@ -215,7 +229,7 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     such = answer.such if isinstance(answer.such, Described) else None
     amount = Number(answer.count, _noun(such or answer.of))
     if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
-        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look)]
+        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look) and _telling_one(f)]
         rows = tuple(Who(Vehicle(v), placed=len(seen) < FEW) for v in seen)
         did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
         doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
@@ -232,6 +246,11 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     if len(facts) > FEW:
         return Plan((first,), (), _listed(facts))
     return Plan((first,), _listed(facts))
+
+
+def _telling_one(look: Look) -> bool:
+    """Tell whether it can be told from others by its look: people on foot are not."""
+    return look.kind != "pedestrian"
 
 
 def _only_there(that: Proposition) -> bool:

@@ -42,12 +42,16 @@ FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the c
             "headlight": "the headlights", "blind": "the blind corner"}  # fmt: skip
 
 
+MANY = 5  # vehicles that are named one by one
+
+
 @dataclass(slots=True)
 class Speaker:
     """Who speaks, and the vehicles that have been named so far, in order."""
 
     context: SpeechContext
     mentioned: list[int] = field(default_factory=list)
+    lit: bool = False  # a traffic light was named
     passenger: bool = False  # the words are put into the passenger's mouth: "you" rather than "I"
 
     def refer(self, who: Who, form: str) -> str:
@@ -58,13 +62,18 @@ class Speaker:
             return {"I": "you", "my": "your"}.get(words, words) if self.passenger else words
         if isinstance(thing, Vehicle):
             return self._vehicle(thing.number, who, form)
+        if isinstance(thing, Feature) and thing.kind == "light":
+            self.lit = True  # "it" may be the light from here on
+        if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
+            return {"object": "them", "possessive": "their"}.get(form, "they")
         if isinstance(thing, Vehicles):
             parts = [self._vehicle(v, who, "full") for v in thing.numbers]
             return _owned(listed(parts), form)
         return _owned(self._other(thing, form), form)
 
     def _vehicle(self, vehicle: int, who: Who, form: str) -> str:
-        if form != "full" and not who.indefinite and self.mentioned == [vehicle]:
+        alone = self.mentioned == [vehicle] and not self.lit
+        if form != "full" and not who.indefinite and alone:
             return "its" if form == "possessive" else "it"
         return _owned(self._named(vehicle, who), form)
 

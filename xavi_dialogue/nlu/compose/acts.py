@@ -27,9 +27,11 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Passenger,
     Pronoun,
+    Together,
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.blames import blamed_for, of_one_alone
+from xavi_dialogue.nlu.compose.choosing import options_of
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.existence import if_alone
 from xavi_dialogue.nlu.compose.expecting import as_expected, feared
@@ -54,6 +56,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
 NOTHING = 2.5  # cost of a unit of which nothing can be made
+NAMED_FIRST = 0.4  # cost of things named by themselves, of which one is asked for next
 SHORT = 0.5  # of "if you had" before an order
 _COURTEOUS = frozenset({"PLEASE", "TAGWORD"})
 _PROPOSING = frozenset({("maybe",), ("perhaps",)})
@@ -237,6 +240,8 @@ class Composer(Statements):
         if leaf_of(unit, "TALLY"):
             counted = among(sem, named[0])
             return [] if counted is None else [((Claim(counted),), 0.0)]
+        if unit.name == "topic" and (options := options_of(sem)) is not None:
+            return [((Elliptic(Together(options), form="which"),), NAMED_FIRST)]
         thing = as_thing(sem)
         told = isinstance(thing, Described | Vehicle)
         if unit.name == "apposed" and isinstance(sem, Group):

@@ -9,11 +9,14 @@ from xavi_dialogue.domain.terms import (
     Back,
     Event,
     Now,
+    Pronoun,
     Quantity,
+    Rank,
     Unsaid,
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, Slots, is_named
+from xavi_dialogue.nlu.compose.heads import rank_of
 from xavi_dialogue.nlu.compose.sem import Group, Notes, SideOf
 from xavi_dialogue.nlu.compose.things import Nouns
 from xavi_dialogue.nlu.compose.times import left_behind, number_before, relative, time_of
@@ -97,10 +100,18 @@ class Adjuncts:
         else:
             event, ended = self.nouns.read(inner), None
         anchor = ended or self.propositions.anchor(event)
+        if leaf.key == "either":
+            clause.focus.add("either")
         if leaf.key == "since" and anchor == Event("go"):
             clause.time = WholeRide()  # "since we set off"
         elif anchor is not None and isinstance(clause.time, Unsaid):
-            clause.time = relative("after" if ended else leaf.key, anchor)
+            clause.time = relative(_relation(leaf.key, bool(ended)), anchor)
+
+    def _on_occasion(self, node: Node, clause: Clause) -> None:
+        """Take "the last time we stopped" for that clause, of that rank."""
+        clause.that = self.clause(cast(Node, node.parts[-1]), clause)
+        clause.that.time = Rank(rank_of(leaf_of(node, "ORD")))
+        clause.subject = Pronoun("it")
 
     def _on_when_np(self, node: Node, clause: Clause) -> None:
         self._on_when(node, clause)
@@ -153,3 +164,10 @@ class Adjuncts:
             clause.contrast = sem.side if isinstance(sem, SideOf) else sem
         else:
             clause.contrast = self.slots.fill((inner,), Clause(subject=clause.subject))
+
+
+def _relation(key: str, ended: bool) -> str:
+    """Name how a time lies to an event; of "before or after" the first."""
+    if ended:
+        return "after"
+    return "before" if key == "either" else key

@@ -6,6 +6,7 @@ from typing import Any, cast
 from msgspec import structs
 
 from xavi_dialogue.domain.terms import (
+    AtDecision,
     Believed,
     Both,
     Compares,
@@ -33,7 +34,16 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
-from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_speed, as_thing
+from xavi_dialogue.nlu.compose.sem import (
+    Group,
+    Measure,
+    Moment,
+    Noun,
+    Sem,
+    as_speed,
+    as_thing,
+    between,
+)
 from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
 from xavi_dialogue.nlu.compose.tree import is_negated
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -119,6 +129,8 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
         return replace(sem, of=with_fields(measured, time=Relative(cast(Any, key), anchor)))
     if isinstance(other, Event) and key in ("of", "for", "in", "on", "about"):
         return replace(sem, of=with_fields(measured, event=other))
+    if key == "between" and (pair := between(other)) is not None:
+        return replace(sem, of=with_fields(measured, thing=pair[0], to=pair[1]))
     thing = as_thing(other)
     several = isinstance(other, Group) and not isinstance(other.members[-1], Measure)
     if thing is None or key not in _OF or several:
@@ -126,6 +138,17 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
     if key == "of" or (measured.attribute == "probability" and isinstance(measured.thing, Ego)):
         return replace(sem, of=with_fields(measured, thing=thing))
     return replace(sem, of=with_fields(measured, to=thing))
+
+
+def of_numbers(of: Measured) -> Measured:
+    """Take "the distance between 2 and 4" for that of two vehicles, not of two decisions."""
+    time = of.time
+    if of.attribute not in ("distance", "gap") or not isinstance(time, AtDecision) or of.to:
+        return of
+    if time.last is None or not isinstance(of.thing, Ego):
+        return of
+    one, other = Vehicle(time.number), Vehicle(time.last)
+    return structs.replace(of, thing=one, to=other, time=Unsaid())
 
 
 def with_fields(value: Any, **fields: Any) -> Any:

@@ -47,7 +47,7 @@ from xavi_dialogue.nlu.compose.specials import proposition_of
 
 def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
     """Ask "how many cars", "how much time" of a clause; "how many more turns" are to come."""
-    if isinstance(sem, Event) and _to_come(clause, value, words):
+    if isinstance(sem, Event) and _to_come(clause, value, words, sem):
         return HowMany(cast(Event, with_fields(sem, tense="future")))
     actor = as_thing(clause.subject)
     event = value.event if isinstance(value, Happens) else None
@@ -91,8 +91,15 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
     return question or measured("count", clause, actor)
 
 
-def _to_come(clause: Clause, value: Any, words: tuple[str, ...]) -> bool:
+#: What of ours is counted ahead where the present is spoken of: "how many turns are there".
+_AHEAD = WAYS | {"change-left", "change-right", "change-lane"}
+
+
+def _to_come(clause: Clause, value: Any, words: tuple[str, ...], sem: Sem | None = None) -> bool:
     """Say whether it is asked how many are left, or still to come."""
+    ours = isinstance(clause.subject, Ego | None) and clause.tense == "present"
+    if ours and isinstance(sem, Event) and sem.action in _AHEAD and isinstance(sem.actor, Ego):
+        return True  # "how many turns do we still have"
     coming = isinstance(value, Happens) and value.event.action in ("come", "go", "leave", "move")
     left = clause.side == "left" and clause.verb is None
     ahead = any(key == "ahead" for key, _ in clause.bearings) or clause.tense == "future"

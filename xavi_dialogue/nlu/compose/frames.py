@@ -55,6 +55,8 @@ class Frames:
 
     def framed(self, question: Question, clause: Clause, value: Any) -> Question:
         """Put a question under its condition, and a "why" beside its contrast."""
+        if "either" in clause.focus:
+            question = _either_side(question)
         inner = next((c for c in (clause.gerund, clause.infinitive, clause.that) if c), None)
         if clause.contrast is None and inner is not None and inner.contrast is not None:
             clause = inner
@@ -267,3 +269,15 @@ def _with_side(of: Proposition, side: str) -> Proposition | None:
     if event.action in ("turn", "go"):
         return Happens(structs.replace(event, action=f"exit-{side}"))
     return Happens(structs.replace(event, side=side))
+
+
+def _either_side(question: Question) -> Question:
+    """Ask on which side of an event something was: "before or after you saw him"."""
+    match question:
+        case Whether(that=Happens(event=Event(time=Relative(relation="before") as time) as event)):
+            later = structs.replace(event, time=structs.replace(time, relation="after"))
+            return Whether(Both((Happens(event), Happens(later)), "or"))
+        case Whether(that=Is(time=Relative(relation="before") as time) as that):
+            after = structs.replace(that, time=structs.replace(time, relation="after"))
+            return Whether(Both((that, after), "or"))
+    return question

@@ -43,7 +43,15 @@ from xavi_dialogue.nlu.compose.candidates import Special
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.lasting import long_lasting, meanwhile, measured
 from xavi_dialogue.nlu.compose.predicates import tense_of
-from xavi_dialogue.nlu.compose.sem import Group, Measure, Sem, as_thing
+from xavi_dialogue.nlu.compose.sem import (
+    Group,
+    Measure,
+    Sem,
+    as_thing,
+    between,
+    each_other,
+    is_thing,
+)
 from xavi_dialogue.nlu.compose.times import is_moment
 
 _PACES = frozenset({"faster", "slower", "quicker"})
@@ -58,6 +66,8 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
     if isinstance(value, Not) and isinstance(value.content, Happens):
         event = value.content.event
     actor = event.actor if event is not None else as_thing(clause.subject)
+    if grade in _LENGTHS and (pair := apart(clause, actor, words)) is not None:
+        return measured("distance", clause, pair[0], to=pair[1])
     match grade:
         case "fast" if _permitted(clause):
             return measured("limit", clause, actor if isinstance(actor, Described) else Ego())
@@ -108,6 +118,23 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return _much(clause, value, actor)
         case _:
             return _quality(clause, words, value, actor)
+
+
+_LENGTHS = frozenset({"far", "big", "close", "much", "long"})
+
+
+def apart(
+    clause: Clause, actor: Thing | None, words: tuple[str, ...]
+) -> tuple[Thing, Thing] | None:
+    """Find the two others between whom it is measured: "how far apart are they"; None: else.
+
+    Several that are one thing stand on both sides.
+    """
+    found = (between(phrase.sem) for phrase in clause.complements if phrase.key == "between")
+    pair = next((one for one in found if one is not None), None)
+    if pair is not None or "apart" not in words:
+        return pair
+    return each_other(actor)
 
 
 def _from_now(asked: Question) -> Question:
@@ -178,8 +205,9 @@ def far_to(
     to = reference(clause)
     if to is None and remaining(clause, actor):
         return measured("distance-to-go", clause, Ego())
-    arriving = event is not None and event.action == "arrive"
-    if arriving or isinstance(to, Destination):
+    goal = clause.time.anchor if isinstance(clause.time, Relative) else None
+    arriving = any(isinstance(e, Event) and e.action == "arrive" for e in (event, goal))
+    if arriving or isinstance(to, Destination) or isinstance(goal, Destination):
         return measured("distance-to-go", clause, Ego())
     if event is not None and isinstance(actor, Ego) and to is None and event.tense != "present":
         return measured("distance-driven", clause, Ego())
@@ -289,7 +317,11 @@ def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
         return measured("speed-change", clause, actor, event=value.event)
     if clause.comparisons and clause.comparisons[0][0] in _DIFFERENCES:
         than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
-        return measured(_DIFFERENCES[clause.comparisons[0][0]], clause, actor, to=than)
+        attribute = _DIFFERENCES[clause.comparisons[0][0]]
+        if attribute == "distance" and is_thing(actor) and than is not None:
+            far = clause.comparisons[0][0] == "far"
+            return Compare((cast(Thing, actor), than), "distance", far)
+        return measured(attribute, clause, actor, to=than)
     if isinstance(value, Special) and value.name in ("cost", "delay", "save", "take-time"):
         return measured("delay", clause, actor)
     if any(key == "allowed" for key, _ in clause.adjectives):

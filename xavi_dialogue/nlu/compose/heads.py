@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Passenger,
     Pronoun,
+    Proposition,
     Rank,
     Record,
     Road,
@@ -284,12 +285,19 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in traits.adjectives)
     manners = tuple("suddenly" if a == "sudden" else a for a in manner)
     obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
-    if traits.following and action in ("turn", "exit-left", "exit-right", "change-lane", "stop"):
+    due = traits.following or _still_due(traits.clause)
+    if due and action in ("turn", "exit-left", "exit-right", "change-lane", "stop"):
         return Event(cast(Any, action), actor, obj, side, tense="future")
     if known or (action == "do" and traits.determiner == "def"):
         return Event("do", actor, Pronoun("that"))
     rank = Unsaid() if traits.ordinal is None else Rank(traits.ordinal)
     return Event(cast(Any, action), actor, obj, side, cast(Any, manners), rank)
+
+
+def _still_due(clause: Proposition | None) -> bool:
+    """Say whether a relative clause is of what is to come: "the turns we still have to make"."""
+    event = clause.event if isinstance(clause, Happens) else None
+    return event is not None and (event.tense == "future" or event.modal == "must")
 
 
 def _peaks(head: Leaf, traits: Traits, quality: str) -> Noun:

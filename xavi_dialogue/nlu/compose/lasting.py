@@ -100,6 +100,10 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
     if isinstance(clause.time, Relative) and _is_awaited(clause.time):
         return until(clause.time.anchor)
+    if isinstance(clause.time, Relative) and clause.time.relation == "since":
+        past = clause.time.anchor
+        if event is None and clause.verb is None and isinstance(past, Event):
+            return When(Happens(past))  # "how long since we stopped"
     behind = [c.sem for c in clause.complements if c.key == "bearing-behind"]
     if clause.verb is None and actor is None and behind and as_thing(behind[0]) is not None:
         return HowLong(Event("follow", Ego(), as_thing(behind[0]), tense="future"))

@@ -54,7 +54,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.adoption import as_of
+from xavi_dialogue.nlu.compose.adoption import as_of, of_numbers
 from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, SideOf, as_thing
 
 _LISTED = {"option": "options", "event": "events", "prediction": "beliefs",
@@ -156,7 +156,7 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
         return HowSure(
             measured.about or (Happens(measured.event) if measured.event else None), time
         )
-    return HowMuch(measured, sem.extreme)
+    return HowMuch(of_numbers(measured), sem.extreme)
 
 
 def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
@@ -193,6 +193,8 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return Listing("events", whose, time)
         case "evidence":
             return HowKnow(about)
+        case "ride" if isinstance(sem.clause, Happens) and isinstance(time, Unsaid):
+            return Summarise(None, sem.clause.event.time)  # "everything that happened since"
         case "summary" | "ride":
             of = None if isinstance(thing, Unknown) else _other_than_ego(thing)
             return Summarise(of, time)

@@ -10,11 +10,14 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Happens,
     Next,
+    Passenger,
     Pronoun,
     Related,
+    Thing,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.choosing import by_of, in_line, least_of, superlative_of
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.comparing import BY
 from xavi_dialogue.nlu.compose.effects import Effects
@@ -33,14 +36,17 @@ class Options(Effects):
 
     def one_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> tuple[Question, float]:
         """Ask which of some things or deeds it is, with what that reading costs."""
+        things = all(is_thing(option) for option in options)
+        if things and (behind := in_line(clause)) is not None:
+            return Compare(options, "place", behind), 0.1
         first = self._first_of(wh, clause, options)
         if first is not None:
             return first, 0.1
-        things = all(is_thing(option) for option in options)
+        if things and (most := superlative_of(clause)) is not None:
+            return Compare(options, cast(Any, most[0]), most[1]), 0.1
         by = "time" if "first" in clause.manner else "best"
         if clause.comparisons:
-            by = BY.get(clause.comparisons[0][0], "best")
-            by = "speed" if by == "time" and things else by
+            by = by_of(clause) if things else BY.get(clause.comparisons[0][0], "best")
         least = things and least_of(clause)
         return Compare(options, cast(Any, by), least), 0.1 + WEAK * (things and by == "best")
 
@@ -73,8 +79,12 @@ class Options(Effects):
 
     def compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
         """Ask "which is faster, left or right"."""
-        if wh.kind not in ("which", "what", "who") or not clause.comparisons:
+        most = superlative_of(clause)
+        if wh.kind not in ("which", "what", "who") or not (clause.comparisons or most):
             return None
+        if most is not None:
+            those = several_of(wh.of) or several_of(wh.sem)
+            return None if those is None else Compare((those,), cast(Any, most[0]), most[1])
         deeds = self.deeds(clause)
         if deeds:
             return Compare(deeds, cast(Any, BY.get(clause.comparisons[0][0], "best")))
@@ -82,23 +92,27 @@ class Options(Effects):
         if options:
             return Compare(tuple(_option(s) for s in options[0].members),
                            cast(Any, BY.get(clause.comparisons[0][0], "best")))  # fmt: skip
-        among = [wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
-        spoken = any(isinstance(s, Pronoun) and s.form in ("they", "them-all") for s in among)
-        if spoken or {"them", "those", "these", "both"} & set(wh.words):
-            by = {"fast": "speed", "slow": "speed"}.get(clause.comparisons[0][0])
-            other = BY.get(clause.comparisons[0][0], "best")
-            return Compare((Pronoun("them-all"),), cast(Any, by or other), least_of(clause))
-        return None
-
-
-def least_of(clause: Clause) -> bool:
-    """Say whether it is asked who is slower or smaller, not faster or bigger."""
-    return bool(clause.comparisons) and clause.comparisons[0][0] in ("slow", "small")
+        among = [wh.of, wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
+        those = next((thing for sem in among if (thing := several_of(sem)) is not None), None)
+        bare = wh.kind == "which" and wh.sem is None and wh.of is None and clause.gap is None
+        if those is None and (bare or {"them", "those", "these", "both"} & set(wh.words)):
+            those = Pronoun("them-all")
+        if those is None or clause.than is not None:
+            return None
+        return Compare((those,), cast(Any, by_of(clause)), least_of(clause))
 
 
 def rivals(options: tuple[Any, ...]) -> tuple[Any, ...]:
     """Give those of some options who are not us."""
     return tuple(one for one in options if not isinstance(one, Ego))
+
+
+def several_of(sem: Sem | None) -> Thing | None:
+    """Give those of whom one is asked for: "which of them", "which of the two trucks"."""
+    if isinstance(sem, Pronoun) and sem.form in ("they", "them-all"):
+        return Pronoun("them-all")
+    many = isinstance(sem, Described) and sem.definite and sem.plural
+    return sem if many and isinstance(sem, Described) and sem.number else None
 
 
 def several(options: tuple[Any, ...]) -> bool:
@@ -140,4 +154,5 @@ def _is_option(other: Clause) -> bool:
 def _option(sem: Sem) -> Any:
     if isinstance(sem, Event):
         return Happens(sem)
-    return as_thing(sem) or Pronoun("that")
+    thing = as_thing(sem) or Pronoun("that")
+    return Ego() if isinstance(thing, Passenger) else thing  # "me or the one on the right"

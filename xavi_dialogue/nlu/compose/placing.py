@@ -27,7 +27,7 @@ from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, exceeded, passed
 from xavi_dialogue.nlu.compose.predicates import against, arrived, beyond, tense_of
-from xavi_dialogue.nlu.compose.sem import Measure, as_thing
+from xavi_dialogue.nlu.compose.sem import Measure, as_thing, each_other
 from xavi_dialogue.nlu.compose.tree import words_of
 
 LOOSE = 0.25  # cost of a particle beside "be"
@@ -86,7 +86,8 @@ def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None
     if to is not None and words_of(phrase.node).startswith("down to"):
         return Caused(to), 0.0  # "is that down to us?"
     if phrase.key.startswith("bearing-") and words_of(phrase.node).startswith("close "):
-        other = to if isinstance(thing, Ego | Passenger) and to is not None else thing
+        vague = isinstance(thing, Ego | Passenger) or thing in (Pronoun("that"), Pronoun("this"))
+        other = to if vague and to is not None else thing  # "that was close to the van"
         return Is("close", other, None, "too" in clause.focus, time, tense), 0.0
     if phrase.key.startswith("bearing-"):
         relation: Any = relation_of(phrase.key.removeprefix("bearing-"))
@@ -118,6 +119,8 @@ def _by_preposition(clause: Clause, thing: Thing, to: Thing, key: str) -> Found 
         return Related(relation, thing, to, time, tense), 0.0
     if key == "with":
         return Related("with", thing, to, time, tense), 0.1
+    if key == "between" and each_other(to) is not None:
+        return Related("between", thing, to, time, tense), 0.0
     return None
 
 

@@ -44,6 +44,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import as_of
 from xavi_dialogue.nlu.compose.blames import blamed, cleft_cause, rival
 from xavi_dialogue.nlu.compose.candidates import Special
+from xavi_dialogue.nlu.compose.choosing import asks_which, chosen
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.comparing import Comparing
 from xavi_dialogue.nlu.compose.expecting import hindsight
@@ -145,6 +146,8 @@ class Polar(Comparing):
             return [(amiss, 0.0)]
         if (limited := permitted(clause)) is not None:
             return [(Whether(limited, tag), 0.0)]
+        if found := chosen(clause, self.propositions):
+            return [(self.framed(question, clause, None), cost) for question, cost in found]
         foreseen = _foreseen(clause)
         if foreseen is not None:
             return [(Whether(foreseen, tag), 0.0)]
@@ -161,9 +164,9 @@ class Polar(Comparing):
         compare = self.comparison(clause) or self._existing(clause)
         if compare is not None:
             return [(self.framed(compare, clause, None), 0.0)]
-        found: list[tuple[Question, float]] = []
+        found = []
         for candidate in self.propositions.readings(clause):
-            question = self.polar(clause, candidate.value, tag=tag)
+            question = asks_which(self.polar(clause, candidate.value, tag=tag))
             found.append((self.framed(question, clause, candidate.value), candidate.cost))
         return found
 

@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.meaning import (
     Fault,
     HowSure,
@@ -24,7 +26,7 @@ from xavi_dialogue.nlu.compose.asking import Asking
 from xavi_dialogue.nlu.compose.clause import Clause, Complement, wanted_pronoun
 from xavi_dialogue.nlu.compose.expecting import hindsight
 from xavi_dialogue.nlu.compose.nominal import deed_of, event_in, propose
-from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives
+from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives, several_of
 from xavi_dialogue.nlu.compose.peaks import nearest_of, peak_of
 from xavi_dialogue.nlu.compose.sem import (
     Measure,
@@ -80,8 +82,9 @@ class Questions(Options):
         if kind == "which":
             asked = self._asked_noun(node)
             words = tuple(w for p in leaves_of(node) for w in p.words)
-            return Wh("which", "", words, None if isinstance(asked, Pronoun) else asked, key,
-                      besides)  # fmt: skip
+            spoken = isinstance(asked, Pronoun)
+            return Wh("which", "", words, None if spoken else asked, key, besides,
+                      asked if spoken else None)  # fmt: skip
         if kind == "whose":
             return Wh("whose", "", (), self._asked_noun(node))
         return Wh(kind, "", (), None, key, besides)
@@ -213,7 +216,7 @@ class Questions(Options):
         found: list[tuple[Question, float]] = []
         for value, cost in pairs:
             compared = self.compared(wh, clause, value)
-            question = compared or self.asking.ask(wh, clause, value)
+            question = compared or _among(wh, self.asking.ask(wh, clause, value))
             extra = emphatic + WEAK * _is_lost(wh, clause, value, question)
             found.append((self.framed(question, clause, value), cost + extra))
         return found
@@ -265,6 +268,14 @@ class Questions(Options):
             ):
                 return Happens(Event("do", thing))
         return None
+
+
+def _among(wh: Wh, question: Question) -> Question:
+    """Keep of whom one is asked for: "which of them will turn"."""
+    those = several_of(wh.of)
+    if not isinstance(question, Which) or question.among or those is None:
+        return question
+    return structs.replace(question, among=(those,))
 
 
 def _is_lost(wh: Wh, clause: Clause, value: Any, question: Question) -> bool:

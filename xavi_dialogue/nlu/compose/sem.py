@@ -1,7 +1,7 @@
 """Meanings under way: what phrases stand for before they are part of a proposition."""
 
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from xavi_dialogue.domain.terms import (
     Described,
@@ -174,6 +174,29 @@ def _together(group: Group) -> Together | None:
     things = tuple(m for m in named if isinstance(m, Described | Vehicle))  # "vehicles 1 and 5"
     joined = group.join == "and" and len(things) == len(group.members)
     return Together(things) if joined else None
+
+
+def between(sem: "Sem | None") -> tuple[Thing, Thing] | None:
+    """Give the two sides of what is between others: "the bus and the van", "the two trucks"."""
+    if not isinstance(sem, Group):
+        return each_other(as_thing(sem))
+    things = [as_thing(member) for member in sem.members]
+    one, other = things[0], things[-1]
+    if len(things) != ALTERNATIVES or not (_is_other(one) and _is_other(other)):
+        return None
+    return cast(Thing, one), cast(Thing, other)
+
+
+def each_other(thing: Thing | None) -> tuple[Thing, Thing] | None:
+    """Put several things on both sides of a relation; None where one thing is meant."""
+    if isinstance(thing, Pronoun) and thing.form in ("they", "them-all"):
+        return Pronoun("them-all"), Pronoun("them-all")
+    several = isinstance(thing, Together) or (isinstance(thing, Described) and thing.plural)
+    return (thing, thing) if several and thing is not None else None
+
+
+def _is_other(thing: Thing | None) -> bool:
+    return isinstance(thing, Vehicle | Described | Pronoun)
 
 
 def members_of(sem: "Sem | None") -> tuple["Sem", ...]:

@@ -4,6 +4,8 @@ from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
+    Ago,
+    Back,
     Caused,
     Compares,
     Described,
@@ -11,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Exists,
     Feature,
     Happens,
     Is,
@@ -105,6 +108,7 @@ _COMPARED: dict[str, tuple[str, str]] = {
 _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 #: What is said of a deed by how it was done.
 _MANNERS: dict[str, Any] = {"hard": "hard", "sudden": "suddenly"}
+EARLIER = 5.0  # [s] that "before" is ago
 BESIDE = 0.5  # cost of a pronoun beside an adjective: "that van is it broken" is a question
 FOR_WHOM = 0.7  # cost of "for the bus" in "that is, for the bus, the lorry"
 RUN_ON = 1.5  # cost of "did" and "was" in one clause
@@ -114,12 +118,21 @@ _APART = frozenset({"with", "to", "into", "from", "of"})  # what stands before w
 Found = tuple[Proposition, float]
 
 
+def _said_before(clause: Clause) -> Back | None:
+    """Read "earlier" beside whom a vehicle is said to be as a time, no comparison."""
+    named = clause.objects and isinstance(as_thing(clause.objects[0][0]), Described | Vehicle)
+    soon = [key for key, _ in clause.comparisons] == ["soon"]
+    return Back("before") if soon and named and clause.than is None else None
+
+
 def state_of(clause: Clause) -> list[Found]:
     """Compose a clause without a verb; several readings at their costs."""
     bearing = clause.bearings[0][0] if clause.bearings else None
     said = clause.comparisons or clause.adjectives
     if said and isinstance(together := as_thing(clause.subject), Together):
         clause.subject = together  # "are the blue and the red one slower than us"
+    if (earlier := _said_before(clause)) is not None:
+        clause.comparisons, clause.time = [], earlier
     spoken = clause.subject
     halted = any(key == "stationary" for key, _ in clause.adjectives)
     where = next((c for c in clause.complements if c.key in _PLACED), None) if halted else None
@@ -144,7 +157,7 @@ def ungoverned(clause: Clause) -> float:
 
 def _found(clause: Clause) -> list[Found]:
     if clause.there:
-        return existing(clause)
+        return _compared_there(clause, existing(clause))
     subject = clause.subject
     if clause.feelings and _feels(subject):
         who = as_thing(subject)
@@ -192,6 +205,19 @@ def _found(clause: Clause) -> list[Found]:
         cause = None if isinstance(clause.because, Clause) else as_thing(clause.because)
         return [(Caused(cause) if cause is not None else That(), 0.0)]
     return placed(clause)
+
+
+def _compared_there(clause: Clause, found: list[Found]) -> list[Found]:
+    """Add to whom there is how he compares: "is there anyone slower than us"."""
+    if not clause.comparisons:
+        return found
+    such = _compares(replace(clause, subject=Wanted()))
+    return [
+        (with_fields(of, thing=with_fields(of.thing, such=such)), cost)
+        if isinstance(of, Exists) and isinstance(of.thing, Described) and of.thing.such is None
+        else (of, cost)
+        for of, cost in found
+    ]
 
 
 def bearing_here(clause: Clause) -> bool:
@@ -296,6 +322,10 @@ def _compares(clause: Clause) -> Proposition | None:
     like = next((as_thing(c.sem) for c in clause.complements if c.key == "like"), None)
     if clause.than is None and like is not None:  # "he is faster like us"
         right = Measured(cast(Any, attribute), like, time=clause.time, tense=tense_of(clause))
+    if clause.than is None and clause.time == Back("before") and attribute in ("speed", "distance"):
+        opposite = {"more": "less", "less": "more"}.get(direction, direction)
+        now = replace(clause, time=Unsaid(), than_time=Ago(EARLIER), aux=["be-present"])
+        return compared_times(now, attribute, opposite, left.thing)  # "was it closer before?"
     if not isinstance(clause.than_time, Unsaid):
         return compared_times(clause, attribute, direction, left.thing)
     if isinstance(clause.than, Quantity):

@@ -13,9 +13,11 @@ from xavi_dialogue.domain.meaning import (
     Quizzing,
     Repair,
     Social,
+    Whether,
 )
 from xavi_dialogue.domain.terms import (
     Back,
+    Described,
     Ego,
     Event,
     Everyone,
@@ -27,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     That,
     Thing,
+    Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import FeelingKind
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -199,7 +202,7 @@ def and_you(unit: Node) -> tuple[Act, ...]:
     return (Social("feelings", That()),) if named else ()
 
 
-def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | None:
+def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | Ask | None:
     """Read "were you scared of him", "did that not frighten you", "do you like driving".
 
     Args:
@@ -217,6 +220,8 @@ def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | None:
             return Social("feelings")
         if clause.feelings:
             about = None if clause.that is not None else _about(clause)
+            if "surprised" in clause.feelings and (foreseen := _unforeseen(clause, about)):
+                return foreseen
             over = clause.tense in ("past", "perfect") and verb is None and about is None
             return Social("feelings", That() if over else about)
     shaken = verb is not None and verb.key in _STIRRING
@@ -224,6 +229,16 @@ def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | None:
         return None
     thing = as_thing(clause.subject)
     return Social("feelings", That() if thing is None or isinstance(thing, Pronoun) else thing)
+
+
+def _unforeseen(clause: Clause, about: object) -> Ask | None:
+    """Read "were you surprised by him" as whether we were wrong about whom is named."""
+    if not isinstance(about, Described | Vehicle) and about not in _SOMEBODY:
+        return None
+    return Ask(Whether(Is("wrong", cast(Any, about), time=clause.time, tense="past")))
+
+
+_SOMEBODY = (Pronoun("he"), Pronoun("she"), Pronoun("they"))
 
 
 def _about(clause: Clause) -> Proposition | Thing | None:

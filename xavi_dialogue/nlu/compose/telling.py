@@ -19,10 +19,13 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Described,
+    Destination,
     Ego,
     Event,
+    Everyone,
     Happens,
     Junction,
+    Next,
     Passenger,
     Pronoun,
     Proposition,
@@ -31,9 +34,11 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Time,
     Unknown,
+    Unsaid,
     Vehicle,
     Wanted,
     WholeRide,
+    Within,
 )
 from xavi_dialogue.nlu.compose.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.candidates import Special
@@ -195,12 +200,15 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
     if sem is None:
         return Listing("events", time=clause.time)
     if isinstance(sem, Event):
+        if sem.tense == "future" or _lies_ahead(clause.time):
+            return HowMany(cast(Event, with_fields(sem, tense="future", time=Unsaid())))
         return listed(sem, clause.time)
     thing = as_thing(sem)
     if isinstance(thing, Described):
-        met = thing.doing is not None and thing.doing.action in _MEETING
+        met = thing.doing is not None and _is_met(thing.doing)
         if met:
-            return Listing("vehicles", time=WholeRide())
+            whom = None if thing.kind == "vehicle" else Everyone(thing.kind)
+            return Listing("vehicles", whom, WholeRide())
         due = thing.doing is not None and thing.doing.modal is not None  # "you have to yield to"
         if thing.doing is not None and isinstance(thing.doing.object, Wanted) and not due:
             return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
@@ -209,7 +217,18 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
     return found or Listing("events", time=clause.time)
 
 
-_MEETING = frozenset({"approach", "see", "come", "appear", "pass"})
+def _lies_ahead(time: Time) -> bool:
+    """Say whether a stretch is still to come: "from here on", "until we arrive"."""
+    if isinstance(time, Relative) and time.relation == "until":
+        return isinstance(time.anchor, Destination) or (
+            isinstance(time.anchor, Event) and time.anchor.tense != "past"
+        )
+    return isinstance(time, Next | Within)
+
+
+def _is_met(doing: Event) -> bool:
+    """Say whether it is all who were met: "that came towards us"; who went past did more."""
+    return doing.action in ("approach", "see", "come", "appear")
 
 
 def listed(event: Event, time: Time) -> Listing:

@@ -168,7 +168,8 @@ class Nouns(Followers):
             traits.determiner = "def"  # "everything that crossed in front of us"
             return described("vehicle", traits, plural=True)
         if leaf.key == "everything":
-            return Noun("ride", word="everything")
+            told = Happens(deed) if isinstance(deed, Event) and deed.action == "happen" else None
+            return Noun("ride", word="everything", clause=told)
         if leaf.key == "everybody" and {"bearing", "doing", "such"} & traits.fields.keys():
             traits.determiner = "def"  # "the others behind him"
             return described(traits.kind or "vehicle", traits, plural=True)

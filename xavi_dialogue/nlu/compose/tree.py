@@ -38,15 +38,20 @@ def words_of(part: Part) -> str:
 
 def number_of(node: Node) -> float:
     """Read a number: digits, or words such as "forty two"."""
-    names = load("nlu_text.toml")["numbers"]
     total = 0.0
     for leaf in leaves_of(node):
         if leaf.category not in ("NUM", "HUNDRED"):
             continue
-        word = leaf.key.replace(",", ".")
-        value = float(names[word]) if word in names else _digits(word)
+        value = value_of(leaf)
         total = total * value if value == 100 and total else total + value
     return min(total, MOST)
+
+
+def value_of(leaf: Leaf) -> float:
+    """Read one word of a number."""
+    names = load("nlu_text.toml")["numbers"]
+    word = leaf.key.replace(",", ".")
+    return float(names[word]) if word in names else _digits(word)
 
 
 def _digits(word: str) -> float:

@@ -39,6 +39,7 @@ class Wh:
     sem: Sem | None = None
     preposition: str = ""
     besides: bool = False
+    of: Sem | None = None  # those of whom one is asked for: "which of them"
 
 
 def fact(value: Proposition | Special) -> Proposition:

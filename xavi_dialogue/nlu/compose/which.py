@@ -112,6 +112,8 @@ class WhichOne:
         if taken and isinstance(clause.subject, Ego) and thing in _BARE:
             return way_at(Ego(), time_of(clause, value), clause.tense)
         extreme = _superlative(clause)
+        if isinstance(thing, Described | Wanted):
+            thing = thing if isinstance(thing, Described) or extreme is None else Described()
         if isinstance(thing, Described):
             if extreme is not None:
                 return Identify(with_fields(thing, extreme=extreme, definite=True))
@@ -156,6 +158,13 @@ class WhichOne:
             return Why(fact(value)) if value is not None else Why(That())
         if sem.key == "order":
             thing = as_thing(clause.subject)
+            done = value.event if isinstance(value, Happens) else None
+            if (
+                done is not None
+                and done.action not in ("do", "happen", "go")
+                and done.actor != Ego()
+            ):
+                return Listing("events", time=clause.time, event=done)
             return Listing(
                 "events", None if isinstance(thing, (Ego, Wanted)) else thing, clause.time
             )
@@ -189,4 +198,10 @@ def _superlative(clause: Clause) -> str | None:
         extreme = getattr(sem, "extreme", None)
         if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
             return cast(str, extreme)
-    return None
+    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
+    return next((extreme for extreme in told if extreme), None)
+
+
+_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
+                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
+                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip

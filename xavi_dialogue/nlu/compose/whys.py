@@ -15,7 +15,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.adoption import with_fields
 from xavi_dialogue.nlu.compose.clause import Clause
 from xavi_dialogue.nlu.compose.nominal import propose
-from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_speed, as_thing
 from xavi_dialogue.nlu.compose.wh import Wh
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -39,7 +39,8 @@ def pace_asked(composer: Any, clause: Clause) -> list[tuple[tuple[Act, ...], flo
     number = isinstance(sem, Quantity) and bare and (limited or _is_speed(sem.value))
     limited = limited or bare
     if number or (isinstance(sem, Quantity) and sem.unit == "m/s"):
-        speed = Compares(Measured("speed"), "less" if limited else "more")
+        said = as_speed(sem) if isinstance(sem, Quantity) else None
+        speed = Compares(Measured("speed"), "less" if limited else "more", said)
         return [((Ask(Why(speed)),), COST)]
     paced = any(manner in ("slowly", "fast") for manner in clause.manner)
     if clause.objects or clause.subject is not None:

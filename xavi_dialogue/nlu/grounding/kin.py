@@ -5,13 +5,17 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.context import Context
 
 _SLOWING: Final[tuple[ActionName, ...]] = ("brake", "slow-down")
 _HALTING: Final[tuple[ActionName, ...]] = ("stand", "stop", "wait", "give-way")
 _SHIFTING: Final[tuple[ActionName, ...]] = ("change-lane", "change-left", "change-right")
+
+_PASSING: Final = frozenset[ActionName](("overtake", "pass"))
+_LETTING: Final = frozenset[ActionName](("let-go",))
+_HELD: Final[tuple[ActionName, ...]] = ("stop", "brake")
 
 #: What somebody may have done who is said to have done the first, nearest first.
 KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
@@ -48,10 +52,25 @@ def like(context: Context, event: Event, begin: float, end: float) -> tuple[Epis
     Those of the nearest action that there is; its object is left out where there is none with it.
     """
     for action in KIN.get(event.action, ()):
+        if action in _SHIFTING and event.object is not None and event.action in _PASSING:
+            continue  # a change of lane is no passing of anybody
         kin = replace(event, action=action)
         found = context.holds(kin, begin, end)
         if found:
             return found
+    if event.action in _LETTING and event.actor == Ego() and isinstance(event.object, Vehicle):
+        crossed = context.holds(Event("cross", event.object, Ego()), begin, end)
+        halts = [
+            halt for action in _HELD for halt in context.holds(Event(action, Ego()), begin, end)
+        ]
+        if any(_meets(one, halt, context) for one in crossed for halt in halts):
+            return crossed
     if event.object is not None and not isinstance(event.actor, Vehicle):
         return context.holds(replace(event, object=None), begin, end)
     return ()
+
+
+def _meets(one: Episode, other: Episode, context: Context) -> bool:
+    """Tell whether two episodes overlap."""
+    ends = [context.now if e.end is None else e.end for e in (one, other)]
+    return one.begin <= ends[1] and other.begin <= ends[0]

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import msgspec
 
 from planner.trace import Action
-from xavi_dialogue.transports.web.wire import Seen
+from xavi_dialogue.transports.web.wire import HiddenShown, LightShown, Seen
 
 Line: TypeAlias = tuple[float, ...]  # [m] x, y, x, y, ...
 
@@ -22,6 +22,15 @@ class LaneShown(msgspec.Struct, frozen=True, kw_only=True):
     width: float  # [m]
     internal: bool  # inside a junction
     line: Line  # centreline in driving direction
+    use: str = "cars"  # who may use it: cars, bicycles, people, rails, others
+
+
+class CrossingShown(msgspec.Struct, frozen=True, kw_only=True):
+    """A place where people on foot cross a road."""
+
+    line: Line  # its middle, from kerb to kerb
+    width: float  # [m]
+    signal: str | None  # id of the light that it has
 
 
 class LinkShown(msgspec.Struct, frozen=True, kw_only=True):
@@ -34,6 +43,7 @@ class LinkShown(msgspec.Struct, frozen=True, kw_only=True):
     via: tuple[str, ...]  # lanes
     direction: str  # left, straight, right, turnaround
     yields_to: tuple[int, ...]  # ids of links
+    signal: str | None = None  # id of the light that it has
 
 
 class Roads(msgspec.Struct, frozen=True, kw_only=True):
@@ -44,13 +54,21 @@ class Roads(msgspec.Struct, frozen=True, kw_only=True):
     lanes: tuple[LaneShown, ...]
     links: tuple[LinkShown, ...]
     junctions: tuple[Line, ...]  # outlines
+    others: tuple[LaneShown, ...] = ()  # lanes that cars may not use
+    crossings: tuple[CrossingShown, ...] = ()
 
 
 class Past(msgspec.Struct, frozen=True, kw_only=True):
     """GET /api/past: the scenes of this ride so far, at most 5 a second."""
 
     ride: str
-    scenes: tuple[tuple[float, tuple[Seen, ...]], ...]  # t, vehicles; in order of time
+    #: t, vehicles, lights, what is hidden (null: not known); in order of time
+    scenes: tuple[
+        tuple[
+            float, tuple[Seen, ...], tuple[LightShown, ...] | None, tuple[HiddenShown, ...] | None
+        ],
+        ...,
+    ]
 
 
 class Drive(msgspec.Struct, frozen=True, kw_only=True):
@@ -139,6 +157,15 @@ class RightOfWay(msgspec.Struct, frozen=True, kw_only=True):
     vehicles: tuple[int, ...]  # that are on these
 
 
+class ImaginedShown(msgspec.Struct, frozen=True, kw_only=True):
+    """Somebody who may come out of a hidden part of the road."""
+
+    position: tuple[float, float]  # [m] of its front
+    heading: float  # [rad]
+    probability: float  # that somebody is there
+    behind: int | None  # the vehicle that hides the place; null: a building
+
+
 class DecisionShown(msgspec.Struct, frozen=True, kw_only=True):
     """GET /api/decisions/ID: one decision, whole."""
 
@@ -157,6 +184,7 @@ class DecisionShown(msgspec.Struct, frozen=True, kw_only=True):
     root: tuple[Branch, ...]  # branches of the root
     refused: tuple[tuple[Action, str], ...]  # actions that could not be taken first, and why
     right_of_way: RightOfWay | None
+    imagined: tuple[ImaginedShown, ...]
     rollouts: int
 
 

@@ -18,6 +18,10 @@ MAX_INCOMING = MAX_TEXT * MAX_CHARACTER + 4 * KIB  # bytes of a message of a bro
 Seen: TypeAlias = tuple[
     int, float, float, float, float, float, float, str, str | None, tuple[str, ...]
 ]
+#: id of the signal, state (see sim.scene.LightState, in small letters).
+LightShown: TypeAlias = tuple[str, str]
+#: lane, from where to where [m] along it nobody can be seen.
+HiddenShown: TypeAlias = tuple[str, float, float]
 #: awaited: not seen yet; coming: it is being started (again), and driven to where it is to be.
 Presence: TypeAlias = Literal["there", "gone", "awaited", "coming"]
 
@@ -57,7 +61,9 @@ class SceneShown(Outgoing, frozen=True, kw_only=True, tag="scene"):
     state: CarState
     speed: float  # simulated seconds per second; 0: as fast as possible
     plan: tuple[Action, ...]
-    vehicles: tuple[Seen, ...]  # the ego is 0
+    vehicles: tuple[Seen, ...]  # the ego is 0; people on foot are among them
+    lights: tuple[LightShown, ...] = ()
+    hidden: tuple[HiddenShown, ...] = ()
 
 
 class Belief(msgspec.Struct, frozen=True):

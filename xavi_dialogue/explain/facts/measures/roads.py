@@ -19,8 +19,9 @@ def lane(asked: Asked) -> Measure:
     if place.lane is None:
         return replace(asked.none("not-applicable"), count=place.lanes)
     number = place.lane + 1
-    word = "only" if place.lanes == 1 else "right" if number == 1 else "middle"
+    word = "only" if place.lanes == 1 else "right" if number == 1 else None
     word = "left" if number == place.lanes > 1 else word
+    word = "middle" if word is None and 2 * number == place.lanes + 1 else word
     found = replace(asked.found(float(number), word), count=place.lanes)
     return replace(found, side=word) if word in ("left", "right") else found
 

@@ -67,7 +67,7 @@ def time_to_go(asked: Asked) -> Measure:
     if trace.waypoint is None:
         expected = _quantiles(plan)
         if expected is None:
-            return _freely(asked)
+            return _beyond(asked, trace, plan) or _freely(asked)
         middle, low, high = (round(max(x - passed, 0.0), 1) for x in expected)
         return replace(asked.found(middle, time=asked.at), low=low, high=high)
     return _through_waypoint(asked, trace, plan, passed)
@@ -102,11 +102,20 @@ def _through_waypoint(asked: Asked, trace: PlanTrace, plan: Intervention, passed
         if result.rollout.outcome == "done" and (length := _length(trace, result.rollout))
     ]
     if expected is None or not lengths or road.distance <= 0.0:
-        return _freely(asked)
+        return _beyond(asked, trace, plan) or _freely(asked)
     rest = max(road.distance - sum(lengths) / len(lengths), 0.0) / road.distance
     beyond = road.free_time * rest
     middle, low, high = (round(max(x + beyond - passed, 0.0), 1) for x in expected)
     return replace(asked.found(middle, time=asked.at), low=low, high=high, at_least=True)
+
+
+def _beyond(asked: Asked, trace: PlanTrace, plan: Intervention) -> Measure | None:
+    """A bound where most drives are still under way at the horizon, as at a red light."""
+    if plan.likeliest != "termination":
+        return None
+    freely = _freely(asked).value or 0.0
+    least = round(max(trace.sim_time + trace.settings.horizon - asked.at, freely), 1)
+    return replace(asked.found(least, time=asked.at), low=least, at_least=True)
 
 
 def _length(trace: PlanTrace, rollout: Rollout) -> float | None:

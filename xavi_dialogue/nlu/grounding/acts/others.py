@@ -91,6 +91,8 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
             isinstance(whom, Described | Pronoun | Vehicle)
         ):  # "are you keeping well back from him?"
             return Whether(Not(Is("close", whom), lexical=True))
+        case HowLong(of=Event("stand", Ego(), where=Related(), tense="past") as event):
+            return HowLong(replace(event, where=None))  # "how long did we stand behind him?"
         case HowLong(of=Event("stand", actor, where=Related() as where) as event) if not isinstance(
             where.to, Feature
         ):
@@ -99,13 +101,19 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
     return None
 
 
+def _is_done_to(deed: Event) -> bool:
+    """Say whether we did or had to do something to others; whom we met is another question."""
+    past = deed.tense in ("past", "perfect") and deed.modal in (None, "must")
+    return past and deed.action != "approach"
+
+
 def _reworded(spoken: Question, g: Grounder) -> Question | None:
     """Read who is aboard, to whom we have to yield, and whether somebody comes nearer."""
     match spoken:
         case Which(
             thing=Described(plural=True) as thing,
             such=Happens(event=Event(actor=Ego(), object=Wanted(), time=Unsaid()) as deed),
-        ) if deed.modal in (None, "must") and deed.tense in ("past", "perfect"):
+        ) if _is_done_to(deed):
             such = Happens(replace(deed, time=WholeRide(), modal=None))  # "which did we pass?"
             named = Described(thing.kind, plural=True)
             plain = thing in (named, replace(named, definite=False))

@@ -215,7 +215,9 @@ def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
         case Vehicles(numbers=(one, two)) if spoken.comparator == "same":  # "are both as fast?"
             other = replace(left, thing=Vehicle(two))
             return replace(spoken, left=replace(left, thing=Vehicle(one)), right=other)
-    if isinstance(right, Measured):
+    if isinstance(right, Measured) and right.thing == of.thing:
+        right = measured(replace(right, thing=left.thing), g, timed, outer)  # at another time
+    elif isinstance(right, Measured):
         right = measured(right, apart(right.thing, left.thing, g), timed, outer)
     return replace(spoken, left=left, right=right)
 

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Exists,
     Happens,
     Is,
@@ -42,6 +43,7 @@ from xavi_dialogue.domain.terms import (
 SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
 _DELAYED: Final = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), time=WholeRide())))
 _ANYTHING: Final = Described(definite=False)
+_ANYBODY: Final = (_ANYTHING, Described(kind="car", definite=False))
 _GOING: Final = frozenset(("go", "move", "turn"))
 _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 
@@ -61,9 +63,42 @@ def of_trip(spoken: Question) -> Question | None:
             ),
         ) if of.tense == "past" and of.modal is None:
             return _DELAYED  # "who went before us?"
+        case Which(thing=Described() | Wanted() as whom, such=such) if _met(whom, such):
+            return Listing("vehicles", Everyone(whom.kind), _ridden(such))
+        case HowMany(of=Described(doing=Event() as met, such=None) as whom) if _met(
+            whom, Happens(met)
+        ):
+            return Listing("vehicles", Everyone(whom.kind), _ridden(Happens(met)))
+        case HowMany(of=Described(doing=None, such=Related() as seen) as whom) if _met(
+            replace(whom, such=None), seen
+        ):
+            return Listing("vehicles", Everyone(whom.kind), _ridden(seen))
+        case When(of=Happens(event=Event(actor=Ego(), object=Described() as whom) as of)) if (
+            whom in _ANYBODY and of.tense in ("past", "perfect")
+        ):
+            return When(Happens(replace(of, object=None)))  # "gave way to somebody"
         case When(of=Compares(left=Measured(attribute="delay") as left)):
             return HowMuch(left)  # "what time did that cost us?"
     return _listed(spoken)
+
+
+def _met(whom: Described | Wanted, such: Any) -> bool:
+    """Say whether it is asked whom we met or saw on the way, of no place or colour."""
+    if isinstance(whom, Described) and (whom.colour or whom.bearing or whom.extreme or whom.such):
+        return False
+    match such:
+        case (
+            Happens(event=Event(action="approach", actor=Ego(), object=Wanted(), tense=tense))
+            | Related(relation="can-see", thing=Ego(), to=Wanted(), tense=tense)
+        ):
+            return tense in ("past", "perfect")
+    return False
+
+
+def _ridden(such: Any) -> Any:
+    """Give the stretch in which somebody was met: all of the ride, where none is said."""
+    time = such.event.time if isinstance(such, Happens) else such.time
+    return WholeRide() if isinstance(time, Unsaid) else time
 
 
 def _whether(that: Any) -> Question | Happens | None:

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exit,
+    Feature,
     Junction,
     Next,
     Now,
@@ -269,6 +270,10 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _of_visits(visits(g.context, "roundabout"), ahead=tense != "past")
         case Destination():
             return None
+        case Feature(kind="light") as light:
+            held = g.context.holds(Event("wait", Ego(), light), *whole.search)
+            past = held or g.context.holds(Event("pass", Ego(), light), *whole.search)
+            return tuple(_interval(e, g.context) for e in past)
         case Ego() if tense != "past" and time.relation == "after":
             return None  # "once we are off this thing, where do we go?"
         case thing:

@@ -201,7 +201,7 @@ def _undone(search: Search, look: Look) -> float:
         if (near and nears) or (look.left > 0.0 and _goes_first(search, look.vehicle)):
             return 0.0
         return 0.4 if search.described.definite else ACCEPT
-    if goes_past(search.described.doing):
+    if goes_past(search.described.doing) and not _every(search):
         return passing_cost(search.grounder.context, look, search.moment)
     return 1.0
 

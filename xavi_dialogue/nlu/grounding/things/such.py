@@ -7,6 +7,7 @@ from xavi_dialogue.domain.rewriting import rewrite, substitute
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
+    Ego,
     Event,
     Exists,
     Happens,
@@ -101,7 +102,10 @@ class Condition:
         if getattr(left, "attribute", "") != "speed" or None in things:
             return None
         relation = "faster-than" if comparator == "more" else "slower-than"
-        world = self.grounder.context.world
+        context, world = self.grounder.context, self.grounder.context.world
+        seen = (Ego(), *(Vehicle(number) for number in context.in_view(self.moment)))
+        if any(thing not in seen for thing in things):
+            return False  # of nobody who is out of view
         return world.relation(relation, things[0], things[1], self.moment)  # type: ignore[arg-type]
 
 

@@ -22,6 +22,7 @@
 
 const MAX_SCENES = 18_000; // an hour at 5 Hz
 const SPACING = 0.19; // [s] between scenes that are kept
+const HOLE = 0.5; // [s] between scenes above which those between them are fetched, to go back
 const MAX_FETCHED = 40; // decisions that are kept whole, and evidences: up to 200 kB each
 
 /** Index of the last item whose time is at most `t`; -1: none. */
@@ -61,8 +62,9 @@ export class Store extends EventTarget {
     this.roads = null;
     this.live = true;
     this.held = 0; // [s] the moment shown where it is not live
-    this.latest = null; // scene: {t, state, speed, plan, vehicles: [...], wall, seq}
-    this.past = []; // scenes {t, vehicles}, in order
+    this.latest = null; // scene: {t, state, speed, plan, vehicles, lights, hidden, wall, seq}
+    this.holes = false; // whether scenes have been missed, as when the ride goes faster than they come
+    this.past = []; // scenes {t, vehicles, lights, hidden}, in order
     this.decisions = [];
     this.events = [];
     this.details = new Map(); // promises of decisions, by id
@@ -94,6 +96,7 @@ export class Store extends EventTarget {
     const [first, last] = this.span;
     this.live = false;
     this.held = Math.min(Math.max(t, first), last);
+    if (this.holes) fetchPast(this, this.ride?.ride).catch(() => (this.holes = true));
     this.tell("moment");
   }
 
@@ -103,7 +106,7 @@ export class Store extends EventTarget {
     this.tell("moment");
   }
 
-  /** The scene at a moment [s], or the last one before: {t, vehicles}. */
+  /** The scene at a moment [s], or the last one before. */
   sceneAt(t) {
     if (this.latest && t >= this.latest.t - 1e-6) return this.latest;
     const index = lastUpTo(this.past, t);
@@ -166,7 +169,12 @@ export class Store extends EventTarget {
       const near = [this.past[index], this.past[index + 1]];
       return !near.some((one) => one && Math.abs(one.t - t) < SPACING / 2);
     });
-    const more = missed.map(([t, vehicles]) => ({ t, vehicles: vehicles.map(vehicleOf) }));
+    const more = missed.map(([t, vehicles, lights, hidden]) => ({
+      t,
+      vehicles: vehicles.map(vehicleOf),
+      lights: lights ?? [],
+      hidden: hidden ?? [],
+    }));
     this.past = [...more, ...this.past].sort((a, b) => a.t - b.t);
     this.tell("moment");
   }
@@ -176,6 +184,7 @@ export class Store extends EventTarget {
     if (last && scene.t < last.t)
       this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
     else if (last && scene.t - last.t < SPACING) return;
+    else if (last && scene.t - last.t > HOLE) this.holes = true;
     this.past.push(scene);
     if (this.past.length > MAX_SCENES) this.past.splice(0, 1000);
   }
@@ -209,6 +218,7 @@ async function fetchRoads(store, hash) {
 }
 
 async function fetchPast(store, ride) {
+  store.holes = false;
   const past = await store.fetchJson("/api/past");
   if (store.ride?.ride === ride && past.ride === ride) store.remember(past.scenes);
 }

@@ -50,6 +50,13 @@ export function nameOf(vehicle) {
   return vehicle === 0 ? "us" : `vehicle ${vehicle}`;
 }
 
+const KINDS = new Set(["bicycle", "pedestrian", "scooter", "wheelchair"]);
+
+/** What a road user that is seen is called: "pedestrian 9"; the kind of motor vehicles is left out. */
+export function calledOf({ id, kind }) {
+  return KINDS.has(kind) ? `${kind} ${id}` : nameOf(id);
+}
+
 /** The same words, as they begin a sentence. */
 export function capital(words) {
   return words.slice(0, 1).toUpperCase() + words.slice(1);

@@ -3,11 +3,20 @@
 const LONG = 11; // [px] no vehicle is drawn shorter, however far away
 const BROAD = 5; // [px] nor narrower
 const DETAIL = 20; // [px] of length from which on windows and lights are drawn
+const SLIGHT = 14; // [px] length of two-wheelers and people at least: they are told apart by their shape
 const SMALL = 14; // [px] of length below which bodies are plain sprites: hundreds of them are in view
 const BLINK = 0.8; // [s] period of indicators
 
+const ON_FOOT = new Set(["pedestrian", "wheelchair", "scooter"]);
+const TWO_WHEELED = new Set(["bicycle", "motorcycle"]);
+const CLOSE = 1.5; // [px/m] from which on they are drawn so
+
 /** [px] Length and width of a vehicle; on a far view it is drawn larger than it is. */
 export function sizeOf(vehicle, scale) {
+  if (ON_FOOT.has(vehicle.kind)) return Array(2).fill(Math.max(0.7 * scale, SLIGHT * 0.8));
+  if (TWO_WHEELED.has(vehicle.kind)) {
+    return [Math.max(vehicle.length * scale, SLIGHT), Math.max(vehicle.width * scale, SLIGHT / 2)];
+  }
   return [Math.max(vehicle.length * scale, LONG), Math.max(vehicle.width * scale, BROAD)];
 }
 
@@ -44,7 +53,7 @@ export function drawVehicles(vehicles, t, { context, view, colours, sprites }) {
   let placed = false; // whether the context is turned along a vehicle
   for (const vehicle of vehicles) {
     const [long, broad] = sizeOf(vehicle, view.scale);
-    if (long >= SMALL) {
+    if (long >= SMALL || (ON_FOOT.has(vehicle.kind) && view.scale >= CLOSE)) {
       drawVehicle(context, view, vehicle, colours, t);
       placed = true;
       continue;
@@ -108,11 +117,48 @@ const LOOKS = {
     rider(pen, -long * 0.08, broad * 0.42);
   },
   bicycle(pen) {
-    const { long, broad } = pen;
-    body(pen, -long / 2, -broad * 0.13, long, broad * 0.26, broad * 0.13);
-    rider(pen, -long * 0.05, broad * 0.36);
+    const { context, colours, long, broad } = pen;
+    context.fillStyle = colours.get("ink");
+    for (const x of [-long / 2, long * 0.2]) context.fillRect(x, -1.2, long * 0.3, 2.4); // wheels
+    context.fillRect(long * 0.18, -broad / 2, 1.6, broad); // handlebars
+    shoulders(pen, -long * 0.08, broad * 0.3, broad * 0.46, pen.paint);
+    rider(pen, -long * 0.05, broad * 0.22);
   },
+  pedestrian: walker,
+  scooter: walker,
+  wheelchair(pen) {
+    const { context, colours, broad } = pen;
+    context.strokeStyle = colours.get("ink");
+    context.lineWidth = 1.5;
+    context.strokeRect(-broad * 0.4, -broad * 0.5, broad * 0.8, broad);
+    walker(pen);
+  },
+  tram: (pen) => LOOKS.bus(pen),
 };
+
+/** Somebody on foot, from above: shoulders across the way and a head, with a pale rim. */
+function walker(pen) {
+  const { context, colours, broad } = pen;
+  context.beginPath();
+  context.arc(0, 0, broad * 0.58, 0, 2 * Math.PI);
+  context.fillStyle = colours.get("card", 0.85);
+  context.fill();
+  shoulders(pen, 0, broad * 0.24, broad * 0.5, "ink");
+  context.beginPath();
+  context.arc(broad * 0.04, 0, broad * 0.24, 0, 2 * Math.PI);
+  context.fillStyle = colours.get("map-person");
+  context.fill();
+}
+
+function shoulders({ context, colours }, x, deep, half, paint) {
+  context.beginPath();
+  context.ellipse(x, 0, deep, half, 0, 0, 2 * Math.PI);
+  context.fillStyle = colours.get(paint);
+  context.fill();
+  context.strokeStyle = colours.get("map-glass", 0.75);
+  context.lineWidth = 1;
+  context.stroke();
+}
 
 function body({ context, colours, paint }, x, y, long, broad, radius) {
   rounded(context, x, y, long, broad, radius);

@@ -2,7 +2,7 @@
 
 import { fill, h } from "../dom.js";
 import { percent, speed } from "../figures.js";
-import { capital, nameOf } from "../words.js";
+import { calledOf, capital } from "../words.js";
 import { looksOf } from "./words.js";
 
 const EDGE = 8; // [px] kept from the sides of the map
@@ -11,7 +11,7 @@ const NAME = 28; // [px] kept from the vehicle, for its name
 /** "red car, 30 km/h; turns left: 80 %, ...", for who cannot see the card. */
 export function cardInWords(vehicle, goals) {
   const expected = goals.map(([words, p]) => `${words}: ${percent(p)}`).join(", ");
-  const name = vehicle.id === 0 ? "Our car" : capital(nameOf(vehicle.id));
+  const name = vehicle.id === 0 ? "Our car" : capital(calledOf(vehicle));
   return `${name}, ${looksOf(vehicle)}, ${speed(vehicle.speed)}.${expected ? ` Expected: ${expected}.` : ""}`;
 }
 
@@ -38,7 +38,7 @@ export function createCard() {
 }
 
 function content(vehicle, goals) {
-  const name = vehicle.id === 0 ? "our car" : nameOf(vehicle.id);
+  const name = vehicle.id === 0 ? "our car" : calledOf(vehicle);
   const rows = goals.slice(0, 4).map(([words, p]) => {
     const bar = h("meter", { min: 0, max: 1, value: p });
     return h("li", {}, h("span", {}, words), bar, h("b", {}, percent(p)));

@@ -24,6 +24,15 @@ const TOKENS = [
   "map-indicator",
   "map-kerb",
   "map-grid",
+  "map-red",
+  "map-amber",
+  "map-green",
+  "map-lamp-sign",
+  "map-hidden",
+  "map-person",
+  "map-pavement",
+  "map-cycleway",
+  "map-rails",
 ];
 const PAINTS = ["white", "grey", "black", "red", "orange", "yellow", "green", "blue", "purple", "brown"];
 

@@ -11,6 +11,9 @@ const ENTRIES = [
   ["yields", "goes first: we give way", "strip", "warn"],
   ["view", "how far we see", "circle", "accent"],
   ["goal", "our destination", "flag", "accent"],
+  ["lights", "traffic light: stop, wait, go", "lamps", "ink"],
+  ["hidden", "out of our sight", "hatch", "hidden"],
+  ["imagined", "somebody may come from there", "car", "warn"],
   ["fact", "my plan in the answer", "band", "accent"],
   ["ghost", "what it is compared with", "dash", "foil"],
   ["preview", "the alternative looked at", "dots", "foil"],
@@ -31,6 +34,17 @@ const DRAWINGS = {
   flag: () => [h("path", { d: "M9 15V2" }), h("path", { class: "map-filled", d: "M9 2h11v7H9z" })],
   dash: () => h("path", { d: "M2 8h24", "stroke-dasharray": "6 4" }),
   dots: () => h("path", { d: "M2 8h24", "stroke-dasharray": "2 4" }),
+  lamps: () => [
+    h("circle", { class: "map-lamp map-lamp-red", cx: 5, cy: 8, r: 4 }),
+    h("circle", { class: "map-lamp map-lamp-amber", cx: 14, cy: 8, r: 4 }),
+    h("circle", { class: "map-lamp map-lamp-green", cx: 23, cy: 8, r: 4 }),
+    h("path", { class: "map-lamp-sign", d: "M2.5 8h5M23 11V5.5M21 7.5l2-2 2 2" }),
+  ],
+  hatch: () => [
+    h("path", { class: "map-strip", d: "M2 8h24" }),
+    h("path", { class: "map-thin", d: "M4 12l8-8M11 12l8-8M18 12l8-8" }),
+  ],
+  car: () => h("rect", { class: "map-imagined", x: 6, y: 4, width: 16, height: 8, rx: 3 }),
   ring: () => h("circle", { cx: 14, cy: 8, r: 6 }),
 };
 

@@ -116,6 +116,22 @@ export function lengthOf(line) {
   return sum;
 }
 
+/** The part of a line between two distances [m] from its begin. */
+export function partOf(line, begin, end) {
+  const found = [];
+  let gone = 0;
+  for (let i = 0; i + 1 < count(line); i += 1) {
+    const size = Math.hypot(line[2 * i + 2] - line[2 * i], line[2 * i + 3] - line[2 * i + 1]);
+    const [low, high] = [Math.max(begin - gone, 0), Math.min(end - gone, size)];
+    gone += size;
+    if (!(low < high)) continue;
+    const [a, b] = [pointAt(line, i + low / size), pointAt(line, i + Math.min(high / size, 1 - 1e-9))];
+    if (!found.length) found.push(a.x, a.y);
+    found.push(b.x, b.y);
+  }
+  return found;
+}
+
 /** The point at a distance [m] before the end: {x, y, heading}. */
 export function beforeEnd(line, distance) {
   let left = distance;

@@ -31,6 +31,9 @@ const NOTHING = {
   fact: 0,
   predictions: 0,
   yields: 0,
+  lights: 0,
+  hidden: false,
+  imagined: 0,
   preview: false,
   kinds: new Set(),
 };
@@ -54,7 +57,8 @@ const ATTRIBUTES = {
  *   shown: () => object, frames: () => object}}
  *   `follow` without an argument switches to and fro. `shown`: what the last frame held: {t,
  *   vehicles: ids, labels: texts, ghost, fact: numbers of lines, predictions: number of paths,
- *   yields: number of links that go first, preview, pointed, causes: ids, follow, scale [px/m]}.
+ *   yields: number of links that go first, lights: number of lamps, hidden: whether parts of the
+ *   road are, imagined: number of those who may come from there, preview, pointed, causes: ids, follow, scale [px/m]}.
  *   `frames`: {count, fps: over the last 2 s, worst_ms, draw_ms: taken by a frame, latest_scene:
  *   {seq, wall, drawn: epoch ms of the first frame on the way to it}, reached_scene: likewise the
  *   latest that vehicles have come to where it says}

@@ -58,22 +58,22 @@ export class Motion {
     return this.scenes[Math.max(lastUpTo(this.scenes, this.time(now)), 0)];
   }
 
-  /** What is drawn live: {t, vehicles}. */
+  /** What is drawn live: see `sceneAt`. */
   live(now) {
     return this.scenes.length ? sceneAt(this.scenes, this.time(now)) : null;
   }
 }
 
-/** The scene at a moment, between those of a list in order of time: {t, vehicles}. */
+/** The scene at a moment, between those of a list in order of time: {t, vehicles, lights, hidden}. */
 export function sceneAt(scenes, t) {
   const index = Math.max(lastUpTo(scenes, t), 0);
   const [before, after] = [scenes[index], scenes[index + 1]];
   if (!before) return null;
   const step = after ? after.t - before.t : 0;
-  if (!after || t <= before.t || step <= 0) return { t, vehicles: before.vehicles };
+  if (!after || t <= before.t || step <= 0) return { ...before, t };
   const next = byId(after);
   const part = (t - before.t) / step;
-  return { t, vehicles: before.vehicles.map((vehicle) => between(vehicle, next.get(vehicle.id), part, step)) };
+  return { ...before, t, vehicles: before.vehicles.map((one) => between(one, next.get(one.id), part, step)) };
 }
 
 /** The vehicles of a scene by their id: found once for all the frames that lead up to it. */
@@ -115,6 +115,7 @@ function turned(from, to) {
 
 function alike(a, b) {
   if (a.vehicles.length !== b.vehicles.length) return false;
+  if (String(a.lights) !== String(b.lights) || String(a.hidden) !== String(b.hidden)) return false;
   return a.vehicles.every((one, i) => {
     const other = b.vehicles[i];
     return (

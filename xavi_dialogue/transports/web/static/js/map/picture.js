@@ -1,9 +1,11 @@
 /** One frame: everything that moves, drawn over the backdrop. */
 
 import { drawRing, drawVehicles, middleOf, radiusOf, sizeOf } from "./bodies.js";
+import { drawHidden, drawImagined } from "./hidden.js";
+import { drawSignals } from "./signals.js";
 import { drawEvidence, drawPreview } from "./ghosts.js";
 import { drawDecision } from "./plans.js";
-import { nameOf } from "../words.js";
+import { calledOf } from "../words.js";
 
 const LONG_NAMES = 2.2; // [px/m] from which on vehicles are called by their whole name
 const CROWD = 40; // vehicles in view from which on they are not
@@ -11,7 +13,7 @@ const OURS = { length: 4.8, width: 1.8 }; // [m] where our car is not in the sce
 
 /**
  * Draw a frame.
- * @param scene {t, vehicles, detail, evidence, preview, elapsed [s] of the loop or null,
+ * @param scene {t, vehicles, lights, hidden, detail, evidence, preview, elapsed [s] of the loop or null,
  *   causes, pointed: Sets of vehicles, chosen: the one whose card is shown, or null}
  * @param pen {context, view, colours, labels, sprites, roads}
  * @returns what was drawn: see `shown` of createMap, and `kinds` for the legend
@@ -22,14 +24,20 @@ export function drawPicture(scene, pen) {
   if (scene.chosen !== null) chosen.add(scene.chosen);
   const quiet = Boolean(scene.evidence || scene.preview);
   const retold = scene.evidence?.decision === scene.detail?.id && Boolean(scene.evidence?.factual?.lines.length);
+  const hidden = drawHidden(scene.hidden, pen);
   const decision = drawDecision({ ...scene, chosen, quiet, retold }, pen);
   const evidence = scene.evidence
     ? drawEvidence(scene.evidence, scene.t, scene.elapsed, pen, ego ?? OURS)
     : { fact: 0, ghost: 0, kinds: new Set() };
   const preview = drawPreview(scene.preview, pen);
+  const lights = pen.roads ? drawSignals(pen.roads.signals, scene.lights ?? [], pen) : 0;
+  const imagined = drawImagined(scene.detail, pen);
   const seen = traffic(scene, pen);
   const kinds = new Set([...decision.kinds, ...evidence.kinds, ...ringKinds(scene, seen)]);
   if (preview) kinds.add("preview");
+  if (hidden) kinds.add("hidden");
+  if (imagined) kinds.add("imagined");
+  if (lights) kinds.add("lights");
   return {
     vehicles: seen.map((vehicle) => vehicle.id),
     labels: pen.labels.draw(pen.context),
@@ -37,6 +45,9 @@ export function drawPicture(scene, pen) {
     fact: evidence.fact,
     predictions: decision.predictions,
     yields: decision.yields,
+    lights,
+    hidden,
+    imagined,
     preview,
     kinds,
   };
@@ -92,7 +103,7 @@ function name(vehicle, scene, { view, colours, labels }, long) {
       ? { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(ground), strong: true }
       : { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
   const weight = ours ? 80 : ringed || scene.chosen === vehicle.id ? 70 : 20 - vehicle.id / 1e6;
-  const text = ours ? "us" : long || ringed ? nameOf(vehicle.id) : String(vehicle.id);
+  const text = ours ? "us" : long || ringed ? calledOf(vehicle) : String(vehicle.id);
   labels.add({
     key: vehicle.id,
     text,

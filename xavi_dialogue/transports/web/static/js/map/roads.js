@@ -1,11 +1,14 @@
 /** The road network: what of it is drawn, and how, by scale. */
 
 import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./lines.js";
+import { placesOfSignals } from "./signals.js";
 
 const DASH = [3, 4.5]; // [m]
 const LINE = 0.14; // [m] width of markings
 const LINES = 500; // of a grid, each way
 const KERB = 0.35; // [m] on each side
+const ZEBRA = [0.5, 0.6]; // [m] stripe and gap
+const GROUNDS = { bicycles: "map-cycleway", people: "map-pavement", rails: "map-rails", others: "road" };
 const TURN = new Map([
   ["left", 1],
   ["right", -1],
@@ -13,7 +16,7 @@ const TURN = new Map([
 ]);
 
 /** Scales [px/m] from which on things are drawn: below, they would only be clutter. */
-const FROM = { sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
+const FROM = { crossings: 1.1, sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
 
 export class RoadLayer {
   /** @param roads see documents.py: Roads */
@@ -25,6 +28,10 @@ export class RoadLayer {
     const leaving = grouped(roads.links, (link) => link.from_lane);
     const open = roads.lanes.filter((lane) => !lane.internal);
     this.surfaces = roads.lanes.map((lane) => item(lane.line, lane.width, lane));
+    this.others = new Map((roads.others ?? []).map((lane) => [lane.id, lane]));
+    this.beside = [...this.others.values()].map((lane) => item(lane.line, lane.width, lane));
+    this.crossings = (roads.crossings ?? []).map(({ line, width }) => item(line, width));
+    this.signals = placesOfSignals(roads, this.lanes);
     this.junctions = roads.junctions.map((outline) => {
       const path = new Path2D();
       trace(path, outline, true);
@@ -70,7 +77,16 @@ export class RoadLayer {
     for (const one of seen(this.junctions)) fillPath(context, one.path, colours.get("road-junction"));
     stroke(context, inside, colours.get("road-junction"), (one) => one.width);
     stroke(context, outside, colours.get("road"), (one) => one.width + 0.04);
+    this.besides(context, seen(this.beside), colours);
     this.markings(context, seen, scale, colours);
+  }
+
+  /** Lanes that cars may not use. */
+  besides(context, lanes, colours) {
+    for (const [use, colour] of Object.entries(GROUNDS)) {
+      const own = lanes.filter(({ lane }) => lane.use === use && !lane.internal);
+      stroke(context, own, colours.get(colour), (one) => one.width);
+    }
   }
 
   kerbs(context, lanes, junctions, colours) {
@@ -84,6 +100,11 @@ export class RoadLayer {
   markings(context, seen, scale, colours) {
     const colour = colours.get("marking");
     const thin = () => Math.max(LINE, 0.9 / scale);
+    if (scale >= FROM.crossings) {
+      context.setLineDash(ZEBRA);
+      stroke(context, seen(this.crossings), colour, (one) => one.width);
+      context.setLineDash([]);
+    }
     if (scale >= FROM.sides) stroke(context, seen(this.sides), colour, thin);
     if (scale >= FROM.dashes) {
       context.setLineDash(DASH);

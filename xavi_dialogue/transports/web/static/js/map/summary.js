@@ -2,8 +2,9 @@
 
 import { h, say } from "../dom.js";
 import { clock, speed } from "../figures.js";
-import { capital, nameOf } from "../words.js";
+import { calledOf, capital } from "../words.js";
 import { cardInWords } from "./card.js";
+import { lightInWords } from "./signals.js";
 import { laneInWords, whereTo } from "./words.js";
 
 const PAUSE = 3000; // [ms] between changes
@@ -39,12 +40,26 @@ export function inWords(picture) {
   if (!ego) return "There is nothing on the map yet.";
   const others = picture.vehicles.filter((vehicle) => vehicle.id !== 0);
   const near = others.sort((a, b) => away(ego, a) - away(ego, b));
-  const told = near.slice(0, NAMED).map((one) => `${nameOf(one.id)} is ${whereTo(ego, one)}, at ${speed(one.speed)}`);
+  const told = near.slice(0, NAMED).map((one) => `${calledOf(one)} is ${whereTo(ego, one)}, at ${speed(one.speed)}`);
   const more = near.length - told.length;
-  const rest = more > 0 ? ` ${more} more ${more === 1 ? "vehicle is" : "vehicles are"} farther away.` : "";
+  const rest = more > 0 ? ` ${more} more ${more === 1 ? "road user is" : "road users are"} farther away.` : "";
   const list = told.length ? ` ${capital(told.join("; "))}.${rest}` : " There is nobody else in sight.";
   const plan = picture.words ? ` The plan: ${picture.words}.` : "";
-  return `${opening(picture, ego)}${list}${plan}`;
+  return `${opening(picture, ego)}${lightAhead(picture, ego)}${list}${unseen(picture)}${plan}`;
+}
+
+/** What the light at the end of our lane shows; empty where it has none that is in view. */
+function lightAhead({ lights, roads }, ego) {
+  const lane = roads?.laneAt(ego.x, ego.y);
+  const place = lane && roads.signals.find((one) => one.lane === lane.id);
+  const shown = new Map(lights ?? []);
+  const states = (place?.lamps ?? []).map((lamp) => shown.get(lamp.signal)).filter(Boolean);
+  const words = [...new Set(states.map(lightInWords))].join(" or ");
+  return words && ` Our traffic light is ${words}.`;
+}
+
+function unseen({ hidden }) {
+  return hidden?.length ? " Parts of the roads around us are out of our sight." : "";
 }
 
 function opening({ live, t, gone, state, roads }, ego) {

@@ -1,0 +1,82 @@
+"""Evidence: whether what a word says is found in the acts that were made of it.
+
+A rule of composition that passes over a part of its clause loses the words of that part without
+notice. So what a number, colour, kind or superlative says is looked for in the acts; where it is
+not found, the word has no part in them.
+"""
+
+from collections.abc import Iterator
+from typing import Any, Final
+
+import msgspec
+
+from xavi_dialogue.domain.meaning import (
+    Act,
+    AskHelp,
+    Beyond,
+    Compare,
+    Peak,
+    Quizzing,
+    Request,
+    Social,
+)
+from xavi_dialogue.domain.terms import Quantity
+from xavi_dialogue.nlu.compose.tree import value_of
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+LOST: Final = 0.9  # cost of a word that left nothing in the acts
+_TALK: Final = (AskHelp, Beyond, Quizzing, Social)  # of whatever was said with it
+_EXTREMES: Final = frozenset(
+    (Compare, Peak, "nearest", "farthest", "fastest", "slowest", "biggest", "highest", "lowest")
+)
+_NUMBERED: Final = frozenset(("numbered", "roll", "owner"))
+_SCALES: Final = (1.0, 60.0, 3600.0)  # [s] of the units in which a time is said
+_VAGUE: Final = frozenset(("vehicle", "car"))  # kinds that a vehicle or pronoun may stand for
+
+
+def missing(unit: Node, acts: tuple[Act, ...]) -> tuple[Leaf, ...]:
+    """List the telling words of a unit of which nothing is found in its acts."""
+    if not acts or any(isinstance(act, _TALK) for act in acts):
+        return ()
+    found = set(_atoms(acts))
+    if Request in found:
+        found.add(Quantity)  # what pace is wished for tells nothing of why it is not granted
+    return tuple(leaf for leaf in _telling(unit) if not _is_in(leaf, found))
+
+
+def _telling(part: Part) -> Iterator[Leaf]:
+    """Yield the words to look for; of "truck 1", the number tells who it is."""
+    if isinstance(part, Leaf):
+        superlative = part.category == "FOCUS" and part.key == "superlative"
+        if superlative or part.category in ("NUM", "COLOUR", "KIND"):
+            yield part
+        return
+    for inner in part.parts:
+        if isinstance(inner, Node) or part.name not in _NUMBERED:
+            yield from _telling(inner)
+
+
+def _is_in(leaf: Leaf, found: set[Any]) -> bool:
+    if leaf.category == "NUM":
+        said = value_of(leaf)
+        return Quantity in found or any(said * scale in found for scale in _SCALES)
+    if leaf.category == "FOCUS":
+        return not _EXTREMES.isdisjoint(found)
+    return leaf.key in _VAGUE or leaf.key in found
+
+
+def _atoms(value: Any) -> Iterator[Any]:
+    """Yield the words and numbers in a term, and the types of its parts."""
+    if isinstance(value, tuple):
+        for part in value:
+            yield from _atoms(part)
+    elif isinstance(value, msgspec.Struct):
+        yield type(value)
+        for name in value.__struct_fields__:
+            yield from _atoms(getattr(value, name))
+    elif isinstance(value, str):
+        yield value
+        yield from value.split()
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield float(value)
