@@ -14,7 +14,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unsaid,
 )
-from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind
+from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind, Merit
 
 # --- questions ----------------------------------------------------------------------------------
 
@@ -112,8 +112,7 @@ class Compare(Value, frozen=True):
     """Which of several is better, sooner, safer, smoother, faster, closer, ahead."""
 
     options: tuple[Proposition | Thing, ...]
-    by: Literal["best", "time", "safety", "comfort", "speed", "distance", "probability", "size",
-                "place"]  # fmt: skip
+    by: Merit
     least: bool = False  # which is slower, smaller, farther, behind
 
 

@@ -174,6 +174,11 @@ FeelingKind: TypeAlias = Literal[
     "disliking", "liking",
 ]  # fmt: skip
 
+#: By what several things or deeds are compared.
+Merit: TypeAlias = Literal[
+    "best", "time", "safety", "comfort", "speed", "distance", "probability", "size", "place",
+]  # fmt: skip
+
 MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)
 BEYOND: frozenset[ActionName] = frozenset(
     (

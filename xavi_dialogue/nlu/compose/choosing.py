@@ -224,6 +224,6 @@ def _before_or_behind(of: Proposition) -> Compare | None:
             ),
             join="or",
         ) if one != other and thing == again:
-            named = next((t for t in (to, then) if isinstance(t, Vehicle | Described)), to)
-            return Compare((thing, named), "place")
+            named = next((t for t in (to, then) if isinstance(t, Vehicle | Described)), None)
+            return None if named is None else Compare((thing, named), "place")
     return None

@@ -201,8 +201,7 @@ def at_moment(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Wi
 
 
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
-    right = spoken.right
-    of = spoken.left
+    of, right = spoken.left, spoken.right
     if of.attribute == "count":
         return replace(spoken, left=_tally(of, g))
     if isinstance(right, Quantity) and right.unit == "count" and of.attribute in _PACES:
@@ -215,10 +214,9 @@ def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
         case Vehicles(numbers=(one, two)) if spoken.comparator == "same":  # "are both as fast?"
             other = replace(left, thing=Vehicle(two))
             return replace(spoken, left=replace(left, thing=Vehicle(one)), right=other)
-    if isinstance(right, Measured) and right.thing == of.thing:
-        right = measured(replace(right, thing=left.thing), g, timed, outer)  # at another time
-    elif isinstance(right, Measured):
-        right = measured(right, apart(right.thing, left.thing, g), timed, outer)
+    if isinstance(right, Measured):  # where it is of the same thing, at another time
+        other = replace(right, thing=left.thing) if right.thing == of.thing else right
+        right = measured(other, apart(right.thing, left.thing, g), timed, outer)
     return replace(spoken, left=left, right=right)
 
 
