@@ -124,9 +124,9 @@ def _is_option(event: Event, asked: Asked) -> bool:
 def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None and of.event.action in GOING_ON:
         of = with_fields(of, event=None)
-    if of.event is not None:
-        if not isinstance(of.event.object, Wanted | Vehicles) and not occasions(asked, of.event):
-            raise did_not_happen(asked, of.event)
+    several = of.event is not None and isinstance(of.event.object, Wanted | Vehicles)
+    if of.event is not None and not several and not occasions(asked, of.event):
+        raise did_not_happen(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
     told = of.event is not None or (about.said and about.end < asked.now - RECENT)
     if not told and about.instant and is_past(asked, of.time, of.tense):
