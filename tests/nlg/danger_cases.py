@@ -26,6 +26,7 @@ def grounds(of: Assurance, vehicle: int | None = 1, risk: float | None = 0.008) 
 
 BUILDING = Hider(None, "ahead", 0.04)
 LORRY_HIDES = Hider(1, "left", 0.1)
+TALL = Hider(1, "ahead", None)
 
 CASES: tuple[Answer, ...] = (
     PullingUp(1, "stands"),
@@ -64,4 +65,11 @@ CASES: tuple[Answer, ...] = (
             ((), False, False),
         )
     ),
+    *(
+        SightTold("if", (LORRY_HIDES,), past, slowed)
+        for past in (False, True)
+        for slowed in (False, True)
+    ),
+    SightTold("there", (TALL,)),
+    SightTold("past", (TALL,)),
 )

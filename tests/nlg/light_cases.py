@@ -115,4 +115,6 @@ CASES: tuple[Answer, ...] = (
     ),
     Verdict(Happens(Event("wait", E, LIGHT, tense="present")), True,
             (Episode(E, "wait", 5.0, object=LIGHT, standing=True),)),
+    LightTold("turn", RED),
+    LightTold("turn", RED, holds=False),
 )  # fmt: skip

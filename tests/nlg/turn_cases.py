@@ -13,4 +13,6 @@ CASES: tuple[Answer, ...] = (
     Unblocking(NOW, 1),
     Unblocking(NOW, 1, going=True),
     Unblocking(NOW, 1, waits=(2, 3)),
+    *(Priority(NOW, "give-way", 1, why=why) for why in ("beside", "on-foot", "road")),
+    *(Priority(NOW, "give-way", 1, others=(2,), why=why) for why in ("beside", "road")),
 )

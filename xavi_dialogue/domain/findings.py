@@ -201,8 +201,9 @@ class Priority(Value, frozen=True):
     ring: bool = False  # at a roundabout, asked of nobody in particular
     grounds: bool = False  # asked how we know it
     after: tuple[int, ...] = ()  # who has to let us go first, where others go before us
-    #: On what it rests that they go first: they come from the right, or we turn across their way.
-    why: Literal["right", "across"] | None = None
+    #: On what it rests that they go first: they come from the right, or we turn across their way;
+    #: they go straight on beside us; they are on foot; their road has priority over ours.
+    why: Literal["right", "across", "beside", "on-foot", "road"] | None = None
     apart: tuple[int, ...] = ()  # who was named as well, and whose way does not meet ours
     number: bool = False  # it is asked how many go first
 

@@ -13,15 +13,15 @@ class Hider(Value, frozen=True):
 
     vehicle: int | None  # None: a building
     side: Side  # from which somebody might come
-    probability: float  # that somebody is there
+    probability: float | None  # that somebody is there with right of way; None: not reckoned with
 
 
 class SightTold(Value, frozen=True):
     """What we cannot see, and who might come from there; nobody who is only imagined is counted."""
 
     #: asked: whether we see past it; what we do not see; whether or how surely somebody is there,
-    #: or comes from there; whether somebody came; how we know that nobody does
-    asked: Literal["past", "what", "there", "chance", "came", "known"]
+    #: or comes from there; whether somebody came; how we know that nobody does; what if he did
+    asked: Literal["past", "what", "there", "chance", "came", "known", "if"]
     hiders: tuple[Hider, ...]  # the likeliest first; () nothing that matters is hidden
     past: bool = False
     slowed: bool = False  # we came slowly for it

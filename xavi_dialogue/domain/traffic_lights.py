@@ -64,7 +64,7 @@ class LightTold(Value, frozen=True):
 
     asked: Literal[
         "colour", "whether", "claim", "seen", "when", "how-long", "where", "how-known", "why",
-        "count",
+        "count", "turn",
     ]  # fmt: skip
     shown: Shown | None = None  # None: no light was in view, or none such
     wanted: LightColour | None = None  # that it is asked whether, or since when, it shows

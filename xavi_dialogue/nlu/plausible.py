@@ -97,6 +97,8 @@ def _top(act: Act) -> float:
             return ODD
         case Claim(that=Related(thing=Pronoun("who")) | Happens(event=Event(actor=Pronoun("who")))):
             return 2.0 * ODD  # "who" asks, and tells of nobody
+        case Ask(question=Which(such=Related(relation="same-as", to=Junction()))):
+            return ODD  # who is a place?
         case Ask(question=Which(thing=Wanted(), such=such, among=())) if (
             such is not None and first(such, Wanted) is None
         ):

@@ -32,10 +32,10 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers import (
     deciding,
     knowing,
+    owing,
     reasons,
     risks,
 )
-from xavi_dialogue.explain.answers.priority import goes_first
 from xavi_dialogue.explain.answers.provoked import because_of_us
 from xavi_dialogue.explain.answers.wavering import wavered
 
@@ -77,10 +77,10 @@ FIRST = {"manner": ("first",), "tense": "present"}
 @pytest.mark.parametrize(
     ("question", "explainer"),
     [
-        (Why(Happens(Event("go", ONE, **FIRST))), goes_first),  # type: ignore[arg-type]
-        (Why(Happens(Event("go", Everyone(), **FIRST))), goes_first),  # type: ignore[arg-type]
-        (Why(Happens(Event("go", Vehicles((1, 2)), **FIRST))), goes_first),  # type: ignore[arg-type]
-        (Why(Is("allowed", event=Event("go", ONE, **FIRST))), goes_first),  # type: ignore[arg-type]
+        (Why(Happens(Event("go", ONE, **FIRST))), owing.before_us),  # type: ignore[arg-type]
+        (Why(Happens(Event("go", Everyone(), **FIRST))), owing.before_us),  # type: ignore[arg-type]
+        (Why(Happens(Event("go", Vehicles((1, 2)), **FIRST))), owing.before_us),  # type: ignore[arg-type]
+        (Why(Is("allowed", event=Event("go", ONE, **FIRST))), owing.before_us),  # type: ignore[arg-type]
         (Why(Is("safe", event=Event("go", ONE, **FIRST))), reasons.why),  # type: ignore[arg-type]
         (Why(Happens(Event("go", US, **FIRST))), reasons.why),  # type: ignore[arg-type]
         (Why(Happens(Event("turn", ONE, **FIRST))), reasons.why),  # type: ignore[arg-type]

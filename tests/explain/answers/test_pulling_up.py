@@ -80,6 +80,7 @@ def test_who_brakes_to_a_standstill_soon_stops_whatever_the_rule(asked: Any) -> 
 
 def test_it_is_asked_of_who_moves_and_concerns_us(asked: Any) -> None:
     assert asked(STOPS) is None  # a vehicle that neither follows nor crosses
-    assert asked(MANAGES, speed=0.0) is None
+    assert asked(STOPS, speed=0.0) is None
+    assert asked(MANAGES, speed=0.0).how == "stands"
     assert asked(Event("stop", V, tense="past")) is None
     assert asked(Event("turn", V, tense="future", time=Next())) is None

@@ -57,7 +57,10 @@ def test_who_all_has_to_wait_for_us_is_told_where_nobody_goes_before_us() -> Non
         ("exit-left", "give-way", 3.0, True, "across"),
         ("exit-straight", "give-way", 3.0, True, None),
         ("exit-left", "equal", -20.0, False, "right"),
-        ("exit-left", "give-way", -20.0, False, None),
+        ("exit-left", "give-way", -20.0, False, "road"),
+        ("exit-straight", "give-way", 20.0, False, "road"),
+        ("exit-right", "give-way", -2.0, False, "beside"),
+        ("exit-right", "give-way", 2.0, False, None),
         ("exit-straight", "equal", 20.0, False, None),
     ],
 )

@@ -37,11 +37,18 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
-from xavi_dialogue.explain.answers import choices, deciding, knowing, possible, reasons, risks
+from xavi_dialogue.explain.answers import (
+    choices,
+    deciding,
+    knowing,
+    owing,
+    possible,
+    reasons,
+    risks,
+)
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.delays import held_up, let_past
 from xavi_dialogue.explain.answers.moments import window
-from xavi_dialogue.explain.answers.priority import goes_first
 from xavi_dialogue.explain.answers.provoked import because_of_us
 from xavi_dialogue.explain.answers.reading import is_own, unwrapped, vehicle_in
 from xavi_dialogue.explain.answers.wavering import wavered
@@ -78,7 +85,9 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             and event.action == "go"
             and isinstance(event.actor, Vehicle | Vehicles | Everyone)
         ):
-            return goes_first
+            return owing.before_us
+        case Why(of=of, suspect=None, instead=None) if owing.is_owed(of):
+            return owing.why_owed
         case Why(of=Happens(event=event), suspect=Ego()) if event.action in HELD and isinstance(
             event.actor, Vehicle
         ):
@@ -171,6 +180,8 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return possible.could
     if possible.is_must(of) and not _on_our_way(of):
         return possible.must
+    if isinstance(of, Is) and of.state == "right" and not negated:
+        return deciding.needed if of.event is not None and is_own(of.event.actor) else None
     if isinstance(of, Is) and of.state in NEEDED:
         about_us = of.event is None or is_own(of.event.actor)
         if not about_us and of.state == "worth-it":

@@ -70,7 +70,18 @@ GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
 HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
 JUST = 0.3  # [s] for which what is over still goes on, to people
 LATELY = 6.0  # [s] for which what is over is what "that" was
-RIGHT_OF_WAY = ("enter", "turn", "exit-left", "exit-right", "exit-straight", "cross", "go", "merge")
+RIGHT_OF_WAY = (
+    "enter",
+    "turn",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "cross",
+    "go",
+    "merge",
+    "pull-out",
+    "move",
+)
 
 
 def condition(of: Is, asked: Asked) -> Finding:
@@ -103,7 +114,8 @@ def _safe(of: Is, asked: Asked) -> Finding:
     how: How = "room" if of.state == "roomy" else "safe" if of.state == "safe" else "dangerous"
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
-        taken_place(asked, of.event)
+        if not isinstance(of.event.object, Wanted | Vehicles) and not occasions(asked, of.event):
+            raise did_not_happen(asked, of.event)
     elif of.event is not None and _is_option(of.event, asked):
         form: Asking = "safe" if of.state == "safe" else "crash"
         return Finding(None, answer=of_us(of.event, asked, form))
@@ -124,9 +136,8 @@ def _is_option(event: Event, asked: Asked) -> bool:
 def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None and of.event.action in GOING_ON:
         of = with_fields(of, event=None)
-    several = of.event is not None and isinstance(of.event.object, Wanted | Vehicles)
-    if of.event is not None and not several and not occasions(asked, of.event):
-        raise did_not_happen(asked, of.event)
+    if of.event is not None:
+        taken_place(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
     told = of.event is not None or (about.said and about.end < asked.now - RECENT)
     if not told and about.instant and is_past(asked, of.time, of.tense):
@@ -150,10 +161,12 @@ def _allowed(of: Is, asked: Asked) -> Finding:
         found = right_of_way(asked, event.object, event.actor, about)
         if found.rule != "none" or "first" in event.manner:
             return owed(found, ours_yield=not is_us(event.actor))
-    if event is not None and is_us(event.actor) and not _of_speed(event):
+    limited = within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)
+    fast = limited.holds is False and event is not None and not is_us(event.actor)
+    if event is not None and not _of_speed(event) and not fast:
         about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
-        return Finding(None, answer=lawful(asked, about))
-    return within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)
+        return Finding(None, answer=lawful(asked, about, number(event.actor)))
+    return limited
 
 
 def _of_speed(event: Event) -> bool:

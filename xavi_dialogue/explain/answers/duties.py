@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Vehicles,
+    Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import causal
@@ -29,6 +30,7 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.foreseen import chance
 from xavi_dialogue.explain.answers.halting import to_come
+from xavi_dialogue.explain.answers.lights_turn import held
 from xavi_dialogue.explain.answers.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
@@ -36,7 +38,6 @@ from xavi_dialogue.explain.answers.priority import (
     fault,
     owed,
     priority_at,
-    rule_between,
     where_rule_holds,
 )
 
@@ -145,9 +146,14 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
     if not past or occasion(asked, event) is not None:
         return None
     vehicle = number(event.object)
+    light = None if asked.past is not None and asked.past.said else held(asked)
+    if light is not None:
+        return Finding(None, answer=light)  # whoever goes meanwhile, it is that which holds us
     about = window(asked, event.time, "past")
     about = about if vehicle is not None else where_rule_holds(asked, None, about)
     found = priority_at(asked, vehicle, about)
+    if vehicle is not None and found.first is None and found.rule == "give-way":
+        return Finding(True, answer=replace(found, holds=True))  # we are about it
     ours = isinstance(found.first, Ego) and found.rule == "give-way"
     return Finding(False, answer=replace(found, holds=False)) if ours else None
 
@@ -212,9 +218,11 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
 
 def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
     """Tell to whom of several we have to yield, or who of them has to yield to us."""
-    rules = {v: met[1] for v in among if (met := rule_between(asked, v, about)) is not None}
+    rules = {v: priority_at(asked, v, about).rule for v in among}
     wanted = "give-way" if ours else "priority"
-    those = tuple(v for v in among if rules.get(v) == wanted)
+    those = tuple(v for v in among if rules[v] == wanted)
+    if not ours:  # of people who go first, it is told that they do
+        those = those or tuple(v for v in among if rules[v] == "give-way")
     if not those:
         return owed(priority_at(asked, None, about), ours_yield=ours)
     found = owed(priority_at(asked, those[0], about), ours_yield=ours)
@@ -285,7 +293,7 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     match such:
         case Related(relation="has-priority-over" | "must-yield-to"):
             pair, time, tense = (such.thing, such.to), such.time, such.tense
-        case Is(state="allowed", event=Event() as event) if (found := _pair(event)) is not None:
+        case Is(state="allowed", event=Event() as event) if (found := _may(event)) is not None:
             pair, time, tense = found, event.time, event.tense
         case Happens(event=event) if (found := _pair(event)) is not None and _duty_of(event):
             pair, time, tense = found, event.time, event.tense
@@ -294,6 +302,9 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     vehicle = next((n for thing in pair if (n := number(thing)) is not None), None)
     past = is_past(asked, time, tense)
     about = window(asked, time, "past") if past else Window(asked.now, asked.now)
+    several = next((t.numbers for t in pair if isinstance(t, Vehicles)), ())
+    before = (n for n in several if priority_at(asked, n, about).rule == "give-way")
+    vehicle = vehicle if vehicle is not None else next(before, None)
     if past and vehicle is None:
         about = where_rule_holds(asked, None, about)
     if vehicle is None and not past and (every := _to_all(asked, about, *pair)) is not None:
@@ -302,6 +313,13 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     if told.rule == "none" and vehicle is None:
         told = priority_at(asked, None, where_rule_holds(asked, None, _ride(asked)))
     return told
+
+
+def _may(event: Event) -> tuple[Thing | None, Thing | None] | None:
+    """Give who is to yield and to whom, where it is asked who may do something."""
+    if isinstance(event.actor, Wanted) and event.action in GOING:
+        return event.object, event.actor
+    return _pair(event)
 
 
 def _to_all(

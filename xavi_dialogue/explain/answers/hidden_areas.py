@@ -11,7 +11,7 @@ from planner.hidden_areas import Phantom
 from planner.trace import PlanTrace
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.hidden_areas import Hider, SightTold, SupposedSeeing
-from xavi_dialogue.domain.meaning import Ask, HowKnow, HowSure, Listing, WhatIf, Whether
+from xavi_dialogue.domain.meaning import Ask, HowKnow, HowSure, Listing, WhatIf, Whether, Which
 from xavi_dialogue.domain.terms import (
     Believed,
     Described,
@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.naming import is_building, is_us
@@ -37,6 +38,7 @@ from xavi_dialogue.explain.history.ride import ROUNDING, planned
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
 JUST_NOW = 1.5  # [s] for which what was decided on still holds
+TALL = frozenset(("bus", "truck", "van", "tram"))  # too tall to see past
 TOGETHER = 3.0  # [s] between decisions about one hidden part
 
 
@@ -49,13 +51,19 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return lambda asked, here: _supposed(asked.question, here)
         case Whether(that) if _of_sight(that) is not None:
             return _told("past")
+        case Which(such=Related("behind", Wanted(), Vehicle() as hider) as such):
+            alone = not _anybody_behind(scene, hider) and such.tense == "present"
+            there = bool(_hiding(scene, hider, past=False)) or _covers(scene, such, hider)
+            return _told("there") if alone and there else None
+        case WhatIf(supposed) if _emerges(supposed) is not None:
+            return _told("if")
         case Listing("hidden"):
             return _told("what")
         case Whether(Exists(thing)) if _is_blind(thing):
             return _told("past")
         case Whether(that) | HowSure(that) if (from_where := _comes_from(that)) is not None:
             if not _hiding(scene, from_where, _is_past(that)):
-                return None
+                return _told("there") if _covers(scene, that, from_where) else None
             if isinstance(act.question, Whether) and _is_deed(that):
                 return None if _anybody_new(scene, from_where) else _told("came")
             return _told("there" if _is_there(that) else "chance")
@@ -70,14 +78,14 @@ def _told(asked: Any) -> Explainer:
 
 def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
     """Tell what is hidden, and what may be there."""
-    that = getattr(question, "that", None) or (
-        None if isinstance(question, Listing) else getattr(question, "of", None)
-    )
+    that = question.such if isinstance(question, Which) else _said(question)
     past = _is_past(that) if that is not None else scene.past is not None
     about = None
     if isinstance(that, Proposition):
         about = _of_sight(that) or _comes_from(that)
     found = _hiding(scene, about, past)
+    if not found and isinstance(about, Vehicle) and _covers(scene, that, about):
+        return SightTold(asked, (Hider(about.number, "ahead", None),), past)
     if not found:
         return SightTold(asked, (), past)
     first = _first(found, about)
@@ -85,6 +93,27 @@ def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
     now = found[-1].sim_time >= scene.now - JUST_NOW
     told = first if past and not now else found[-1]
     return SightTold(asked, _hiders(told, _fitting(told, about), about), past or not now, slowed)
+
+
+def _said(question: Any) -> Proposition | None:
+    """Give what is said in a question; None where it only lists."""
+    if isinstance(question, Listing):
+        return None
+    names = ("that", "of", "supposed")
+    return next((p for name in names if (p := getattr(question, name, None)) is not None), None)
+
+
+def _anybody_behind(scene: Asked, hider: Vehicle) -> bool:
+    """Tell whether anybody is seen behind a vehicle."""
+    seen = (Vehicle(v) for v in scene.world.in_view(scene.now) if v != hider.number)
+    return any(scene.world.relation("behind", one, hider, scene.now) for one in seen)
+
+
+def _covers(scene: Asked, that: Proposition | None, where: Thing) -> bool:
+    """Tell whether somebody may be behind a vehicle, since it is too tall to see past."""
+    look = scene.world.look(where.number, scene.now) if isinstance(where, Vehicle) else None
+    tall = look is not None and look.in_view and look.kind in TALL
+    return tall and not _is_past(that) and not _is_deed(that)
 
 
 def _supposed(question: WhatIf, scene: Asked) -> Answer:
@@ -180,7 +209,7 @@ def _hiders(
         key = (hider, side_of(trace, one))
         nobody[key] = nobody.get(key, 1.0) * (1.0 - one.probability)
     found = (Hider(vehicle, side, round(1.0 - none, 4)) for (vehicle, side), none in nobody.items())
-    return tuple(sorted(found, key=lambda one: -one.probability))
+    return tuple(sorted(found, key=lambda one: -(one.probability or 0.0)))
 
 
 def _anybody_new(scene: Asked, about: Thing) -> bool:
@@ -211,6 +240,12 @@ def _seen_past(supposed: Proposition) -> Thing | None:
     return None
 
 
+def _emerges(supposed: Proposition) -> Thing | None:
+    """From behind what somebody who is not known is supposed to come."""
+    of, negated = unwrapped(supposed)
+    return None if negated or _is_there(supposed) else _comes_from(of)
+
+
 def _of_sight(that: Proposition) -> Thing | None:
     of, _ = unwrapped(that)
     return of.to if isinstance(of, Related) and of.relation == "sees-past" else None
@@ -229,12 +264,14 @@ def _comes_from(that: Proposition | None) -> Thing | None:
         of, _ = unwrapped(of.content)
     where: Thing | None = None
     match of:
-        case Related("behind" | "from", Nobody() | Everyone() | Described(), to):
+        case Related("behind" | "from", Nobody() | Everyone() | Described() | Wanted(), to):
             where = to
         case Happens(Event(action="come" | "appear" | "pull-out", actor=actor, object=to)) if (
             isinstance(actor, Nobody | Everyone | Described)
         ):
             where = to
+        case Happens(Event(actor=Nobody() | Everyone() | Described(), where=Related() as there)):
+            where = there.to if there.relation in ("behind", "from") else None
         case Exists(Nobody(Described(bearing="behind", of=to))):
             where = to
     return where if isinstance(where, Vehicle) or is_building(where) or _is_blind(where) else None

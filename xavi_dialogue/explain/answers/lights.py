@@ -26,7 +26,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import Believed, Feature, Has, Measured
-from xavi_dialogue.explain.answers import lights_ahead, lights_seen, lights_supposed
+from xavi_dialogue.explain.answers import lights_ahead, lights_seen, lights_supposed, lights_turn
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.lights_read import (
     may_pass,
@@ -59,6 +59,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_ahead.coming)
         case Whether(that) if stated(that) is not None:
             return _asked(lights_seen.whether)
+        case Whether(that) if lights_turn.is_turn(that, scene):
+            return _asked(lights_turn.whether)
         case Whether(that) if may_pass(that):
             return _asked(lights_seen.ours)
         case Whether(that) if lights_supposed.turns_on_red(unwrapped(that)[0]) is not None:

@@ -2,12 +2,14 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.answers import Answer, DidNotHappen
 from xavi_dialogue.domain.meaning import Whether
 from xavi_dialogue.domain.terms import Event, Happens, Is, Proposition
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers import deciding, motions
-from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.comfort import comfort_of, stretch
+from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.own_suppositions import of_us
 from xavi_dialogue.explain.answers.reading import event_of, is_own, unwrapped
 
@@ -16,6 +18,7 @@ NOT_DRIVING = frozenset[ActionName](
     ("see", "do", "happen", "collide", "nearly-collide", "arrive", "signal", "appear", "disappear")
 )
 YIELDING = frozenset[ActionName](("give-way", "let-go", "wait"))
+BRAKING = frozenset[ActionName](("brake", "slow-down", "stop"))
 FASTER = frozenset[ActionName](("speed-up",))
 
 
@@ -48,9 +51,23 @@ def could(question: Whether, scene: Asked) -> Answer:
     """
     event = event_of(question.that)
     assert event is not None
+    if "late" in event.manner and event.action in BRAKING:
+        return _braked(replace(event, modal=None, manner=()), scene)
     if event.action in FASTER or "fast" in event.manner:
         return motions.slow(scene)
     return of_us(replace(event, modal="would"), scene, "could")
+
+
+def _braked(event: Event, scene: Asked) -> Answer:
+    """Tell how hard we braked: later, it would have been harder.
+
+    Raises:
+        Unanswered: we did not brake, or the record has no motion there.
+    """
+    done = occasion(scene, replace(event, action="brake", object=None))
+    if done is None:
+        raise Unanswered(DidNotHappen(event))
+    return comfort_of(scene, stretch(scene, done), done)
 
 
 def must(question: Whether, scene: Asked) -> Answer:

@@ -4,7 +4,7 @@ The rule follows from the road (`RoadFacts`), and from whom way was given to in 
 who had to yield and who did; whose fault something is, is not.
 """
 
-from typing import Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast
 
 from msgspec.structs import replace as changed
 
@@ -28,7 +28,7 @@ from xavi_dialogue.explain.answers.crossings import (
 )
 from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.moments import Window, window
-from xavi_dialogue.explain.answers.naming import known, number
+from xavi_dialogue.explain.answers.naming import known, number, somebodies
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, overlaps
 from xavi_dialogue.explain.facts.waiting import top_holders
 from xavi_dialogue.explain.history.ride import planned
@@ -78,8 +78,8 @@ def fault(question: Fault, asked: Asked) -> Answer:
     return changed(found, legal=True, limit=limit)
 
 
-def lawful(asked: Asked, about: Window | None) -> Priority:
-    """Tell what bears on whether we may do what we do, or did: the limit, and who goes first.
+def lawful(asked: Asked, about: Window | None, vehicle: int | None = None) -> Priority:
+    """Tell what bears on whether we, or a vehicle, may do that: the limit, and who goes first.
 
     Raises:
         Unanswered: the record does not hold it.
@@ -87,8 +87,9 @@ def lawful(asked: Asked, about: Window | None) -> Priority:
     near = Window(asked.now, asked.now) if about is None else about
     whole = about is not None and _whole(asked, about)
     crossing = _last_crossing(asked, near) if whole else near
-    found = priority_at(asked, None, crossing, blame=True)
-    return changed(found, legal=True, limit=_limit(asked, near, Ego()), deeds=())
+    found = priority_at(asked, vehicle, crossing, blame=True)
+    who = Ego() if vehicle is None else Vehicle(vehicle)
+    return changed(found, legal=True, limit=_limit(asked, near, who), deeds=())
 
 
 def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Window) -> Priority:
@@ -167,12 +168,12 @@ def goes_first(question: Question, asked: Asked) -> Answer:
     Raises:
         Unanswered: the vehicle is unknown, or the record does not hold the rule.
     """
-    of = getattr(question, "of", None)
-    event = getattr(of, "event", None)
-    assert event is not None
+    event: Any = getattr(getattr(question, "of", None), "event", None)
     past = event.tense in ("past", "perfect")
     about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
-    return priority_at(asked, number(event.actor), about)
+    who = [n for v in somebodies(asked, event.actor, asked.now) if (n := number(v)) is not None]
+    told = [priority_at(asked, n, about) for n in who] or [priority_at(asked, None, about)]
+    return next((one for one in told if one.rule == "give-way"), told[0])
 
 
 def owed(found: Priority, *, ours_yield: bool) -> Finding:
@@ -230,10 +231,10 @@ def _walks_first(
     look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
     if look is None or look.kind not in ON_FOOT or trace is None:
         return None
-    if waited is not None:
-        return "give-way"
-    holders = top_holders(asked.world.states, trace, EGO)
-    return "give-way" if (vehicle, "right-of-way") in holders else None
+    crossing = asked.world.episodes(actor=Vehicle(vehicle), actions=("cross",), object=Ego())
+    first = waited is not None or any(overlaps(asked, e, about) for e in crossing)
+    held = first or (vehicle, "right-of-way") in top_holders(asked.world.states, trace, EGO)
+    return "give-way" if held else None
 
 
 def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:

@@ -38,7 +38,7 @@ def pulls_up(asked: Asked, event: Event) -> Finding | None:
     if vehicle is None or look is None or not look.in_view or asked.now < asked.world.begin:
         return None
     if look.speed < STANDING:
-        return None
+        return Finding(True, answer=PullingUp(vehicle, "stands")) if able else None
     behind = _comes_up(asked, vehicle, EGO) or (able and _follows(asked, vehicle))
     met = rule_between(asked, vehicle, Window(asked.now, asked.now))
     if not able and not is_us(event.object) and not behind and met is None:

@@ -12,7 +12,6 @@ from xavi_dialogue.explain.answers.identify import identified, which
 APART: Final = 15.0  # [m] between two who stand in one row
 SLOW: Final = 3.0  # [m/s] up to which somebody is in it
 SETTING_OFF: Final = 0.8  # [m/s] from which the head of it has set off
-SOON: Final = 1.5  # [s] for which a rule that was read off holds
 
 
 def who(question: Which, asked: Asked) -> Answer:

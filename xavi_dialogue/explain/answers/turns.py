@@ -4,7 +4,7 @@ The rules are those of the record of the road. Who goes before us is told in the
 they are near; at the head of a row that stands, who has to move first.
 """
 
-from typing import Final, Literal, TypeAlias
+from typing import Final
 
 from msgspec.structs import replace
 
@@ -25,20 +25,20 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Unsaid,
+    Vehicles,
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import counting, measures, queues
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.lights_turn import held
 from xavi_dialogue.explain.answers.moments import Window, is_past
 from xavi_dialogue.explain.answers.naming import number, somebodies
+from xavi_dialogue.explain.answers.owing import DUTIES, LETTING, grounds, reason
 from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reasons import why
 
-Grounds: TypeAlias = Literal["right", "across"]
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
-LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
-DUTIES: Final = frozenset(("must", "should"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
 BOTH: Final = 2  # vehicles from which their order is told
 
@@ -53,6 +53,8 @@ def who(question: Which, asked: Asked) -> Answer:
     if isinstance(such, Happens) and (earliest := _earliest(question, such.event, asked)):
         return earliest
     if such is not None and _is_now(asked, such):
+        if _asks_turn(such) and (light := held(asked)) is not None:
+            return light
         if _asks_mover(such) and (found := unblocking(asked)) is not None:
             return found
         if _asks_order(such) and (told := order(asked, question.among)) is not None:
@@ -116,7 +118,7 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
     if not before:
         return Priority(asked.now, "none", number=True)
     told = Priority(asked.now, "give-way", before[0].vehicle, others=_numbers(before[1:]))
-    return replace(told, number=True, why=_why(road, before))
+    return replace(told, number=True, why=grounds(road, before))
 
 
 def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
@@ -136,7 +138,7 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     first, *rest = _numbers(before)
     told = Priority(asked.now, "give-way", first, others=tuple(rest), after=_numbers(after))
     told = replace(told, apart=apart)
-    return replace(told, why=_why(road, before))
+    return replace(told, why=grounds(road, before))
 
 
 def _next(asked: Asked) -> Priority | None:
@@ -156,28 +158,6 @@ def unblocking(asked: Asked) -> Answer | None:
     going = speed is not None and speed > queues.SETTING_OFF
     waits = () if going else tuple(dict.fromkeys(n for n in whom if n is not None))
     return Unblocking(asked.now, head.number, going, waits)
-
-
-def reason(asked: Asked, told: Priority) -> Priority:
-    """Give with a rule that holds now on what it rests, where the record of the road tells it."""
-    road = asked.world.road(asked.now)
-    past = asked.now - told.time > queues.SOON or told.first is not None
-    if road is None or past or told.rule != "give-way" or told.vehicle is None:
-        return told
-    looks = (asked.world.look(v, asked.now) for v in (told.vehicle, *told.others))
-    return replace(told, why=_why(road, tuple(x for x in looks if x is not None)))
-
-
-def _why(road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
-    """Tell on what it rests that they go first: they come from the right, or we turn across."""
-    step = road.route[0] if road.route else None
-    if step is None or not before:
-        return None
-    if step.rule == "equal" and all(x.left < 0.0 and not x.oncoming for x in before):
-        return "right"
-    if step.turn == "exit-left" and step.kind == "junction" and all(x.oncoming for x in before):
-        return "across"
-    return None
 
 
 def _in_order(
@@ -208,6 +188,14 @@ def _is_now(asked: Asked, such: Proposition) -> bool:
         return False
 
 
+def _asks_turn(such: Proposition) -> bool:
+    """Tell whether it is asked whose turn it is to go."""
+    match such:
+        case Happens(event=Event(actor=Wanted(), object=Vehicles(), modal=None) as event):
+            return event.action in GOING and "first" in event.manner  # "us or the people?"
+    return _asks_mover(such) or _asks_order(such) or _asks_next(such)
+
+
 def _asks_mover(such: Proposition) -> bool:
     """Tell whether it is asked who has to move so that we can go."""
     match such:
@@ -230,6 +218,8 @@ def _asks_order(such: Proposition) -> bool:
             return event.action in LETTING and event.modal in DUTIES
         case Is(state="first", thing=Wanted()):
             return True
+        case Is(state="allowed", event=Event(actor=Wanted(), object=None, action=action)):
+            return action in GOING
     return False
 
 

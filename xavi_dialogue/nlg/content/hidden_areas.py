@@ -46,6 +46,7 @@ def _named(hiders: tuple[Hider, ...]) -> dict[str, Any]:
     if hiders:
         nobody = 1.0
         for one in hiders:
-            nobody *= 1.0 - one.probability
-        slots["chance"] = Chance(1.0 - nobody)
+            nobody *= 1.0 - (one.probability or 0.0)
+        known = any(one.probability is not None for one in hiders)
+        slots["chance"] = Chance(1.0 - nobody) if known else None
     return slots

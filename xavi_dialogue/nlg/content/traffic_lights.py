@@ -28,7 +28,8 @@ SAVED = 1.0  # [s] that make a difference
 AT_ONCE = 0.75  # [s] within which it came at once
 EXACT = 2.0  # [s] between the earliest and the latest time within which they are one
 REPLIES = {("whether", True): "yes", ("whether", False): "no", ("claim", True): "right",
-           ("claim", False): "wrong", ("seen", True): "yes", ("seen", False): "no"}  # fmt: skip
+           ("claim", False): "wrong", ("seen", True): "yes", ("seen", False): "no",
+           ("turn", False): "no"}  # fmt: skip
 
 
 def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
@@ -43,7 +44,7 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
         return Plan((message(rule, **none),))
     slots = {**shown_slots(answer.shown, answer, context), "reply": reply}
     rules = {"seen": "LIGHT_SEEN", "when": "LIGHT_WHEN", "how-long": "LIGHT_LONG",
-             "where": "LIGHT_WHERE", "how-known": "LIGHT_KNOWN"}  # fmt: skip
+             "where": "LIGHT_WHERE", "how-known": "LIGHT_KNOWN", "turn": "LIGHT_TURN"}  # fmt: skip
     core = message(rules.get(answer.asked, "LIGHT_IS"), **slots)
     if answer.asked == "why":
         return Plan((message("LIGHT_WHY"), core))

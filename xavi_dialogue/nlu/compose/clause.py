@@ -135,6 +135,12 @@ class Clause:
         bare = self.verb is None or self.verb.key == "do"
         return bare and not said and self.subject is not None
 
+    def judge(self) -> None:
+        """Take "right" in "was it right to stop" for what is judged; it is of no side."""
+        if self.verb is None and self.side == "right" and self.has("be"):
+            self.side = None
+            self.adjectives.append(("right", ""))
+
     def aux_last(self) -> str:
         """Name the last auxiliary before the verb."""
         plain = [a for a in self.aux if not a.startswith("semi")]

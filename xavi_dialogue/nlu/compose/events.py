@@ -211,7 +211,9 @@ def _exit_meant(place: Related) -> tuple[Thing | None, Related | None]:
 
 
 _ALMOST = frozenset({"nearly", "almost"})
-_PACES: dict[str, Manner] = {"fast": "fast", "slow": "slowly", "soon": "early", "early": "early"}
+_PACES: dict[str, Manner] = {
+    "fast": "fast", "slow": "slowly", "soon": "early", "early": "early", "late": "late",
+}  # fmt: skip
 _MANNERS: dict[str, Manner] = {
     "fast": "fast", "slow": "slowly", "close": "close", "sudden": "suddenly", "hard": "hard",
     "late": "late", "early": "early", "safe": "safely", "far": "far", "dangerous": "fast",

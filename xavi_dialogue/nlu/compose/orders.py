@@ -133,8 +133,9 @@ class Orders(Telling):
         if clause.has("modal-will") and not clause.negated and "please" not in clause.focus:
             return None
         in_time = "early" in event.manner and event.action in ("stop", "brake") and not please
-        if clause.than is not None or in_time:
-            return None  # "can you stop in time?"
+        races = "first" in event.manner and event.object is not None and not please
+        if clause.than is not None or in_time or races:
+            return None  # "can you stop in time?", "can we make it before him?"
         return (request(event, clause, negated=refrain and isinstance(of, Not)),)
 
     def _best(self, clause: Clause) -> Any:

@@ -287,12 +287,11 @@ class Phrases(Adjuncts):
         to = self.nouns.read(cast(Node, node.parts[3]))
         clause.complements.append(Complement("into", to, node))
 
-    # --- adverbial clauses -------------------------------------------
-
     # --- complement clauses ------------------------------------------
 
     def _on_infinitive(self, node: Node, clause: Clause) -> None:
         inner = clause.infinitive = self.clause(node, clause)
+        clause.judge()
         if clause.passive:  # "was it made to brake by us": by whom is said of the whole
             clause.complements += [c for c in inner.complements if c.key == "by"]
             inner.complements = [c for c in inner.complements if c.key != "by"]

@@ -57,6 +57,7 @@ from xavi_dialogue.nlu.compose.sem import (
     Noun,
     as_thing,
 )
+from xavi_dialogue.nlu.compose.sheltering import concealed
 from xavi_dialogue.nlu.compose.tally import counts, exits_passed, tallied
 from xavi_dialogue.nlu.compose.tree import words_of
 from xavi_dialogue.nlu.compose.wh import fact, prevented
@@ -148,6 +149,8 @@ class Polar(Comparing):
             return [(Whether(limited, tag), 0.0)]
         if found := chosen(clause, self.propositions):
             return [(self.framed(question, clause, None), cost) for question, cost in found]
+        if (there := concealed(clause)) is not None:
+            return [(Whether(there, tag), 0.0)]
         foreseen = _foreseen(clause)
         if foreseen is not None:
             return [(Whether(foreseen, tag), 0.0)]

@@ -19,7 +19,6 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
-    Junction,
     Measured,
     Not,
     Passenger,
@@ -28,7 +27,6 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     Related,
     That,
-    Thing,
     Unknown,
     Unsaid,
     Vehicle,
@@ -56,6 +54,7 @@ from xavi_dialogue.nlu.compose.others import is_other
 from xavi_dialogue.nlu.compose.pacing import exceed
 from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.severally import each_seen
+from xavi_dialogue.nlu.compose.sheltering import beside, emerge, lurk
 from xavi_dialogue.nlu.compose.states import STATES
 from xavi_dialogue.nlu.compose.trends import SINCE
 from xavi_dialogue.nlu.compose.valuing import believed, given_up, preferred, rated, shifted
@@ -158,21 +157,8 @@ def _see(special: Special) -> Proposition:
 
 def _see_past(special: Special) -> Proposition:
     """Read "see past the lorry", "see round the corner", "see behind that building"."""
-    to = _beside(special)
+    to = beside(special)
     return Related("sees-past", special.subject, to, time_of(special), tense_of(special))
-
-
-def _emerge(special: Special) -> Proposition:
-    """Read "come out from behind the lorry"."""
-    return Happens(event_of(special, "come", _beside(special)))
-
-
-def _beside(special: Special) -> Thing:
-    """The thing behind the preposition; a junction or corner is one that cannot be seen round."""
-    phrases = special.match.phrases
-    keys = ("over", "bearing-around", "bearing-behind")
-    to = next((as_thing(phrases[key]) for key in keys if key in phrases), None)
-    return Feature("blind") if to is None or isinstance(to, Junction) else to
 
 
 def _make_do(special: Special) -> Proposition:
@@ -307,7 +293,7 @@ def _signal(special: Special) -> Proposition:
 
 
 _RULES: dict[str, Callable[[Special], Proposition]] = {
-    "see-past": _see_past, "emerge": _emerge,
+    "see-past": _see_past, "emerge": emerge, "lurk": lurk,
     "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Happens,
     Is,
+    Junction,
     Measured,
     Next,
     Not,
@@ -109,7 +110,7 @@ class What:
             if phrase.sem is not None:
                 subject = adopted(subject, phrase) or subject
         found = asked_of(subject, clause.time, clause.tense)
-        return found or Identify(as_thing(subject) or Pronoun("that"))
+        return _person(wh, found or Identify(as_thing(subject) or Pronoun("that")))
 
     def _what_special(self, wh: Wh, clause: Clause, value: Special) -> Question | None:
         name, subject = value.name, value.subject
@@ -208,13 +209,21 @@ class What:
                 found = placed(relation, thing, to)
                 for phrase in clause.complements:  # "who is that behind us on the motorbike"
                     found = cast(Thing, adopted(found, phrase) or found)
-                return Identify(found)
+                return _person(wh, Identify(found))
         doer = _doer(wh, clause, value)
         if doer is not None:
             return doer
         if wh.kind == "what" and (done := deed_asked(clause, value)) is not None:
             return done
         return Which(wanted, value)
+
+
+def _person(wh: Wh, found: Question) -> Question:
+    """Give a question for somebody; who is asked for is no place."""
+    place = found.thing if isinstance(found, Identify) and wh.kind == "who" else None
+    if not isinstance(place, Junction):
+        return found
+    return Which(Wanted(), Related("same-as", Wanted(), place))
 
 
 def _doer(wh: Wh, clause: Clause, value: Proposition) -> Question | None:

@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.lead_in import held_since
 from xavi_dialogue.nlu.grounding.acts.generic import specified
+from xavi_dialogue.nlu.grounding.acts.hiding import out_of
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.kin import like
@@ -54,7 +55,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = _at_junction(completed(spoken, g))
+    spoken = out_of(_at_junction(completed(spoken, g)), g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)

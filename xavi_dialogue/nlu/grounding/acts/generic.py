@@ -177,7 +177,9 @@ def in_order(spoken: Happens, mode: Mode) -> Proposition:
     orders = event.action in ("go", "enter", "cross") and "first" in event.manner
     if mode != "asked" or not orders:
         return spoken
-    if event.modal in ("could", "would", "want", "might"):
+    before = event.actor == Ego() and isinstance(event.object, Vehicle)
+    ours_now = before and event.modal == "could" and event.tense == "present"
+    if event.modal in ("could", "would", "want", "might") and not ours_now:
         return spoken
     if event.object is not None and not isinstance(event.object, Ego | Vehicle):
         return spoken

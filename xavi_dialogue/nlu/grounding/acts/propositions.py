@@ -19,7 +19,6 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
-    Feature,
     Happens,
     Has,
     Is,
@@ -45,6 +44,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.acts.dangers import threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
+from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
@@ -108,7 +108,7 @@ def proposition(
         case Compares():
             return _compares(spoken, g, outer)
         case Exists():
-            return _exists(spoken, g, outer)
+            return _exists(behind_hider(spoken, g), g, outer)
         case Is():
             limited = within_limit(spoken, g)
             if limited is not None:
@@ -118,10 +118,10 @@ def proposition(
         case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
             seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
             return g.proposition(seen, mode, outer)
-        case Related("sees-past", to=Pronoun()):  # whatever it is that hides the road
-            return _related(replace(spoken, to=Feature("blind")), g, outer)
+        case Related() if (there := somebody_behind(spoken, g)) is not None:
+            return g.proposition(there, mode, outer)
         case Related():
-            return _related(come_along(spoken), g, outer)
+            return _related(past_hider(come_along(spoken), g), g, outer)
         case Has():
             window = at_moment(spoken.time, spoken.tense, g, outer)
             return replace(spoken, thing=g.thing(spoken.thing, window), time=window.term)

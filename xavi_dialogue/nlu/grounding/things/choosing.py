@@ -59,6 +59,8 @@ def choose(
         return (last,)
     if wanted.bearing is not None:
         return (_nearest(context, tied, moment, reference),)
+    if all(m.deed is not None for m in tied):  # it is true of each of them
+        return (max(tied, key=lambda m: (m.deed.begin if m.deed else 0.0, -m.vehicle)).vehicle,)
     return _prominent(context, wanted, tied, moment)
 
 

@@ -129,8 +129,13 @@ def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) 
     if good:
         return _resolved(search, good)
     if not thing.definite:
-        return Nobody(described=thing)
+        return Nobody(described=thing if search.reference is None else _seen_by(search))
     return _by_noun(search) or _near_miss(search, found)
+
+
+def _seen_by(search: Search) -> Described:
+    """Give what is said of somebody, with whom it is said in respect of: "behind the lorry"."""
+    return replace(search.described, of=search.reference)
 
 
 def _search(thing: Described, g: Grounder, window: Window, fits: Fits | None) -> Search:

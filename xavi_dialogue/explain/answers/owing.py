@@ -1,0 +1,90 @@
+"""Owing: why we have to let somebody go first, and on what that rule rests."""
+
+from typing import Final, Literal, TypeAlias
+
+from msgspec.structs import replace
+
+from planner.road import RoadFacts
+from planner.trace import ON_FOOT
+from xavi_dialogue.domain.answers import Answer, Priority
+from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition, Vehicle, Vehicles
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import reasons
+from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.moments import Window, is_past, window
+from xavi_dialogue.explain.answers.naming import number, somebodies
+from xavi_dialogue.explain.answers.priority import goes_first, priority_at
+
+Grounds: TypeAlias = Literal["right", "across", "beside", "on-foot", "road"]
+LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
+DUTIES: Final = frozenset(("must", "should"))
+BESIDE: Final = 4.0  # [m] sideways up to which somebody drives along beside us
+SOON: Final = 1.5  # [s] for which a rule that was read off holds
+
+
+def reason(asked: Asked, told: Priority) -> Priority:
+    """Give with a rule that holds now on what it rests, where the record of the road tells it."""
+    road = asked.world.road(asked.now)
+    past = asked.now - told.time > SOON or told.first is not None
+    if road is None or past or told.rule != "give-way" or told.vehicle is None:
+        return told
+    looks = (asked.world.look(v, asked.now) for v in (told.vehicle, *told.others))
+    return replace(told, why=grounds(road, tuple(x for x in looks if x is not None)))
+
+
+def before_us(question: Why, asked: Asked) -> Answer:
+    """Tell the rule by which somebody goes first, and on what it rests.
+
+    Raises:
+        Unanswered: the vehicle is unknown, or the record does not hold the rule.
+    """
+    found = goes_first(question, asked)
+    return reason(asked, found) if isinstance(found, Priority) else found
+
+
+def is_owed(of: Proposition) -> bool:
+    """Tell whether it is said that we have to let somebody who is named go first."""
+    match of:
+        case Happens(event=Event(actor=Ego(), action=action, modal=modal, object=other)):
+            named = isinstance(other, Vehicle | Vehicles)
+            return named and action in LETTING and modal in DUTIES
+    return False
+
+
+def why_owed(question: Why, asked: Asked) -> Answer:
+    """Tell the rule by which we have to let somebody go first; without one, why we wait.
+
+    Raises:
+        Unanswered: a vehicle is unknown, we do not wait, or rollouts are needed.
+    """
+    assert isinstance(question.of, Happens)
+    event = question.of.event
+    others = tuple(n for v in somebodies(asked, event.object, asked.now) if (n := number(v)))
+    past = is_past(asked, event.time, event.tense)
+    about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    told = [priority_at(asked, n, about) for n in others]
+    owed = [one for one in told if one.rule == "give-way"]
+    if not owed:
+        return reasons.why(question, asked)
+    rest = tuple(one.vehicle for one in owed[1:] if one.vehicle is not None)
+    return reason(asked, replace(owed[0], others=rest))
+
+
+def grounds(road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
+    """Tell on what it rests that they go first: they walk, come from the right, or we turn."""
+    if before and all(x.kind in ON_FOOT for x in before):
+        return "on-foot"
+    step = road.route[0] if road.route else None
+    if step is None or not before:
+        return None
+    if step.rule == "equal" and all(x.left < 0.0 and not x.oncoming for x in before):
+        return "right"
+    if step.turn == "exit-left" and step.kind == "junction" and all(x.oncoming for x in before):
+        return "across"
+    if step.turn == "exit-right" and all(-BESIDE < x.left < 0.0 and not x.oncoming for x in before):
+        return "beside"
+    from_sides = all(abs(x.left) > BESIDE and not x.oncoming for x in before)
+    plain = step.rule == "give-way" and step.kind == "junction" and not road.lights
+    return "road" if plain and from_sides else None
