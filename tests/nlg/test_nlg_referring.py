@@ -83,3 +83,13 @@ def test_a_clause_names_its_object_once():
     told = episode_clause(Episode(V, "cut-in", 19.5, 20.0, object=Ego()), NOW)
     words = clause(told, "plain", Speaker(CONTEXT))
     assert words == "the red lorry ahead of us on the left (vehicle 1) is cutting in ahead of us"
+
+
+def test_somebody_on_foot_is_no_it():
+    walks = look(5, NOW, "pedestrian", None, "ahead")
+    context = SpeechContext(now=NOW, looks={(5, NOW): walks, (1, NOW): LORRY})
+    speaker = Speaker(context)
+    assert speaker.refer(Who(Vehicle(5)), "plain") == "the pedestrian ahead of us (vehicle 5)"
+    assert speaker.refer(Who(Vehicle(5)), "object") == "them"
+    assert speaker.refer(Who(Vehicle(5)), "possessive") == "their"
+    assert speaker.refer(Who(Vehicle(5)), "plain") == "the pedestrian"

@@ -7,6 +7,7 @@ where the description would fit another. A description holds of the time that is
 
 from dataclasses import dataclass, field
 
+from planner.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.terms import (
     Described,
@@ -42,6 +43,8 @@ FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the c
             "headlight": "the headlights", "blind": "the blind corner"}  # fmt: skip
 
 
+#: Somebody on foot is no "it"; as a subject, "they" would be several.
+_PERSONAL = {"object": "them", "possessive": "their"}
 MANY = 5  # vehicles that are named one by one
 
 
@@ -74,11 +77,17 @@ class Speaker:
     def _vehicle(self, vehicle: int, who: Who, form: str) -> str:
         alone = self.mentioned == [vehicle] and not self.lit
         if form != "full" and not who.indefinite and alone:
+            if self._on_foot(vehicle, who):
+                return _PERSONAL.get(form) or self._named(vehicle, who)
             return "its" if form == "possessive" else "it"
         return _owned(self._named(vehicle, who), form)
 
-    def _named(self, vehicle: int, who: Who) -> str:
+    def _on_foot(self, vehicle: int, who: Who) -> bool:
         look = self.context.look(vehicle, who.time)
+        return look is not None and look.kind in ON_FOOT and self.context.style != "paper"
+
+    def _named(self, vehicle: int, who: Who) -> str:
+        look = self.context.look(vehicle, who.time) or self.context.look(vehicle)
         label = f"vehicle {vehicle}"
         again = vehicle in self.mentioned
         if not again:
@@ -86,6 +95,9 @@ class Speaker:
         if look is None or self.context.style == "paper":
             return label
         unique = look.alone and look.colour is not None and who.coloured and who.kinded
+        if again and look.kind in ON_FOOT:
+            people = [v for v in self.mentioned if self._on_foot(v, who)]
+            return f"the {_head(look, who)}" + ("" if people == [vehicle] else f" ({label})")
         if again:
             return f"the {_head(look, who)}" if unique else label
         if vehicle in self.context.named and unique and not who.indefinite:
