@@ -63,7 +63,7 @@ class Met:
 
 @dataclass(slots=True, eq=False)
 class Pool:
-    """What has been found out of motions and paths; motions are told apart by their tags."""
+    """Results kept of motions and paths, by the tag of each motion."""
 
     #: By path, width, first and last step, and steps in all.
     met: dict[tuple[Path, float, int, int, int], Met] = field(default_factory=dict)

@@ -24,7 +24,7 @@ from xavi_dialogue.transports.zenoh_bus import host
 ROADS = Path("sim/scenarios/junction/junction.net.xml")
 BEGIN = 10.0  # [s]
 STEP = 0.2  # [s] of the ride, between scenes
-PERIOD = 0.05  # [s]: faster than the page is told
+PERIOD = 0.05  # [s] between scenes, shorter than between updates of the page
 MOMENTS = 200
 SOMEBODY = Phantom(
     ("south_in_1",), 73.9, 88.6, (1.6, -30.0), 1.57, 13.9, 0.0, 14.7, 0.08, 0.3,

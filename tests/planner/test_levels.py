@@ -111,7 +111,7 @@ def test_people_who_walk_over_a_bridge_are_not_waited_for() -> None:
         seen = [body(100.0, -1.55 * math.sin(heading), heading, 1.3, on_foot=True)]
         assert with_walkers(plan_on(Roads(network)), Roads(network), seen, ego)[1] == []
         assert with_walkers(plan_on(drawn([EAST])), drawn([EAST]), seen, ego)[1] != []
-        # Whoever walks on the road beneath a bridge for cars is on the road.
+        # People who walk beneath a bridge for cars are on the road there.
         assert with_walkers(plan_on(drawn([EAST, OVER])), drawn([EAST, OVER]), seen, ego)[1] != []
 
 

@@ -41,7 +41,7 @@ def without(trace: PlanTrace, *vehicles: int, plan: str = "continue") -> PlanTra
 
 
 def told(trace: PlanTrace, *extra: PlanTrace, causation: Causation | None = None) -> object:
-    """What is told of others, where vehicle 1 is the cause of that decision."""
+    """Return the answer about others, where vehicle 1 is the cause of that decision."""
     ride = Ride(Record(NOW + 9.0, (trace, replace(trace, sim_time=NOW + 9.0)), extra=extra))
     contrast = Contrast(
         fact=("continue",), foil=("stop",), outcome=None, effects=(),
