@@ -75,7 +75,9 @@ def form_of(then: Question | None) -> Asking:
             return "could"
         case When(of=Happens(event=Event(action="arrive"))):
             return "arrival"
-        case HowMuch(of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time")):
+        case HowMuch(
+            of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time" | "duration")
+        ):
             return "arrival"
     return "what-if"
 
