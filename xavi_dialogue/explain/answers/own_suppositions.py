@@ -1,6 +1,7 @@
 """Own suppositions: what would have come of it, had we done otherwise."""
 
 from dataclasses import replace
+from typing import TypeGuard
 
 from msgspec import structs
 
@@ -111,6 +112,11 @@ def struck_in(then: Question | None) -> int | None:
     if event is None or event.action not in reacting.COLLIDING:
         return None
     return vehicle_in(event.object) or vehicle_in(event.actor)
+
+
+def stays_ahead(event: Event | None) -> TypeGuard[Event]:
+    """Tell whether somebody is supposed to go on driving ahead of us."""
+    return event is not None and event.action == "continue" and event.object == Ego()
 
 
 def paced(of: Proposition | None) -> Event | None:

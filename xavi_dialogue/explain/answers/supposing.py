@@ -1,7 +1,5 @@
 """Supposing: what would have been if we, or another vehicle, had done otherwise."""
 
-from typing import TypeGuard
-
 from msgspec import structs
 
 from xavi_dialogue.domain.answers import (
@@ -47,6 +45,7 @@ from xavi_dialogue.explain.answers.own_suppositions import (
     is_sooner,
     of_us,
     paced,
+    stays_ahead,
     struck_in,
     undone,
 )
@@ -101,7 +100,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     of, negated = _mistaken(scene, of, negated=negated)
     event = event_of(of)
     vehicle = _whom(scene, of)
-    if form == "arrival" and _stays_ahead(event) and not negated:
+    if form == "arrival" and stays_ahead(event) and not negated:
         of, negated = Exists(event.actor), True  # how much later with it: sooner without it
     if _asks_of_other(question.then):
         if negated and (found := freed(question.then, vehicle, scene)) is not None:
@@ -152,11 +151,6 @@ def _asks_of_other(then: Question | None) -> bool:
     event = event_of(then.that) if isinstance(then, Whether) else None
     other = event is not None and isinstance(event.actor, Vehicle)
     return other and event is not None and event.action not in reacting.COLLIDING
-
-
-def _stays_ahead(event: Event | None) -> TypeGuard[Event]:
-    """Tell whether somebody is supposed to go on driving ahead of us."""
-    return event is not None and event.action == "continue" and event.object == Ego()
 
 
 def _is_free_road(of: Proposition | None, *, negated: bool) -> bool:
@@ -350,9 +344,6 @@ def _asks_now(question: Question | None) -> bool:
 
 
 def _is_now(time: Time, scene: Asked) -> bool:
-    match time:
-        case Now() | Next():
-            return True
-        case At(at):
-            return at >= scene.now - ROUNDING
-    return False
+    return isinstance(time, Now | Next) or (
+        isinstance(time, At) and time.at >= scene.now - ROUNDING
+    )
