@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
     Event,
+    Exists,
     Happens,
     Is,
     Lane,
@@ -117,6 +118,13 @@ def struck_in(then: Question | None) -> int | None:
 def stays_ahead(event: Event | None) -> TypeGuard[Event]:
     """Tell whether somebody is supposed to go on driving ahead of us."""
     return event is not None and event.action == "continue" and event.object == Ego()
+
+
+def kept_ahead(event: Event, form: Asking) -> tuple[Proposition, bool]:
+    """Give what is tried for it, and whether denied: how much later with it is sooner without."""
+    if form == "arrival":
+        return Exists(event.actor), True
+    return Happens(structs.replace(event, object=None)), False
 
 
 def paced(of: Proposition | None) -> Event | None:

@@ -43,6 +43,7 @@ from xavi_dialogue.explain.answers.own_suppositions import (
     claimed_in,
     form_of,
     is_sooner,
+    kept_ahead,
     of_us,
     paced,
     stays_ahead,
@@ -100,8 +101,8 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     of, negated = _mistaken(scene, of, negated=negated)
     event = event_of(of)
     vehicle = _whom(scene, of)
-    if form == "arrival" and stays_ahead(event) and not negated:
-        of, negated = Exists(event.actor), True  # how much later with it: sooner without it
+    if stays_ahead(event) and not negated:
+        of, negated = kept_ahead(event, form)
     if _asks_of_other(question.then):
         if negated and (found := freed(question.then, vehicle, scene)) is not None:
             return found
