@@ -72,7 +72,7 @@ class Frames:
                 return question  # "why did you brake if nobody was there": it is taken for granted
         if isinstance(question, HowSure) and clause.contrast is not None:
             return question
-        supposed = self.supposition(clause)
+        supposed = None if _if_needed(clause.condition) else self.supposition(clause)
         if supposed is None:
             return question
         return WhatIf(supposed, None if _of_difference(question) else question)
@@ -224,6 +224,13 @@ def is_short(condition: Clause) -> bool:
         and not (condition.objects or condition.complements or condition.adjectives
                  or condition.bearings or condition.side or condition.comparisons)
     )  # fmt: skip
+
+
+def _if_needed(condition: Clause | None) -> bool:
+    """Say whether only a need is supposed: "could you stop if you had to?"."""
+    if condition is None or condition.negated or not is_short(condition):
+        return False
+    return condition.modal == "must" or "semi-must" in condition.aux
 
 
 def before(of: Proposition) -> Proposition:
