@@ -58,6 +58,7 @@ def slowing(asked: Asked) -> tuple[Episode, ...]:
         return ()
     speed = world.measure("speed", Ego(), asked.now).value
     begin, low = max(coming.moment, asked.now), slowest_ahead(asked)
+    speed = None if low is None else speed
     return (Episode(Ego(), "slow-down", begin, speed_from=speed, speed_to=low),)
 
 
