@@ -172,6 +172,8 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     check_able(event)
     if event.action in ("collide", "nearly-collide"):
         return deciding.how_avoid(HowAvoid(Happens(event)), scene)  # nobody decides to collide
+    if (lane := motions.along_lane(event, scene)) is not None:
+        return lane
     event = going.sideways(event, scene)
     instead = None if question is None else question.instead
     if event.action in GOING | {"continue"}:

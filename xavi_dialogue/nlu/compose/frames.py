@@ -40,6 +40,7 @@ from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import (
     NONE_OF_THEM,
     Group,
+    Measure,
     Sem,
     alternative,
     as_thing,
@@ -106,7 +107,7 @@ class Frames:
         found = found if found is None else _of_none(at_pace(condition, found))
         if found is None:
             thing = as_thing(condition.subject)
-            if thing is None:
+            if thing is None or isinstance(condition.subject, Event | Measure):
                 return None
             plain = Happens(Event("do", thing, Pronoun("that"), tense="past"))
             return Not(plain) if condition.negated else plain
