@@ -60,7 +60,9 @@ def follow_on(
         begun = max(seen - network.lanes[lanes[-1]].length, 0.0)
     opened: float | None = None  # [m] from here at which another lane opens
     halt: Refusal | None = None
-    while seen < FAR and not (goal and network.lanes[lanes[-1]].edge == goal.edge):
+    while not (goal and network.lanes[lanes[-1]].edge == goal.edge):
+        if seen - _room_to_choose(roads, lanes[-1], goal, view) >= FAR:
+            break
         link = straight_on(roads, lanes[-1], goal)
         if isinstance(link, Refusal):
             halt = link if _leads_on(roads, lanes[-1]) else None
