@@ -46,7 +46,8 @@ def follow_on(
     """Go straight on: up to the goal, or else past the next junction to the next decision.
 
     A decision is due before a junction where one has to give way, or cannot go straight on, or
-    where the way to the goal turns off; and before a lane ends.
+    where the way to the goal turns off; before a lane ends; and where another lane opens that
+    leads to the goal, as at an exit of a motorway.
     """
     network, lane = roads.network, here.location.lane
     refused = _refused_inside(roads, lane)
@@ -57,6 +58,7 @@ def follow_on(
     begun: float | None = None  # [m] from here at which the road beyond a junction begins
     if _crossing(roads, lane):
         begun = max(seen - network.lanes[lanes[-1]].length, 0.0)
+    opened: float | None = None  # [m] from here at which another lane opens
     halt: Refusal | None = None
     while seen < FAR and not (goal and network.lanes[lanes[-1]].edge == goal.edge):
         link = straight_on(roads, lanes[-1], goal)
@@ -64,14 +66,18 @@ def follow_on(
             halt = link if _leads_on(roads, lanes[-1]) else None
             break
         joint = lane_end(roads, lanes[-1]).joint == link
-        if not joint and (begun is not None or seen >= view) and _off(roads, link, goal):
-            halt = Refusal("")
-            break
+        if not joint and _off(roads, link, goal):
+            begun = opened if begun is None else begun
+            if begun is not None or seen >= view:
+                halt = Refusal("")
+                break
         lanes += [*link.via, link.to_lane]
         seen += sum(network.lanes[name].length for name in lanes[-1 - len(link.via) :])
-        begun = begun if joint else seen - network.lanes[link.to_lane].length
+        beyond = seen - network.lanes[link.to_lane].length
+        begun = begun if joint else beyond
+        opened = beyond if joint and _widens(roads, link) else opened
     end = min(seen, FAR)
-    room = _room_to_choose(roads, lanes[-1], view)
+    room = _room_to_choose(roads, lanes[-1], goal, view)
     if halt is not None and begun is not None:
         end = max(seen - room, min(begun + CLEAR, 0.5 * (begun + seen)))
     elif halt is not None and seen >= max(view, room + MARGIN):
@@ -86,10 +92,14 @@ def follow_on(
     return finish(roads, "continue", way.path, (LaneFollow(0.0, end), *waits), end, math.inf, goal)
 
 
-def _room_to_choose(roads: Roads, lane: str, view: float) -> float:
-    """How far [m] before the end of a lane to choose; where it merges, there must be room to."""
-    ends = lane_end(roads, lane).merges
-    change = MERGING_TIME * roads.network.lanes[lane].speed_limit if ends else 0.0
+def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) -> float:
+    """Give how far [m] before the end of a lane to choose.
+
+    Where the lane merges, or another lane leads to the goal, there must be room to change.
+    """
+    end = lane_end(roads, lane)
+    changes = end.merges or all(_off(roads, lead.link, goal) for lead in end.leads)
+    change = MERGING_TIME * roads.network.lanes[lane].speed_limit if changes else 0.0
     return max(view / 2.0, change)
 
 
@@ -132,6 +142,13 @@ def _crossing(roads: Roads, lane: str) -> Link | None:
     """The link by which one is just crossing a junction."""
     link = roads.network.link_via(lane)
     return None if link is None or lane_end(roads, link.from_lane).joint == link else link
+
+
+def _widens(roads: Roads, link: Link) -> bool:
+    """Tell whether the road has more lanes beyond a link than before it."""
+    network = roads.network
+    before, beyond = (network.lanes[name].edge for name in (link.from_lane, link.to_lane))
+    return len(network.edge_lanes(beyond)) > len(network.edge_lanes(before))
 
 
 def _leads_on(roads: Roads, lane: str) -> bool:

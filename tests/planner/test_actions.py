@@ -440,6 +440,36 @@ def bend(radius: float, along: float, aside: float) -> tuple[float, float]:
     return (radius - aside) * math.sin(angle), radius - (radius - aside) * math.cos(angle)
 
 
+def exit_lane(long: float) -> Roads:
+    """A road at 100 km/h on which a lane opens to the right that alone leads off it."""
+    fast = 27.78
+    lanes = [
+        lane("road_0", ((0.0, 0.0), (200.0, 0.0)), fast),
+        lane("wide_1", ((200.0, 0.0), (200.0 + long, 0.0)), fast),
+        lane("wide_0", ((200.0, -3.5), (200.0 + long, -3.5)), fast),
+        lane("on_0", ((200.0 + long, 0.0), (600.0 + long, 0.0)), fast),
+        lane("off_0", ((200.0 + long, -3.5), (400.0 + long, -60.0)), fast),
+    ]
+    links = [link_to("road_0", "wide_1"), link_to("wide_1", "on_0")]
+    links.append(link_to("wide_0", "off_0", index=1))
+    return drawn(lanes, links)
+
+
+@pytest.mark.parametrize("long", [60.0, 165.0, 400.0])
+@pytest.mark.parametrize("offset", [0.0, 120.0, 190.0])
+def test_who_leaves_by_a_lane_that_opens_keeps_room_to_change_to_it(
+    offset: float, long: float
+) -> None:
+    roads = exit_lane(long)
+    here = on_lane(roads, "road_0", offset, 25.0)
+    plan = expand(roads, here, "continue", EgoGoal("off", 50.0, None), VIEW)
+
+    assert isinstance(plan, ActionPlan)
+    name, begin = plan.path.lane_at(plan.end)
+    assert name == "wide_1"
+    assert begin + long - plan.end >= min(0.5 * long, 110.0)
+
+
 def test_at_the_very_end_of_the_road_one_can_still_continue_and_stop() -> None:
     roads = drawn([lane("in_0", [(0.0, 0.0), (50.0, 0.0)])])
     for offset in (45.0, 49.9, 50.0):

@@ -199,6 +199,7 @@ class Priority(Value, frozen=True):
     holds: bool | None = None  # the reply to the yes or no question, or claim, that it answers
     claim: bool = False  # it answers a claim
     ring: bool = False  # at a roundabout, asked of nobody in particular
+    light: bool = False  # a red light holds us at that junction, asked of nobody in particular
     grounds: bool = False  # asked how we know it
     after: tuple[int, ...] = ()  # who has to let us go first, where others go before us
     #: On what it rests that they go first: they come from the right, or we turn across their way;

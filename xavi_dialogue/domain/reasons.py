@@ -55,6 +55,7 @@ class MotionCause(Value, frozen=True):
         "no-room",  # somebody is in the way of leaving the lane
         "turn",  # a turn to be taken at this speed
         "bend",  # likewise a bend of the road
+        "lane",  # our lane, which runs that way
         "roundabout",  # likewise a roundabout
         "limit",  # the speed limit
         "give-way-line",  # a line at which one must be ready to stop

@@ -4,7 +4,7 @@ import pytest
 
 from tests.explain.answers.given import NOW, Given, look, their
 from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
-from xavi_dialogue.explain.answers.nearing import ASIDE_IN, SINCE, closes, moves_over
+from xavi_dialogue.explain.answers.nearing import ASIDE_IN, SINCE, closes, moves_over, past_leader
 
 NEARS = Event("approach", Ego(), Vehicle(1), time=Now(), tense="present")
 
@@ -40,3 +40,21 @@ def test_who_indicates_and_drives_to_that_side_moves_over(
     given = Given(looks={1: seen}, deeds=[their(1, "signal", NOW - 2.0, side=side)])
     found = moves_over(given.asked(), Event(action, Vehicle(1), tense="present"))  # type: ignore[arg-type]
     assert (None if found is None else found.holds) is holds
+
+
+@pytest.mark.parametrize(
+    ("where", "action"),
+    [
+        ({}, "overtake"),
+        ({"left": 3.2}, "pass"),  # in another lane
+        ({"speed": 0.0}, "pass"),  # it stands
+        ({"ahead": -15.0, "bearing": "behind"}, "pass"),
+        ({"oncoming": True}, "pass"),
+        ({"in_view": False}, "pass"),
+    ],
+)
+def test_going_past_who_drives_ahead_in_our_lane_is_overtaking(
+    where: dict[str, object], action: str
+) -> None:
+    asked = Given(looks={1: look(1, **where)}).asked()
+    assert past_leader(asked, Event("pass", Ego(), Vehicle(1))).action == action

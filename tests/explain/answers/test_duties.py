@@ -23,7 +23,9 @@ def test_who_has_to_wait_is_told_by_the_rule(ride: Ride) -> None:
     found = told(ride, Whether(Happens(MUST)))
     assert isinstance(found, Priority)
     assert (found.rule, found.holds) == ("give-way", True)
-    assert said(ride, Whether(Happens(MUST))).startswith("Yes, I have to give way")
+    assert said(ride, Whether(Happens(MUST))).startswith(
+        "Yes, cars on the roundabout go first, so I have to give way"
+    )
 
 
 def test_yes_affirms_the_fact_however_it_is_asked(ride: Ride) -> None:
@@ -47,7 +49,9 @@ def test_a_wrong_claim_of_right_of_way_is_put_right(ride: Ride) -> None:
     found = told(ride, claim)
     assert isinstance(found, Priority)
     assert found.claim
-    assert said(ride, claim).startswith("Actually, I have to give way")
+    assert said(ride, claim).startswith(
+        "Actually, cars on the roundabout go first, so I have to give way"
+    )
 
 
 def test_a_thing_is_not_denied_twice(ride: Ride) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import PriorityFact, RoadFacts
+from planner.road import LightAhead, PriorityFact, RoadFacts
 from tests.explain.answers.given import NOW, Given, deed, look, place, plan, refused, step, their
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotRecorded, Priority
 from xavi_dialogue.domain.discourse import Span
@@ -285,3 +285,22 @@ def test_going_first_is_asked_of_the_time_of_the_event() -> None:
         assert priority.goes_first(why, past).time == 10.0  # type: ignore[union-attr]
     anybody = Why(Happens(replace(now, actor=Wanted())))
     assert priority.goes_first(anybody, given.asked()).vehicle == 1  # type: ignore[union-attr]
+
+
+def test_who_is_on_a_ring_goes_first_though_somebody_is_ahead_of_him_there() -> None:
+    facts = (PriorityFact(1, "vehicle"),)
+    ring = RoadFacts({0: place(roundabout=True)}, (step(rule="priority", kind="roundabout"),),
+                     priority=facts)  # fmt: skip
+    told = right(None, traces=decided((NOW, ring)), road=ring)
+    assert (told.rule, told.vehicle, told.ring) == ("priority", None, True)
+
+
+@pytest.mark.parametrize(
+    ("state", "distance", "holds"), [("r", 60.0, True), ("G", 60.0, False), ("r", 90.0, False)]
+)
+def test_a_red_light_at_the_next_junction_holds_us(
+    state: str, distance: float, holds: bool
+) -> None:
+    light = LightAhead(distance, "lights", 0, state, 0.0, False)
+    here = RoadFacts({0: place()}, (step(),), lights=(light,))
+    assert right(None, traces=decided((NOW, here)), road=here).light is holds

@@ -10,6 +10,7 @@ from xavi_dialogue.explain.history import thresholds
 from xavi_dialogue.explain.history.motion import (
     Motion,
     Sighting,
+    bends,
 )
 
 PERIOD = 0.2  # [s]
@@ -284,3 +285,25 @@ def test_neither_a_bend_nor_a_swing_is_a_change_of_lanes() -> None:
     steep = along((20, 0), (4, 40), (4, -40), (20, 0))
     assert steep.times("overtake") == ()
     assert along((4, 0)).sightings() == ()
+
+
+# --- bearing to a side ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("heading", "found"),
+    [
+        ((0.0, 0.0, 0.05, 0.12, 0.12), [(1, 3, 0.12)]),
+        ((0.0, 0.0, -0.05, -0.12, 0.0), [(1, 3, -0.12), (3, 4, 0.12)]),  # and back again
+        ((0.0, 0.03, 0.06, 0.09, 0.09), []),  # too little to be felt
+        ((0.0, 0.06, 0.03, 0.09, 0.06), []),  # it wavers
+        ((0.0,), []),
+    ],
+)
+def test_bearing_to_a_side_is_a_lasting_change_of_heading(
+    heading: tuple[float, ...], found: list[tuple[int, int, float]]
+) -> None:
+    motion = driving(*(10.0 for _ in heading), heading=heading)
+    seen = sorted((round(s.start / PERIOD), round(s.end / PERIOD), s.angle) for s in bends(motion))
+    assert [(a, b) for a, b, _ in seen] == [(a, b) for a, b, _ in found]
+    assert [c for *_, c in seen] == pytest.approx([c for *_, c in found])

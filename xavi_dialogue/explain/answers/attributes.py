@@ -131,6 +131,8 @@ def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
         return None
     at = of.time if isinstance(of.time, At) else event.time
     meant = replace(event, time=at, tense="past")
+    if event.modal == "would":
+        return meant  # "would stopping have cost us time?"
     return meant if occasion(asked, replace(meant, time=event.time)) is None else None
 
 

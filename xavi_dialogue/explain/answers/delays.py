@@ -4,7 +4,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Happenings
 from xavi_dialogue.domain.facts import Episode, Look
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.moments import Window, window
@@ -19,11 +19,18 @@ SLOWER = 1.0  # [m/s] by which somebody is slower than us for whom we slow down
 NEAR = 50.0  # [m] ahead up to which he is
 
 
-def held_up(asked: Asked, about: Window) -> Happenings:
-    """List who held us up in a stretch of the ride: whom we let go first, or trailed behind."""
+def held_up(asked: Asked, about: Window, *, lights: bool = False) -> Happenings:
+    """List who held us up in a stretch of the ride: whom we let go first, or trailed behind.
+
+    Args:
+        asked: the setting.
+        about: the stretch.
+        lights: list the traffic lights that we waited for as well.
+    """
     found = [
         e for e in asked.world.episodes(actor=Ego(), begin=about.begin, end=about.end)
-        if number(e.object) is not None and overlaps(asked, e, about)
+        if (number(e.object) is not None or (lights and isinstance(e.object, Feature)))
+        and overlaps(asked, e, about)
         and (e.action in YIELDS or (e.action == "follow" and _trails(asked, e)))
     ]  # fmt: skip
     kept: list[Episode] = []

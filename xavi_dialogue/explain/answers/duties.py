@@ -34,6 +34,7 @@ from xavi_dialogue.explain.answers.lights_turn import held
 from xavi_dialogue.explain.answers.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.naming import is_us, number
 from xavi_dialogue.explain.answers.occasions import occasion
+from xavi_dialogue.explain.answers.precedence import on_ring
 from xavi_dialogue.explain.answers.priority import (
     fault,
     owed,
@@ -220,6 +221,8 @@ def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bo
     """Tell to whom of several we have to yield, or who of them has to yield to us."""
     rules = {v: priority_at(asked, v, about).rule for v in among}
     wanted = "give-way" if ours else "priority"
+    if about.end >= asked.now - 0.1 and on_ring(asked.world.road(asked.now)):
+        return owed(priority_at(asked, None, Window(asked.now, asked.now)), ours_yield=ours)
     those = tuple(v for v in among if rules[v] == wanted)
     if not ours:  # of people who go first, it is told that they do
         those = those or tuple(v for v in among if rules[v] == "give-way")
@@ -327,7 +330,7 @@ def _to_all(
 ) -> Priority | None:
     """Tell to whom we have to yield now, or who all has to yield to us; None where nobody has."""
     road = asked.world.road(asked.now)
-    if road is None or is_us(yielder) == is_us(other):
+    if road is None or is_us(yielder) == is_us(other) or on_ring(road):
         return None
     near = {fact.vehicle for fact in road.priority}
     among = tuple(v for v in asked.world.in_view(asked.now) if v in near)

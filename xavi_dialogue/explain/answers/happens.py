@@ -31,7 +31,7 @@ from xavi_dialogue.explain.answers.foreseen import (
 from xavi_dialogue.explain.answers.leaving import apart, left_behind, still_there
 from xavi_dialogue.explain.answers.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.naming import first_look, is_us, look_of, number, somebodies
-from xavi_dialogue.explain.answers.nearing import closes, nears, settled, trails
+from xavi_dialogue.explain.answers.nearing import closes, nears, past_leader, settled, trails
 from xavi_dialogue.explain.answers.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.picking import likeliest
 from xavi_dialogue.explain.answers.places import to_go, told
@@ -74,7 +74,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
         return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
     if ahead or _intended(asked, event):
-        return _to_come(asked, event)
+        return _to_come(asked, past_leader(asked, event))
     return _has_been(asked, event)
 
 

@@ -5,9 +5,11 @@ from msgspec import structs
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Answer,
+    ChoiceReason,
     DidNotHappen,
     MotionCause,
     MotionReason,
+    SupposedOfUs,
     Unslowed,
 )
 from xavi_dialogue.domain.facts import Episode
@@ -50,6 +52,8 @@ def hastened(
     causes: tuple[MotionCause, ...] = ()
     if deed is None:
         found = _cause(event, scene)
+        if isinstance(found, ChoiceReason) and form != "what-if":
+            return SupposedOfUs(found.contrast, past=found.past, form=form)
         if not isinstance(found, MotionReason):
             return found if found is not None else motions.slow(scene)
         deed, causes = found.deed, found.causes

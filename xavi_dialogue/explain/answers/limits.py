@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+from msgspec import structs
+
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Is, Thing
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -9,7 +11,7 @@ from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import EXPECTED, Finding, known, unknown
 from xavi_dialogue.explain.answers.moments import SHORT, instant
 from xavi_dialogue.explain.answers.naming import is_us, somebodies
-from xavi_dialogue.explain.answers.plans import foreseen
+from xavi_dialogue.explain.answers.plans import foreseen, slowest_ahead
 
 OVER = 0.5  # [m/s] above the limit that is no more than rounding
 SOON = 5.0  # [s] within which we are about to slow down
@@ -35,7 +37,7 @@ def fast(of: Is, asked: Asked) -> Finding:
     if of.state == "fast":
         found = within_limit(asked, _whose(of), at, allowed=False)
         ours = is_us(_whose(of)) and asked.now - at < SHORT
-        return replace(found, facts=(*found.facts, *_slowing(asked))) if ours else found
+        return replace(found, facts=(*found.facts, *slowing(asked))) if ours else found
     found = within_limit(asked, _whose(of), at, allowed=True)
     speed = next((f for f in found.facts if isinstance(f, Measure)), None)
     if speed is None or speed.value is None or speed.reference is None:
@@ -43,16 +45,21 @@ def fast(of: Is, asked: Asked) -> Finding:
     return Finding(speed.value < SLOW * speed.reference, found.facts)
 
 
-def _slowing(asked: Asked) -> tuple[Episode, ...]:
-    """Give our braking that is under way, or about to begin."""
+def slowing(asked: Asked) -> tuple[Episode, ...]:
+    """Give our braking that is under way, or about to begin, with the speed it leads to."""
     world = asked.world
     found = world.episodes(actor=Ego(), actions=SLOWING)
     if going := [e for e in found if e.end is None]:
-        return (going[-1],)
+        low = slowest_ahead(asked)
+        slower = low is not None and low < (going[-1].speed_to or 0.0)
+        return (structs.replace(going[-1], speed_to=low) if slower else going[-1],)
     coming = foreseen(asked, Event("slow-down"))
     if coming is None or coming.share < EXPECTED or coming.moment > asked.now + SOON:
         return ()
-    return (Episode(Ego(), "slow-down", max(coming.moment, asked.now)),)
+    speed = world.measure("speed", Ego(), asked.now).value
+    begin, low = max(coming.moment, asked.now), slowest_ahead(asked)
+    speed = None if low is None else speed
+    return (Episode(Ego(), "slow-down", begin, speed_from=speed, speed_to=low),)
 
 
 def _whose(of: Is) -> Thing:

@@ -73,6 +73,18 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     raise _denied(scene, event, rows)
 
 
+def along_lane(event: Event, scene: Asked) -> MotionReason | None:
+    """Tell that our lane runs to a side, where it is asked why we bore to it; None of others."""
+    if event.action != "swerve":
+        return None
+    made = scene.world.episodes(Ego(), ("swerve", "change-left", "change-right"))
+    meant = [e for e in made if event.side in (None, e.side)]
+    deed = scene.pick(sorted(meant, key=lambda e: e.begin), lambda e: (e.begin, e.end))
+    if deed is None or deed.action != "swerve":
+        return None
+    return MotionReason(deed, (MotionCause("lane"),), asked="swerve", past=is_past(scene, event))
+
+
 def is_our_speed(of: Compares) -> bool:
     """Tell whether our own speed is compared."""
     right = isinstance(of.right, Measured) and is_own(of.right.thing)

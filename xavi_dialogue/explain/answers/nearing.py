@@ -36,6 +36,16 @@ def nears(asked: Asked, event: Event) -> Finding | None:
     return None if ours is None else Finding(ours > look.speed, speeds)
 
 
+def past_leader(asked: Asked, event: Event) -> Event:
+    """Take going past somebody who drives ahead in our lane for overtaking: it has to leave it."""
+    look = look_of(asked, event.object, asked.now) if event.object is not None else None
+    if event.action != "pass" or not is_us(event.actor) or look is None or not look.in_view:
+        return event
+    ahead = look.ahead > 0.0 and abs(look.left) < BESIDE and not look.oncoming
+    moving = look.bearing.startswith("ahead") and look.speed > 0.0
+    return replace(event, action="overtake") if ahead and moving else event
+
+
 def settled(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
     """Tell what is to come by how both drive now, or by who comes first; None of all else."""
     return (

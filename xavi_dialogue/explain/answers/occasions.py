@@ -61,15 +61,17 @@ def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
         found = _held(asked, replace(event, action=action))
         if found:
             return tuple(sorted(found, key=lambda e: (e.begin, _end(asked, e))))
-    return _while_crossing(asked, event)
+    return _while_let_go(asked, event)
 
 
-def _while_crossing(asked: Asked, event: Event) -> tuple[Episode, ...]:
-    """Find our slowing for others that were crossing our way meanwhile."""
+def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:
+    """Find our slowing for others that were crossing our way meanwhile, or that we let go first."""
     if event.action not in SLOWED or not is_us(event.actor) or event.object is None:
         return ()
     others = [v for v in _each(asked, event.object) if isinstance(v, Vehicle)]
     crossed = [e for v in others for e in asked.world.episodes(v, ("cross",), object=Ego())]
+    for other in others:
+        crossed += asked.world.episodes(Ego(), ("give-way", "wait"), object=other)
     ours = _held(asked, replace(event, object=None)) if crossed else []
     return tuple(
         e for e in ours

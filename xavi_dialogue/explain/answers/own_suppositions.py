@@ -1,6 +1,7 @@
 """Own suppositions: what would have come of it, had we done otherwise."""
 
 from dataclasses import replace
+from typing import TypeGuard
 
 from msgspec import structs
 
@@ -19,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
     Event,
+    Exists,
     Happens,
     Is,
     Lane,
@@ -75,7 +77,9 @@ def form_of(then: Question | None) -> Asking:
             return "could"
         case When(of=Happens(event=Event(action="arrive"))):
             return "arrival"
-        case HowMuch(of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time")):
+        case HowMuch(
+            of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time" | "duration")
+        ):
             return "arrival"
     return "what-if"
 
@@ -109,6 +113,18 @@ def struck_in(then: Question | None) -> int | None:
     if event is None or event.action not in reacting.COLLIDING:
         return None
     return vehicle_in(event.object) or vehicle_in(event.actor)
+
+
+def stays_ahead(event: Event | None) -> TypeGuard[Event]:
+    """Tell whether somebody is supposed to go on driving ahead of us."""
+    return event is not None and event.action == "continue" and event.object == Ego()
+
+
+def kept_ahead(event: Event, form: Asking) -> tuple[Proposition, bool]:
+    """Give what is tried for it, and whether denied: how much later with it is sooner without."""
+    if form == "arrival":
+        return Exists(event.actor), True
+    return Happens(structs.replace(event, object=None)), False
 
 
 def paced(of: Proposition | None) -> Event | None:

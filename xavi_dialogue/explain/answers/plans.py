@@ -1,8 +1,12 @@
 """Plans: what the ego is going to do, when, and how long that takes, read off its rollouts."""
 
+import math
 from collections.abc import Callable
 
+import numpy as np
+
 from planner.trace import Action, PlanTrace, Rollout
+from xavi_dialogue.causal.effects import quantile
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.answers import PlanAhead
 from xavi_dialogue.domain.facts import Measure
@@ -20,6 +24,7 @@ MOVES: frozenset[Action] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight")
 )
 AHEAD: tuple[Attribute, ...] = ("turn", "exit-number", "distance", "time-to-go")
+REGAINED = 0.5  # [m/s] by which one is faster again after slowing down
 Mark = Callable[[Rollout, Motion], float | None]
 
 
@@ -85,6 +90,32 @@ def horizon(asked: Asked) -> float | None:
     if known is None:
         return None
     return max((m.time[-1] for m in lines(known[0]).values() if m.time), default=None)
+
+
+def slowest_ahead(asked: Asked) -> float | None:
+    """Tell to what speed [m/s] the ego slows down next under its plan; None: it is not known."""
+    known = current_plan(asked)
+    if known is None:
+        return None
+    drawn = lines(known[0])
+    found, weights = [], []
+    for result, weight in zip(known[1].results, known[1].weights, strict=True):
+        motion = drawn.get(result.rollout.index)
+        if motion is not None and weight > 0.0 and motion.speed:
+            found.append(_first_low(motion, asked.now))
+            weights.append(weight)
+    return quantile(np.array(found), np.array(weights), 0.5) if found else None
+
+
+def _first_low(motion: Motion, now: float) -> float:
+    """Give the speed [m/s] down to which a line slows before it picks up speed again."""
+    inside = motion.within(now, math.inf)
+    low = motion.speed[inside[0] if inside else -1]
+    for k in inside:
+        if motion.speed[k] > low + REGAINED and low < motion.speed[inside[0]] - REGAINED:
+            break
+        low = min(low, motion.speed[k])
+    return low
 
 
 def _read(asked: Asked, mark: Mark) -> Expected | None:

@@ -1,12 +1,13 @@
-"""Precedence: who comes first to where our way meets that of another vehicle, as is foreseen."""
+"""Precedence: who comes first where ways meet, as foreseen; on a ring, at a red light."""
 
 import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final, Literal, TypeAlias
 
+from planner.road import RoadFacts
 from planner.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
-from sim.scene import Point
+from sim.scene import EGO, Point
 from xavi_dialogue.explain.causes.course import lines
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import planned
@@ -16,6 +17,7 @@ MOVING: Final = 0.5  # [m/s] from which a vehicle drives along its line
 TURNED: Final = math.radians(35.0)  # up to which a direction counts as the same
 BESIDE: Final = 9.0  # [m] sideways up to which somebody is on our road
 SHORTLY: Final = 4.0  # [s] before us within which somebody passes in front of us
+SAME_PLACE: Final = 3.0  # [m] by which a junction and its light differ in distance
 AHEAD: Final = 15.0  # [m] of our way that tell how our road runs
 
 First: TypeAlias = Literal["we", "they", "nobody"]
@@ -95,3 +97,23 @@ def _direction(points: Sequence[Point]) -> float | None:
         return None
     (ax, ay), (bx, by) = points[0], points[-1]
     return math.atan2(by - ay, bx - ax)
+
+
+def at_ring(road: RoadFacts | None) -> bool:
+    """Tell whether the next junction is that of a roundabout, or we are on one."""
+    coming = road is not None and bool(road.route) and road.route[0].kind == "roundabout"
+    return coming or on_ring(road)
+
+
+def on_ring(road: RoadFacts | None) -> bool:
+    """Tell whether we are on a roundabout, where those who come to it have to wait."""
+    place = None if road is None else road.places.get(EGO)
+    return place is not None and place.roundabout
+
+
+def red_ahead(road: RoadFacts | None) -> bool:
+    """Tell whether the next junction on our way has a light, and that is red for us."""
+    if road is None or not road.lights or not road.route:
+        return False
+    next_one = abs(road.lights[0].distance - road.route[0].distance) < SAME_PLACE
+    return next_one and road.lights[0].state in "rR"

@@ -30,6 +30,7 @@ from xavi_dialogue.explain.answers.findings import Finding
 from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.naming import known, number, somebodies
 from xavi_dialogue.explain.answers.occasions import PLAIN, occasion, overlaps
+from xavi_dialogue.explain.answers.precedence import at_ring, on_ring, red_ahead
 from xavi_dialogue.explain.facts.waiting import top_holders
 from xavi_dialogue.explain.history.ride import planned
 
@@ -114,13 +115,14 @@ def priority_at(
     if vehicle is not None:
         known(asked, Vehicle(vehicle), about.end)
     present = about.instant and about.end >= asked.now - 0.1
-    if vehicle is None:
+    ringed = general and present and on_ring(asked.world.road(asked.now))
+    if vehicle is None and not ringed:
         vehicle = crossing_now(asked) if present else met_about(asked, about)
     met = None if vehicle is None else rule_between(asked, vehicle, about)
     time = _rule_time(asked, about) if met is None else met[0]
     near = Window(time - NEAR, max(about.end, time) + NEAR)
     waited = _waited(asked, vehicle, near)
-    if general and present and waited is not None and waited.end is not None:
+    if general and present and (ringed or (waited is not None and waited.end is not None)):
         waited = None  # it is asked of now
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
@@ -138,7 +140,8 @@ def priority_at(
         conflict=_conflict(asked, vehicle, near) if blame else None,
         deeds=_deeds(asked, vehicle, about) if blame else (),
         stood=vehicle is not None and _let_by(asked, vehicle, first, near, about),
-        ring=general and _at_ring(asked.world.road(time)),
+        ring=general and at_ring(asked.world.road(time)),
+        light=general and present and red_ahead(asked.world.road(time)),
     )  # fmt: skip
 
 
@@ -151,15 +154,6 @@ def _let_by(
         ours = asked.world.measure("speed", Ego(), asked.now).value
         return theirs is not None and theirs < STILL and ours is not None and ours > GOING
     return isinstance(first, Ego) and stood(asked, vehicle, near)
-
-
-def _at_ring(road: RoadFacts | None) -> bool:
-    """Tell whether the next junction is that of a roundabout, or we are on one."""
-    if road is None:
-        return False
-    place = road.places.get(EGO)
-    on = place is not None and place.roundabout
-    return on or (bool(road.route) and road.route[0].kind == "roundabout")
 
 
 def goes_first(question: Question, asked: Asked) -> Answer:

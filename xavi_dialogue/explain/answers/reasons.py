@@ -25,8 +25,10 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Junction,
+    Measured,
     Proposition,
     Related,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
 from xavi_dialogue.explain.answers import (
@@ -42,7 +44,8 @@ from xavi_dialogue.explain.answers import (
     standings,
 )
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.moments import Window
+from xavi_dialogue.explain.answers.delays import held_up
+from xavi_dialogue.explain.answers.moments import Window, window
 from xavi_dialogue.explain.answers.priority import priority_at
 from xavi_dialogue.explain.answers.reading import (
     check_able,
@@ -124,6 +127,8 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
             ahead = of.comparator == "more" and is_own(left.thing)
             behind = of.comparator == "less" and not is_own(left.thing)
             return motions.fast(scene) if ahead or behind else motions.slow(scene)
+        case Compares(left=Measured(attribute="duration", time=WholeRide() as whole)):
+            return held_up(scene, window(scene, whole, "past"), lights=True)
         case Compares(left=left) if left.attribute in LASTING and vehicle_in(left.thing) is None:
             return motions.motion(Event("wait", tense=left.tense, time=left.time), scene)
         case Compares(left=left) if left.attribute in ("gap", "headway", "distance"):
@@ -167,6 +172,8 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     check_able(event)
     if event.action in ("collide", "nearly-collide"):
         return deciding.how_avoid(HowAvoid(Happens(event)), scene)  # nobody decides to collide
+    if (lane := motions.along_lane(event, scene)) is not None:
+        return lane
     event = going.sideways(event, scene)
     instead = None if question is None else question.instead
     if event.action in GOING | {"continue"}:
@@ -177,6 +184,9 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         if manner_of(event, "fast") is not None:
             return motions.fast(scene)
     other = event_of(instead)
+    if other is not None and event.action in CHANGING and other.action in KEEPING:
+        instead = Happens(Event("keep-lane"))  # "rather than slow down behind him"
+        other = event_of(instead)
     if other is not None and choices.is_kept_from(other, event, KEEPING):
         return choices.why_not(structs.replace(other, tense=event.tense), scene)
     if event.action == "signal":

@@ -18,9 +18,10 @@ from xavi_dialogue.explain.answers import motions, refraining
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.findings import known
-from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, YIELDS, macros, sided
+from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, TURNING, YIELDS, macros, sided
 from xavi_dialogue.explain.answers.happenings import activity
 from xavi_dialogue.explain.answers.naming import number
+from xavi_dialogue.explain.answers.nearing import past_leader
 from xavi_dialogue.explain.answers.occasions import occasion
 from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
 from xavi_dialogue.explain.answers.talk import speed_of
@@ -31,6 +32,7 @@ SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
 KEPT = 1.8  # [s] behind somebody from which on we keep our distance
+ELSEWHERE = "the way to the destination leads elsewhere"
 SOON = 3.0  # [s] within which what is planned is as good as begun
 TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
 
@@ -41,7 +43,9 @@ def request(act: Request, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is of what is unknown; or rollouts are needed.
     """
-    act = replace(act, event=_paced(act.event))
+    act = replace(act, event=past_leader(asked, _paced(act.event)))
+    if act.negated and "close" in act.event.manner:  # "do not get so close"
+        act = replace(act, event=replace(act.event, action="keep-distance"), negated=False)
     event = act.event
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)
@@ -172,6 +176,8 @@ def _cannot(asked: Asked, event: Event) -> str | None:
     if not names or any(name in options for name in names):
         return None
     reasons = [n.reason for n in trace.not_applicable if not n.node and n.action in names]
+    if len(names) > 1 and names[0] in TURNING:
+        return ELSEWHERE
     if len(reasons) < len(names) and trace.under_way is None:
         return None
     return next(iter(reasons), None)

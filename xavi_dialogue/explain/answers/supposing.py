@@ -43,8 +43,10 @@ from xavi_dialogue.explain.answers.own_suppositions import (
     claimed_in,
     form_of,
     is_sooner,
+    kept_ahead,
     of_us,
     paced,
+    stays_ahead,
     struck_in,
     undone,
 )
@@ -99,6 +101,8 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     of, negated = _mistaken(scene, of, negated=negated)
     event = event_of(of)
     vehicle = _whom(scene, of)
+    if stays_ahead(event) and not negated:
+        of, negated = kept_ahead(event, form)
     if _asks_of_other(question.then):
         if negated and (found := freed(question.then, vehicle, scene)) is not None:
             return found
@@ -341,9 +345,6 @@ def _asks_now(question: Question | None) -> bool:
 
 
 def _is_now(time: Time, scene: Asked) -> bool:
-    match time:
-        case Now() | Next():
-            return True
-        case At(at):
-            return at >= scene.now - ROUNDING
-    return False
+    return isinstance(time, Now | Next) or (
+        isinstance(time, At) and time.at >= scene.now - ROUNDING
+    )

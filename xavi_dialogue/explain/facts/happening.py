@@ -56,8 +56,8 @@ MEETINGS: dict[str, tuple[Reader, Names]] = {
     "movings-in": (movings_in, frozenset(("cut-in", "pull-out"))),
     "misses": (misses, frozenset(("nearly-collide",))),
 }
-OWN: Names = frozenset(("arrive", "collide", "change-plan", "continue"))
-ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue"))  # not of everything
+OWN: Names = frozenset(("arrive", "collide", "change-plan", "continue", "swerve"))
+ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue", "swerve"))  # not of everything
 #: What is worth telling of a ride: of the ego, and of what others did to it.
 OF_OURS: Names = frozenset(
     (

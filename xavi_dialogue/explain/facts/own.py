@@ -1,4 +1,4 @@
-"""Episodes that only the ego has: arriving, colliding, changing its plan; and near misses."""
+"""Episodes that only the ego has: arriving, colliding, changing its plan, bearing to a side."""
 
 import itertools
 from collections.abc import Iterator
@@ -8,19 +8,22 @@ from planner.trace import Action, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Destination
+from xavi_dialogue.domain.vocabulary import Side
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.states import States
-from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.motion import EPSILON, bends
 from xavi_dialogue.explain.history.nearing import driven
 from xavi_dialogue.explain.history.ride import planned
 
 TURNS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
+ALONG: tuple[Action, ...] = ("continue", "exit-straight", "stop")  # by which one keeps one's lane
+AROUND = 1.0  # [s] around a turn or change of lanes in which bearing to a side is part of it
 SAME_JUNCTION = 6.0  # [m] by which the distance to one junction varies between decisions
 
 
 def own(states: States) -> list[Episode]:
-    """What the ego's events tell, and where its plan changed."""
-    return [*_told(states), *_changed_plans(states), *_driving_on(states)]
+    """What the ego's events tell, where its plan changed, and where its lane bore to a side."""
+    return [*_told(states), *_changed_plans(states), *_driving_on(states), *_bearing(states)]
 
 
 def _told(states: States) -> Iterator[Episode]:
@@ -38,6 +41,15 @@ def _driving_on(states: States) -> Iterator[Episode]:
     for deed in states.ride.deeds:
         if deed.action == "continue":
             yield Episode(named(EGO), "continue", deed.time, deed.ended)
+
+
+def _bearing(states: States) -> Iterator[Episode]:
+    """The stretches in which the ego bore to one side, in no turn and no change of lanes."""
+    others = [deed.span for deed in states.ride.deeds if deed.action not in ALONG]
+    for bend in bends(states.motion(EGO)):
+        if not any(a - AROUND <= bend.end and bend.start <= b + AROUND for a, b in others):
+            side: Side = "left" if bend.angle > 0.0 else "right"
+            yield Episode(named(EGO), "swerve", bend.start, bend.end, None, side)
 
 
 def _changed_plans(states: States) -> Iterator[Episode]:

@@ -40,6 +40,7 @@ Array: TypeAlias = NDArray[np.float64]
 Trend: TypeAlias = Literal["slowing", "steady", "speeding-up", "standing"]
 
 EPSILON = 1e-6  # [s]
+BORE = 0.1  # [rad] of bearing to one side that is felt
 STRAIGHT = 0.01  # [rad] of changes in heading up to which nobody changes lanes
 
 
@@ -226,6 +227,24 @@ def turns(motion: Motion) -> Iterator[Sighting]:
         action: ActionName = "exit-left" if angle > 0.0 else "exit-right"
         yield Sighting(action, motion.time[start], motion.time[end], angle)
         done = end
+
+
+def bends(motion: Motion) -> Iterator[Sighting]:
+    """The stretches over which a path bears to one side, by too little or too far for a turn."""
+    if len(motion.time) < 2:
+        return
+    heading = motion.arrays[3]
+    for sign in (-1.0, 1.0):
+        foot = best = 0
+        for k in range(1, len(heading) + 1):
+            ended = k == len(heading) or sign * (heading[k] - heading[best]) < -STRAIGHT
+            if ended and sign * (heading[best] - heading[foot]) >= BORE:
+                angle = float(heading[best] - heading[foot])
+                yield Sighting("swerve", motion.time[foot], motion.time[best], angle)
+            if ended or sign * (heading[k] - heading[foot]) <= 0.0:
+                foot = best = k
+            elif sign * (heading[k] - heading[best]) > 0.0:
+                best = k
 
 
 def lane_changes(motion: Motion) -> Iterator[Sighting]:

@@ -177,7 +177,7 @@ def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object
     told = tuple(
         message("BESIDE", verbs=verbs_of(e.actions, ring=ring), chance=Chance(e.probability),
                 past=past)
-        for e in others[:BESIDES]
+        for e in _by_words(others, ring=ring)[:BESIDES]
     )  # fmt: skip
     return {"besides": told, "several": len(told) > 1}
 

@@ -10,6 +10,7 @@ from xavi_dialogue.nlg.content.driven import motion_cause
 from xavi_dialogue.nlg.content.joint_measures import measure_messages
 from xavi_dialogue.nlg.content.measures import SOON
 from xavi_dialogue.nlg.content.plan import Plan
+from xavi_dialogue.nlg.content.refusals import reason_in_words
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
@@ -25,7 +26,8 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     """Plan how a request is declined, and what the car is about to do anyway."""
     event, negated = answer.request.event, answer.request.negated
     kept = event.object if event.action not in BARE else None
-    told = replace(event, manner=(), object=kept, then=None)
+    where = None if event.where is None or event.where.relation == "same-as" else event.where
+    told = replace(event, manner=(), object=kept, then=None, where=where)
     clause = event_clause(told, context.now, tense="present")
     if event.action == "keep-distance":
         whom = () if event.object is None else ("from", Who(event.object))
@@ -59,7 +61,8 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     slowing = answer.doing is not None and answer.doing.trend == "slowing"
     if event.action in GOING and slowing and answer.cause is not None:
         return Plan((Message("KEEP_GOING", slots),))
-    slots["reason"] = answer.cannot
+    why = answer.cannot
+    slots["reason"] = None if why is None else reason_in_words(why, past=False)
     slots["fact"] = fact
     slots["anyway"] = _anyway(answer, context)
     return Plan((Message("DECLINED_VERB", slots),))

@@ -39,6 +39,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
         "RULE",
         rule=answer.rule,
         ring=answer.ring,
+        light=answer.light,
         all=_COUNTS.get(len(many)) if len(many) >= MANY and answer.holds is not None else None,
         who=who,
         kept=_kept(answer),

@@ -239,6 +239,8 @@ class Asking(What, WhichOne):
             case "where":
                 return self.where(wh, clause, value)
             case "when":
+                if wh.key == "span":
+                    return graded("long", wh.words, clause, value)
                 lasting = since(clause, value) if wh.key == "since" else None
                 return lasting or self.when(wh, clause, value)
             case "grade":

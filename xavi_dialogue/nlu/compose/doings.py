@@ -55,6 +55,8 @@ def doing(wh: Wh, clause: Clause, value: Special) -> Question:
     if (undone or clause.modal == "should") and not isinstance(clause.subject, Wanted):
         return _instead(clause, clause.subject, value.content)
     actor = Ego() if subject is None or isinstance(subject, Passenger) else subject
+    if "semi-allowed" in clause.aux and actor == Ego():  # "what are we allowed to do here?"
+        return measured("limit", clause, actor)
     besides = That() if wh.besides or clause.else_ else None
     tense: Any = "past" if clause.tense == "perfect" else _tense(clause)
     if clause.modal in _TO_COME and clause.tense != "past":
@@ -71,6 +73,8 @@ def deed_asked(clause: Clause, value: Proposition) -> Question | None:
         return None
     if event.modal in ("could", "should") and event.tense == "past":
         return _instead(clause, event.actor, None)
+    if "semi-allowed" in clause.aux and event.actor == Ego():
+        return measured("limit", clause, event.actor)
     return Doing(event.actor, clause.time, _tense(clause))
 
 

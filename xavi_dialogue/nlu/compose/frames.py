@@ -40,6 +40,7 @@ from xavi_dialogue.nlu.compose.propositions import Propositions
 from xavi_dialogue.nlu.compose.sem import (
     NONE_OF_THEM,
     Group,
+    Measure,
     Sem,
     alternative,
     as_thing,
@@ -72,7 +73,7 @@ class Frames:
                 return question  # "why did you brake if nobody was there": it is taken for granted
         if isinstance(question, HowSure) and clause.contrast is not None:
             return question
-        supposed = self.supposition(clause)
+        supposed = None if _if_needed(clause.condition) else self.supposition(clause)
         if supposed is None:
             return question
         return WhatIf(supposed, None if _of_difference(question) else question)
@@ -106,7 +107,7 @@ class Frames:
         found = found if found is None else _of_none(at_pace(condition, found))
         if found is None:
             thing = as_thing(condition.subject)
-            if thing is None:
+            if thing is None or isinstance(condition.subject, Event | Measure):
                 return None
             plain = Happens(Event("do", thing, Pronoun("that"), tense="past"))
             return Not(plain) if condition.negated else plain
@@ -224,6 +225,13 @@ def is_short(condition: Clause) -> bool:
         and not (condition.objects or condition.complements or condition.adjectives
                  or condition.bearings or condition.side or condition.comparisons)
     )  # fmt: skip
+
+
+def _if_needed(condition: Clause | None) -> bool:
+    """Say whether only a need is supposed: "could you stop if you had to?"."""
+    if condition is None or condition.negated or not is_short(condition):
+        return False
+    return condition.modal == "must" or "semi-must" in condition.aux
 
 
 def before(of: Proposition) -> Proposition:

@@ -106,10 +106,15 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "faster" if event is None and clause.verb is None and _PACES & set(words):
             than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
             return measured("speed", clause, actor, to=than or Pronoun("it"))
-        case "faster" if clause.verb is not None and clause.verb.key in ("get", "become", "grow"):
+        case "faster" if (
+            clause.verb is not None
+            and clause.verb.key in ("get", "become", "grow")
+            and _PACES & set(words)
+        ):
             return measured("speed-change", clause, actor)
         case "faster":
-            return measured("delay", clause, actor, event=event)
+            arrives = event is not None and event.action == "arrive"
+            return measured("delay", clause, actor, event=None if arrives else event)
         case "many" if event is not None and event.action in _DONE_TO and event.object is None:
             done = with_fields(event, object=Wanted())
             return HowMany(Described(doing=cast(Event, done), plural=True, definite=False))

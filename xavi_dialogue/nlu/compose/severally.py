@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import cast
 
-from xavi_dialogue.domain.meaning import Ask, HowMuch, Question, Whether, Which
+from xavi_dialogue.domain.meaning import Ask, HowMuch, Question, WhatIf, Whether, Which
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -165,6 +165,15 @@ _OF_EACH = frozenset({"speed", "acceleration", "deceleration", "size"})
 def apart(question: Question) -> tuple[Ask, ...]:
     """Ask "did you exceed the limit or brake hard?" of each: both may be so, and neither."""
     match question:
+        case WhatIf(then=then) if then is not None:
+            return tuple(
+                Ask(cast(Question, with_fields(question, then=ask.question))) for ask in apart(then)
+            )
+        case Whether(that=Both(contents=(Compares(left=left), *rest), join="or")) if (
+            left.attribute == "delay"
+            and all(isinstance(one, Compares) and one.left == left for one in rest)
+        ):  # "would that have cost more time or less?"
+            return (Ask(HowMuch(left)),)
         case Whether(that=Both(contents=(Compares(left=left), *rest) as each, join="or")) if all(
             _unlike(left, other) for other in rest
         ):

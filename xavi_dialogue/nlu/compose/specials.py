@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose import lights
 from xavi_dialogue.nlu.compose.adoption import with_fields
@@ -191,6 +192,9 @@ def _cost(special: Special) -> Proposition:
     if special.name == "delay" and isinstance(special.subject, Ego):
         return Happens(event_of(special, "slow-down", None))
     whose = Ego() if takes and special.subject == Pronoun("it") else special.subject
+    if isinstance(special.clause.subject, Noun) and special.clause.subject.key == "ride":
+        whose = Ego()
+        time = WholeRide() if isinstance(time, Unsaid) else time
     by = special.match.phrases.get("by")
     subject = special.clause.subject
     deed = by if isinstance(by, Event) else subject if isinstance(subject, Event) else None

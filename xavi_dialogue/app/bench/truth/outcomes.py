@@ -14,14 +14,14 @@ ROADS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "contin
 LONGER = 1.0  # [s] by which another way is longer
 
 
-#: Where a plan leads within the time that is looked ahead.
-WITHIN = (
-    r"(?:have got|get) (?:us )?(?:to our destination|as far as I (?:had planned|plan)) "
-    r"(?:within the (?P<horizon>\d+) seconds|in the time) that I look(?:ed)? ahead"
+#: What takes longer than the time that is looked ahead.
+BEYOND = (
+    r"(?:more than (?P<horizon>\d+) seconds (?:to our destination|for the next stretch of our way)"
+    r"|longer than the time that I look(?:ed)? ahead)"
 )
 
 
-@claim(rf"would {ADVERB}not {WITHIN}, and neither would")
+@claim(rf"would {ADVERB}(?:have taken|take) us {BEYOND}, and so would")
 def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that neither foil nor plan is through within the time that is looked ahead."""
     found = foil_of(said, match)
@@ -35,12 +35,12 @@ def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 @claim(
-    rf"would {ADVERB}not {WITHIN}(?!, and neither would)",
-    rf"might not {WITHIN} \({PERCENT}\)(?P<adverb>)",
-    rf"(?P<both>more certain) to {WITHIN}",
-    rf"would {WITHIN}(?P<both>)",
-    r"would (?:have left|leave) (?:more|less) of the way to go(?P<both>) after the "
-    r"(?:(?P<horizon>\d+) seconds|time) that I look(?:ed)? ahead",
+    rf"would {ADVERB}(?:have taken|take) us {BEYOND}(?!, and so would)",
+    rf"might (?:have taken|take) us {BEYOND} \({PERCENT}\)(?P<adverb>)",
+    rf"(?P<both>less likely) to take us {BEYOND}",
+    rf"would not (?:have taken|take) us {BEYOND}(?P<both>)",
+    r"would (?:have left|leave) (?:more|less) of the way to go(?P<both>) after "
+    r"(?:(?P<horizon>\d+) seconds|the time that I look(?:ed)? ahead)",
 )
 def late(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     """Check that a foil is not through within the time that is looked ahead."""
@@ -49,9 +49,14 @@ def late(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
         yield from _looked(said.decision, match)
 
 
-@claim(r"more than (?P<seconds>\d+) seconds? (?P<how>longer|sooner) than my choice")
-def beyond(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check by how much the one that arrives does so before the time that is looked ahead ends."""
+@claim(
+    rf"would {ADVERB}(?:have taken|take) us "
+    r"more than (?P<seconds>\d+) seconds? (?P<how>longer) than my choice",
+    r"more than (?P<seconds>\d+) seconds? (?P<how>quicker)(?P<both>) than my choice",
+)
+def beyond(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
+    """Check which is late, and how long before the end of the time the other one arrives."""
+    yield from _outcome(said, match, ("termination",))
     found = foil_of(said, match)
     if found is None:
         return
@@ -128,7 +133,7 @@ def way_ahead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("way ahead", f"{match[0]}: the foil does that")
 
 
-@claim(r"might not (?:get|have got) us (?:there|as far as I (?:had planned|plan) ahead)")
+@claim(r"might not (?:get|have got) (?:there|through the next stretch of our way)")
 def unsure(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     """Check that a foil arrives in some situations and not in others."""
     found = foil_of(said, match)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Feature,
     Junction,
     Nobody,
@@ -57,7 +58,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = afoot(out_of(_at_junction(completed(spoken, g)), g), g)
+    spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g)), g), g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
@@ -87,6 +88,19 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
             g.notes.spans(window.span)
         return replace(found, time=window.term)
     return _placed(found, mode, g, window, outer is not None and not outer.said)
+
+
+def _by_anybody(spoken: Event) -> Event:
+    """Take what one has to do for what we have to: "does one always have to wait for them?"."""
+    if spoken.actor != Described() or spoken.modal not in ("must", "should"):
+        return spoken
+    whom = spoken.object
+    many = whom == Pronoun("they") or (isinstance(whom, Described) and whom.plural)
+    here = isinstance(spoken.time, Relative) and isinstance(spoken.time.anchor, Junction)
+    return replace(
+        spoken, actor=Ego(), object=Everyone() if many else whom,
+        time=Unsaid() if here else spoken.time,
+    )  # fmt: skip
 
 
 def _meanwhile(time: Time) -> bool:

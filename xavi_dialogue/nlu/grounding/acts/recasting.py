@@ -53,7 +53,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
 from xavi_dialogue.nlu.grounding.acts.trips import SIDES, of_trip
-from xavi_dialogue.nlu.grounding.acts.windows import notable
+from xavi_dialogue.nlu.grounding.acts.windows import notable, startling
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -84,6 +84,8 @@ def recast(spoken: Question, g: Grounder) -> Question:
         return meant
     match spoken:
         case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
+            if (braking := startling(g.context)) is not None:
+                return Why(Happens(braking))
             found = notable(g.context)
             return spoken if found is None else replace(spoken, time=Between(*found))
         case Doing(actor=Ego(), tense="future", time=Back(relation="after")):

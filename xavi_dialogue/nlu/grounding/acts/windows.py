@@ -43,6 +43,7 @@ BESIDE: Final = 8.0  # [s] before or after an event
 APPROACH: Final = 6.0  # [s] before a junction that belong to it
 JUST_BEFORE: Final = 0.2  # [s] before something that are still of it
 STALE: Final = 6.0  # [s] after which what was spoken of is no longer what "back there" means
+HARD: Final = 4.0  # [m/s2] from which braking is felt as sudden
 TOGETHER: Final = 1.5  # [s] between deeds that belong together
 LONGEST: Final = 15.0  # [s] that deeds which belong together last at most
 #: Deeds at the middle of which they are thought to happen; others at their beginning.
@@ -191,6 +192,16 @@ def notable(context: Context) -> Interval | None:
         if last >= begin - TOGETHER and end - first <= LONGEST:
             begin, end = min(begin, first), max(end, last)
     return begin, end
+
+
+def startling(context: Context) -> Event | None:
+    """Give our hard braking of just now, by which passengers are startled."""
+    since = context.now - JUST_NOW
+    hard = [e for e in context.deeds(Ego(), since, context.now)
+            if e.action == "brake" and e.peak is not None and e.peak >= HARD]  # fmt: skip
+    if not hard:
+        return None
+    return Event("brake", Ego(), time=Between(*_interval(hard[-1], context)), tense="past")
 
 
 #: What we set about on purpose.
