@@ -50,6 +50,9 @@ from xavi_dialogue.domain.terms import (
 )
 
 E, V, W = Ego(), Vehicle(1), Vehicle(2)
+WALKERS = Described(
+    "pedestrian", doing=Event("cross", Wanted(), E, tense="present"), plural=True, definite=False
+)
 REAR = Described("car", such=Related("behind", Wanted("car")), plural=True, definite=False)
 TURN = Happens(Event("turn", V, side="right"))
 UNSURE = Belief(1, 4.0, (Expectation(("exit-right",), 0.45), Expectation(("continue",), 0.4)))
@@ -128,6 +131,7 @@ CASES: tuple[Answer, ...] = (
     Counted(Everyone(), 0, until=10.0, such=REAR),
     Counted(Everyone(), 1, (OTHER_BLUE,), such=REAR),
     Counted(Everyone(), 9, such=REAR),
+    *(Counted(Everyone("pedestrian"), n, such=WALKERS) for n in range(3)),
     Counted(Everyone(), 9, until=10.0, such=REAR),
     Happenings("list", RIDE),
     Happenings(

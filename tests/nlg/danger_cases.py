@@ -71,5 +71,6 @@ CASES: tuple[Answer, ...] = (
         for slowed in (False, True)
     ),
     SightTold("there", (TALL,)),
+    SightTold("beyond", (TALL,)),
     SightTold("past", (TALL,)),
 )

@@ -13,7 +13,7 @@ MOST: Final = 3  # vehicles of whom each is told by itself
 #: Of what each may have another way, or none.
 OWN: Final = frozenset[ActionName]((
     "go", "leave", "turn", "exit-left", "exit-right", "exit-straight", "continue",
-    "change-left", "change-right", "change-lane", "disappear", "approach", "come", "pass",
+    "change-left", "change-right", "change-lane", "disappear", "approach", "come", "pass", "cross",
 ))  # fmt: skip
 WAITING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
 

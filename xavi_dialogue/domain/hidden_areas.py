@@ -20,8 +20,9 @@ class SightTold(Value, frozen=True):
     """What we cannot see, and who might come from there; nobody who is only imagined is counted."""
 
     #: asked: whether we see past it; what we do not see; whether or how surely somebody is there,
-    #: or comes from there; whether somebody came; how we know that nobody does; what if he did
-    asked: Literal["past", "what", "there", "chance", "came", "known", "if"]
+    #: or comes from there; whether somebody came; how we know that nobody does; what if he did;
+    #: who drives ahead of one behind whom we drive
+    asked: Literal["past", "what", "there", "chance", "came", "known", "if", "beyond"]
     hiders: tuple[Hider, ...]  # the likeliest first; () nothing that matters is hidden
     past: bool = False
     slowed: bool = False  # we came slowly for it

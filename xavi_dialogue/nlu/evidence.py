@@ -31,6 +31,7 @@ _EXTREMES: Final = frozenset(
     (Compare, Peak, "nearest", "farthest", "fastest", "slowest", "biggest", "highest", "lowest")
 )
 _NUMBERED: Final = frozenset(("numbered", "roll", "owner"))
+_BOTH: Final = 2.0
 _SCALES: Final = (1.0, 60.0, 3600.0)  # [s] of the units in which a time is said
 _VAGUE: Final = frozenset(("vehicle", "car"))  # kinds that a vehicle or pronoun may stand for
 
@@ -60,6 +61,8 @@ def _telling(part: Part) -> Iterator[Leaf]:
 def _is_in(leaf: Leaf, found: set[Any]) -> bool:
     if leaf.category == "NUM":
         said = value_of(leaf)
+        if said == _BOTH and "them-all" in found:
+            return True  # "those two"
         return Quantity in found or any(said * scale in found for scale in _SCALES)
     if leaf.category == "FOCUS":
         return not _EXTREMES.isdisjoint(found)

@@ -95,6 +95,16 @@ def _top(act: Act) -> float:
             return DOUBTFUL
         case Ask(question=HowMany(of=Ego() | Passenger())):
             return ODD
+        case Ask(
+            question=HowMany(
+                of=Described(
+                    doing=Event(
+                        time=Relative(relation="until") | Relative(anchor=Event(action="arrive"))
+                    )
+                )
+            )
+        ):
+            return ODD  # "how many turns until we are there" counts turns
         case Claim(that=Related(thing=Pronoun("who")) | Happens(event=Event(actor=Pronoun("who")))):
             return 2.0 * ODD  # "who" asks, and tells of nobody
         case Ask(question=Which(such=Related(relation="same-as", to=Junction()))):

@@ -138,6 +138,10 @@ def _has_been(asked: Asked, event: Event) -> Finding:
     """Tell what happened, or goes on: with the episode, or with what the actor did instead."""
     found = occasion(asked, event)
     about = window(asked, event.time, event.tense)
+    if found is not None and found.action == "cross" and event.tense in ("present", "perfect"):
+        over = found.end is not None and found.end < asked.now - RECENT
+        holds = over == (event.tense == "perfect")
+        return Finding(holds, (found,))  # who still crosses is not yet across
     if found is not None:
         wrong = wrong_belief(asked, event, Window(found.begin, found.begin), came=True)
         believed = () if wrong is None else (wrong,)
@@ -200,6 +204,8 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     vehicle = number(event.actor)
     if vehicle is None:
         return likeliest(asked, event)
+    if going and event.action == "cross":
+        return Finding(True, going)
     look = look_of(asked, event.actor, now)
     by_sight = settled(asked, event, going)
     if by_sight is not None:

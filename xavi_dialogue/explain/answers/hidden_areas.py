@@ -39,6 +39,7 @@ Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
 JUST_NOW = 1.5  # [s] for which what was decided on still holds
 TALL = frozenset(("bus", "truck", "van", "tram"))  # too tall to see past
+SAME_LINE = 2.0  # [m] sideways within which one drives ahead of another
 TOGETHER = 3.0  # [s] between decisions about one hidden part
 
 
@@ -57,6 +58,10 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _told("there") if alone and there else None
         case WhatIf(supposed) if _emerges(supposed) is not None:
             return _told("if")
+        case Which(such=Related("ahead-of", Wanted(), Vehicle() as hider) as such) | Whether(
+            Exists(Nobody(Described(bearing="ahead", of=Vehicle() as hider))) as such
+        ) if such.tense == "present" and _beyond(scene, hider):
+            return lambda _, here: SightTold("beyond", (Hider(hider.number, "ahead", None),))
         case Listing("hidden"):
             return _told("what")
         case Whether(Exists(thing)) if _is_blind(thing):
@@ -107,6 +112,16 @@ def _anybody_behind(scene: Asked, hider: Vehicle) -> bool:
     """Tell whether anybody is seen behind a vehicle."""
     seen = (Vehicle(v) for v in scene.world.in_view(scene.now) if v != hider.number)
     return any(scene.world.relation("behind", one, hider, scene.now) for one in seen)
+
+
+def _beyond(scene: Asked, hider: Vehicle) -> bool:
+    """Tell whether a vehicle ahead of us is too tall to see past, and nobody seen ahead of it."""
+    look = scene.world.look(hider.number, scene.now)
+    if look is None or look.ahead <= 0.0 or look.oncoming or not _covers(scene, None, hider):
+        return False
+    seen = (scene.world.look(v, scene.now) for v in scene.world.in_view(scene.now))
+    line = [x for x in seen if x is not None and abs(x.left - look.left) <= SAME_LINE]
+    return not any(x.ahead > look.ahead for x in line if x.vehicle != hider.number)
 
 
 def _covers(scene: Asked, that: Proposition | None, where: Thing) -> bool:

@@ -21,7 +21,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.asked import Asked
 from xavi_dialogue.explain.answers.findings import Finding, expected
 from xavi_dialogue.explain.answers.foreseen import chance
-from xavi_dialogue.explain.answers.naming import look_of, somebodies
+from xavi_dialogue.explain.answers.naming import ANY, look_of, somebodies
 
 LIKELY = 0.5  # probability from which one of several counts as going to do something
 STEADY = 0.3  # [m/s2] below which a speed is held
@@ -65,10 +65,13 @@ def owed_by_other(such: Proposition) -> Happens | None:
 
 def likeliest(asked: Asked, event: Event) -> Finding:
     """Tell what is to come of any of several vehicles: the likeliest of them counts."""
-    anybody = isinstance(event.actor, Nobody)  # "will anybody let us in?"
+    actor = event.actor
+    if isinstance(actor, Nobody):  # "will anybody let us in?"
+        of = actor.described
+        actor = Everyone("vehicle" if of is None or of.kind in ANY else of.kind)
     found = [
         (share, v)
-        for v in somebodies(asked, Everyone() if anybody else event.actor, asked.now)
+        for v in somebodies(asked, actor, asked.now)
         if isinstance(v, Vehicle)
         and (share := chance(asked, replace(event, actor=v), asked.now)) is not None
     ]

@@ -3,13 +3,14 @@
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
+from planner.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.terms import Ego, Exit, Junction, Lane, Road, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.facts import bodies
 from xavi_dialogue.explain.facts.actions import somebody
 from xavi_dialogue.explain.facts.bearings import Offset, oncoming
-from xavi_dialogue.explain.facts.meetings import followings
+from xavi_dialogue.explain.facts.meetings import crossings, followings
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.facts.waiting import top_holders, waits
 from xavi_dialogue.explain.history.motion import EPSILON
@@ -138,6 +139,10 @@ def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
 
 def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
     """Whether a vehicle is on a lane, a roundabout, inside a junction."""
+    shape = states.shape(vehicle)
+    if shape is not None and shape.kind in ON_FOOT:
+        over = crossings(states, vehicle) if isinstance(where, Junction | Road | Lane) else []
+        return any(e.begin <= at <= _end(states, e.end) for e in over)
     here, mine = states.place(vehicle, at), states.place(EGO, at)
     if here is None:
         return None

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from planner.road import RoadPlace
+from planner.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Junction
@@ -35,6 +36,9 @@ def ways(states: States, vehicle: int) -> list[Episode]:
 
 
 def _ways(states: States, vehicle: int) -> list[Episode]:
+    shape = states.shape(vehicle)
+    if shape is not None and shape.kind in ON_FOOT:
+        return []  # who walks takes no lanes, turns and exits
     stays = list(_stays(states, vehicle))
     found = list(_rings(states, vehicle, stays))
     if vehicle == EGO:

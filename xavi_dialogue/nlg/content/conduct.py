@@ -1,5 +1,6 @@
 """Conduct: what somebody is doing, what we are going to do, and where somebody is going."""
 
+from planner.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Activity, Bound, MotionCause, PlanAhead
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle
@@ -36,6 +37,7 @@ def plan_activity(answer: Activity, context: SpeechContext) -> Plan:
         "when": Moment(answer.time) if past else None,
         "trend": answer.trend,
         "speed": _speed(answer),
+        "walks": _walks(answer, context),
     }
     if answer.look is not None and not answer.look.in_view and not past:
         return _lost(answer, answer.look, context)
@@ -68,6 +70,12 @@ def _lost(answer: Activity, look: Look, context: SpeechContext) -> Plan:
     )
     belief = _belief(answer, context)
     return Plan((first,), (belief,) if belief is not None else ())
+
+
+def _walks(answer: Activity, context: SpeechContext) -> bool:
+    actor = answer.actor
+    look = context.look(actor.number, answer.time) if isinstance(actor, Vehicle) else None
+    return look is not None and look.kind in ON_FOOT
 
 
 def _speed(answer: Activity) -> Quantity | None:

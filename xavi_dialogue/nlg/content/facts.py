@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
+from planner.trace import ON_FOOT
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,
@@ -27,7 +28,7 @@ from xavi_dialogue.nlg.content.traffic_lights import (
 )
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.tables import word
+from xavi_dialogue.nlg.surface.tables import afoot, word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
 
 RISK = 0.01  # probability of a collision from which it is told
@@ -130,6 +131,8 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
     if not belief.expectations:
         return message("BELIEF_NONE", who=Who(Vehicle(belief.vehicle)), past=past)
     ring = in_ring(belief.expectations)
+    look = context.look(belief.vehicle, belief.time)
+    walks = look is not None and look.kind in ON_FOOT
     told = _by_words(belief.expectations, ring=ring)
     first, others = told[0], [e for e in told[1:3] if e.probability >= TOLD]
     who = Who(Vehicle(belief.vehicle), belief.time if past else None)
@@ -140,14 +143,14 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
     return message(
         "BELIEF",
         who=who,
-        verbs=verbs_of(first.actions, ring=ring),
+        verbs=verbs_of(first.actions, ring=ring, walks=walks),
         chance=Chance(first.probability),
         past=past,
         when=Moment(belief.time) if past else None,
         open=first.probability < 0.55,
-        other=verbs_of(second.actions, ring=ring) if second else None,
+        other=verbs_of(second.actions, ring=ring, walks=walks) if second else None,
         other_chance=Chance(second.probability) if second else None,
-        third=verbs_of(third.actions, ring=ring) if third else None,
+        third=verbs_of(third.actions, ring=ring, walks=walks) if third else None,
         third_chance=Chance(third.probability) if third else None,
     )
 
@@ -180,9 +183,11 @@ def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object
 
 
 def verbs_of(
-    actions: tuple[str, ...], ego: bool = False, *, ring: bool = False
+    actions: tuple[str, ...], ego: bool = False, *, ring: bool = False, walks: bool = False
 ) -> tuple[Clause, ...]:
     """The verb phrases of a row of actions, to be inflected; `ring`: in a roundabout."""
+    if walks:
+        return tuple(Clause("it", afoot(doing(a))) for a in actions)  # type: ignore[arg-type]
     passed = actions.count("continue-next-exit")
     if (passed or ring) and actions[-1].startswith("exit-"):
         return (Clause("it", word("doings", "leaving", str(min(passed, MOST_PASSED)))),)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exit,
+    Happens,
     Has,
     Is,
     Nobody,
@@ -236,6 +237,12 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
                         unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip
         return Plan((doers,))
     past = answer.until is not None and context.now - answer.until > PRESENT
+    if such is not None and such.doing is not None and answer.count == 0:
+        none = _nobody(Happens(such.doing), context.now)
+        return Plan((message("COUNTED_EVENTS", clause=none, never=True),))
+    if such is not None and such.doing is not None and isinstance(such.doing.actor, Wanted):
+        did = event_clause(such.doing, context.now)
+        return Plan((message("COUNTED_NOW", number=amount, one=answer.count == 1, did=did),))
     if such is not None and such.such is not None and not _only_there(such.such):
         rows = tuple(Who(Vehicle(f.vehicle)) for f in answer.facts if isinstance(f, Look))
         those = message("COUNTED_SUCH", none=answer.count == 0, number=amount, past=past,

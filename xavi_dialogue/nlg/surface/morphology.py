@@ -8,8 +8,9 @@ Errors:
 """
 
 import re
+from dataclasses import replace
 
-from xavi_dialogue.domain.terms import Ego, Vehicles
+from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.generator import Slot, Token
@@ -17,6 +18,7 @@ from xavi_dialogue.nlg.surface.ordinals import ordinal
 from xavi_dialogue.nlg.surface.quantities import moment, number, quantity, span
 from xavi_dialogue.nlg.surface.referring import Speaker, listed
 from xavi_dialogue.nlg.surface.rules import GrammarError, Word
+from xavi_dialogue.nlg.surface.tables import afoot
 from xavi_dialogue.nlg.surface.values import (
     Bare,
     Chance,
@@ -100,6 +102,9 @@ def clause(value: Clause, form: str, speaker: Speaker) -> str:
     Raises:
         FormError: a clause has no such form.
     """
+    who = value.subject
+    if isinstance(who, Who) and isinstance(who.thing, Vehicle) and speaker.on_foot(who.thing, who):
+        value = replace(value, verb=afoot(value.verb))
     if form in ("gerund", "base", "participle", "past"):
         verb = inflect_verb(value.verb, form)  # type: ignore[arg-type]
         return " ".join(f"{verb} {_rest(value, speaker)}".split())

@@ -77,13 +77,14 @@ class Speaker:
     def _vehicle(self, vehicle: int, who: Who, form: str) -> str:
         alone = self.mentioned == [vehicle] and not self.lit
         if form != "full" and not who.indefinite and alone:
-            if self._on_foot(vehicle, who):
+            if self.on_foot(Vehicle(vehicle), who):
                 return _PERSONAL.get(form) or self._named(vehicle, who)
             return "its" if form == "possessive" else "it"
         return _owned(self._named(vehicle, who), form)
 
-    def _on_foot(self, vehicle: int, who: Who) -> bool:
-        look = self.context.look(vehicle, who.time)
+    def on_foot(self, vehicle: Vehicle, who: Who) -> bool:
+        """Whether a vehicle is somebody on foot, and may be spoken of as such."""
+        look = self.context.look(vehicle.number, who.time)
         return look is not None and look.kind in ON_FOOT and self.context.style != "paper"
 
     def _named(self, vehicle: int, who: Who) -> str:
@@ -96,7 +97,7 @@ class Speaker:
             return label
         unique = look.alone and look.colour is not None and who.coloured and who.kinded
         if again and look.kind in ON_FOOT:
-            people = [v for v in self.mentioned if self._on_foot(v, who)]
+            people = [v for v in self.mentioned if self.on_foot(Vehicle(v), who)]
             return f"the {_head(look, who)}" + ("" if people == [vehicle] else f" ({label})")
         if again:
             return f"the {_head(look, who)}" if unique else label
@@ -182,7 +183,7 @@ def _described(thing: Described, speaker: Speaker) -> str:
     place = _place_of(thing, speaker)
     if thing.plural:
         head = plural(head)
-    counted = number(Number(thing.number, ""), "word") if thing.number is not None else ""
+    counted = number(Number(thing.number, ""), "word") if thing.number and thing.plural else ""
     order = ordinal(thing.rank) if thing.rank is not None else thing.extreme or ""
     other = "other" if thing.other else ""
     if not thing.definite:

@@ -39,3 +39,9 @@ def word(name: str, section: str, key: str) -> str:
     if not isinstance(found, str):
         raise WordingError(f"{name}.toml: [{section}] lacks {key!r}")
     return found
+
+
+def afoot(phrase: str) -> str:
+    """The verb phrase for people on foot, where it differs."""
+    found = table("doings")["on-foot"].get(phrase, phrase)
+    return str(found)

@@ -45,9 +45,10 @@ from xavi_dialogue.nlu.compose.sem import (
     between,
 )
 from xavi_dialogue.nlu.compose.senses import LEFT_OTHER, Match
-from xavi_dialogue.nlu.compose.tree import is_negated
+from xavi_dialogue.nlu.compose.tree import is_negated, words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
+_CROSSINGS = frozenset({"crossing", "crosswalk", "zebra"})
 _OF = frozenset({"for", "of", "about", "into", "over", "with", "from", "between", "on", "in"})
 _COMPARED = {"fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
              "far": ("distance", "more")}  # fmt: skip
@@ -94,12 +95,25 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
             colour, size = sem.colour or thing.colour, sem.size or thing.size
             return cast(Sem, with_fields(sem, kind=thing.kind, colour=colour, size=size))
         if thing is not None and not isinstance(thing, Described):
-            return cast(Sem, with_fields(sem, such=Related("on", Wanted(), thing)))
+            return cast(Sem, placed_on(sem, phrase, thing))
     if isinstance(sem, Event) and phrase.key in ("for", "with", "of") and sem.object is None:
         thing = as_thing(other)
         if thing is not None:
             return cast(Sem, with_fields(sem, object=thing))
     return None
+
+
+def placed_on(thing: Described, phrase: Complement, place: Thing) -> Described:
+    """Say of somebody where he is; who is on a crossing crosses our way."""
+    if is_crossing(phrase, place) and thing.doing is None:
+        return structs.replace(thing, doing=Event("cross", Wanted(), Ego(), tense="present"))
+    return structs.replace(thing, such=Related("on", Wanted(), place))
+
+
+def is_crossing(phrase: Complement, place: Thing) -> bool:
+    """Say whether a phrase is "on the crossing", where people walk over the road."""
+    named = place in (Junction(), Feature("crossing")) and phrase.key == "on"
+    return named and words_of(phrase.node).split()[-1] in _CROSSINGS
 
 
 def also_named(first: Sem, second: Sem) -> Sem:

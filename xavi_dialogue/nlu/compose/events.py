@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -40,6 +42,7 @@ _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "betwe
 
 
 _LIGHTS = frozenset({"indicator", "brake-lights"})
+_WALKING = frozenset({"walk", "step", "stroll"})
 
 
 def actor_of(clause: Clause) -> Thing:
@@ -130,7 +133,7 @@ def event_of(clause: Clause, match: Match) -> Event:
         manner, thing = [*manner, "first"], thing or Ego()
     if match.sense.manner:
         manner.append(cast(Manner, match.sense.manner))
-    actor = actor_of(clause)
+    actor = _walker(actor_of(clause), clause)
     modal = _modal(clause, actor)
     if modal == "might" and isinstance(time, Relative) and not isinstance(time.anchor, Event):
         time = Unsaid()  # "could it be tucking in after the lorry?"
@@ -143,6 +146,13 @@ def event_of(clause: Clause, match: Match) -> Event:
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
+
+
+def _walker(actor: Thing, clause: Clause) -> Thing:
+    """Take a man, a woman, anybody who is said to walk for somebody on foot."""
+    walks = clause.verb is not None and clause.verb.key in _WALKING
+    plain = isinstance(actor, Described) and actor.kind == "vehicle"
+    return replace(actor, kind="pedestrian") if walks and plain else actor
 
 
 def _let_then(clause: Clause, time: Any, action: str) -> Any:
@@ -195,7 +205,9 @@ def _kept_from(action: str, match: Match) -> Thing | None:
 
 def _before_us(action: str, clause: Clause) -> bool:
     """Say whether somebody is said to go before us: first, and not in front."""
-    return action == "go" and any(words_of(node) == "before us" for _, node in clause.bearings)
+    onward = clause.verb is not None and clause.verb.category == "GOING"
+    before = any(words_of(node) == "before us" for _, node in clause.bearings)
+    return action == "go" and before and not onward
 
 
 _AT_EXITS = frozenset({"leave", "exit-left", "exit-right", "turn"})

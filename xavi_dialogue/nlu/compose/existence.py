@@ -18,13 +18,11 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
-    Related,
     Relative,
     Thing,
     Unknown,
-    Wanted,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.adoption import placed_on, with_fields
 from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.predicates import tense_of
 from xavi_dialogue.nlu.compose.rooms import roomy
@@ -105,7 +103,7 @@ def _where(thing: Thing, clause: Clause) -> Thing:
         elif phrase.key in ("in", "on", "at") and described.such is None:
             place = as_thing(phrase.sem)
             if place is not None:
-                described = with_fields(described, such=Related("on", Wanted(), place))
+                described = placed_on(described, phrase, place)
     if bearing is None or described.bearing is not None:
         return Nobody(described) if isinstance(thing, Nobody) else described
     of = None if isinstance(of, (Ego, Passenger)) else of

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.meaning import (
     HowMany,
     HowMuch,
     HowSure,
+    Listing,
     Question,
     When,
     Whether,
@@ -200,6 +201,8 @@ def far_to(
     """Ask how far it is to something; what is left is to the destination."""
     if clause.side == "left" and not clause.objects:
         return HowMuch(Measured("distance-to-go"))
+    if clause.verb is not None and clause.verb.key == "see" and not clause.objects:
+        return Listing("hidden", time=clause.time)  # "how far can you see": what ends our sight
     if any(
         isinstance(p.sem, Measure) and p.sem.of.attribute == "limit" for p in clause.complements
     ):

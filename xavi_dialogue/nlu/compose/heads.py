@@ -116,6 +116,8 @@ def _without_head(traits: Traits) -> Sem:
         return SideOf(traits.side)
     if traits.adjectives == ["new"] and not traits.fields:
         return Pronoun("that")  # "the same"
+    if traits.determiner in ("this", "that") and traits.fields == {"number": 2}:
+        return Pronoun("them-all")  # "those two"
     return described(traits.kind or "vehicle", traits)
 
 

@@ -22,7 +22,7 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
+from xavi_dialogue.nlu.compose.adoption import is_crossing, with_fields
 from xavi_dialogue.nlu.compose.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.followers import relation_of
 from xavi_dialogue.nlu.compose.positions import by_origin, by_particle, exceeded, passed
@@ -104,6 +104,8 @@ def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None
     paced = isinstance(phrase.sem, Measure) and phrase.sem.of.attribute in ("limit", "speed")
     if paced and phrase.key in ("over", "in", "at", "into"):
         return against(clause, thing, phrase), 0.0
+    if to is not None and is_crossing(phrase, to) and not isinstance(thing, Ego):
+        return Happens(Event("cross", thing, Ego(), time=time, tense=tense)), 0.0
     return None if to is None else _by_preposition(clause, thing, to, phrase.key)
 
 

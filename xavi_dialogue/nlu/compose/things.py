@@ -265,6 +265,7 @@ class Nouns(Followers):
             case "of_all":
                 for leaf in leaves_of(part):
                     self.modify(leaf, traits)
+                    traits.one_of |= leaf.category in ("ORD", "SUPER")
 
     def _owner(self, node: Node) -> Sem:
         first = node.parts[0]

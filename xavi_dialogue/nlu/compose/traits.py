@@ -20,6 +20,7 @@ class Traits:
         self.owner: Sem | None = None
         self.side: str | None = None
         self.ordinal: int | None = None
+        self.one_of = False  # "the first of" those named behind it
         self.following = False  # "next"
         self.extreme: str | None = None
         self.adjectives: list[str] = []
@@ -68,7 +69,8 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
     fields["definite"] = not indefinite or (traits.determiner == "" and not plural)
     if traits.determiner == "indef" and traits.other:
         fields["definite"] = False
+    many = traits.fields.get("number", 1) > 1
     return Described(
-        kind=cast(Any, kind), plural=plural or traits.fields.get("number", 1) > 1,
+        kind=cast(Any, kind), plural=not traits.one_of and (plural or many),
         other=traits.other, **fields,
     )  # fmt: skip

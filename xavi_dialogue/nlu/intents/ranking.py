@@ -7,7 +7,7 @@ reads them at a high cost, the plain questions of likely intents stand beside it
 from collections.abc import Sequence
 from typing import Final
 
-from xavi_dialogue.domain.meaning import Ask, Reading, TokenShare, WhatIf
+from xavi_dialogue.domain.meaning import Act, Ask, HowMany, Reading, TokenShare, WhatIf
 from xavi_dialogue.domain.terms import Both
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
@@ -37,6 +37,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         and _leaves_open(best, intent, incomplete)
         and (question := plain(intent, thing)) is not None
         and (incomplete or not question.vague)
+        and _counts(best.acts) <= _counts(question.acts)
     ]
     found = [_reading(best, [pair]) for pair in offered]
     if len(offered) > 1:
@@ -48,6 +49,11 @@ def _of_several(best: Reading) -> bool:
     """Tell whether something is supposed of several: a plain question is of one of them."""
     asked = (act.question for act in best.acts if isinstance(act, Ask))
     return any(isinstance(one, WhatIf) and isinstance(one.supposed, Both) for one in asked)
+
+
+def _counts(acts: Sequence[Act]) -> bool:
+    """Tell whether it is asked how many: nothing but a number answers that."""
+    return any(isinstance(act, Ask) and isinstance(act.question, HowMany) for act in acts)
 
 
 def _leaves_open(best: Reading, intent: Intent, incomplete: bool) -> bool:

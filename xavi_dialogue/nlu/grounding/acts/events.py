@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.lead_in import held_since
+from xavi_dialogue.nlu.grounding.acts.afoot import afoot
 from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.acts.hiding import out_of
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
@@ -51,12 +52,13 @@ UNSEEN: Final = 0.05  # cost of asking after what did not happen
 LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
 DENIED: Final = 0.2  # cost of taking for granted that something did not happen that did
 BEFORE: Final = 4.0  # [s] for which who has left a roundabout was still on it before
+JUST: Final = 0.5  # [s] since when what ended still goes on
 FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = out_of(_at_junction(completed(_by_anybody(spoken), g)), g)
+    spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g)), g), g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
@@ -66,7 +68,7 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     actor = _somebody(spoken.actor, g, window, real and not open_, _acting(spoken, g, window))
     if spoken.where is not None and spoken.where.thing == spoken.actor:
         spoken = replace(spoken, where=replace(spoken.where, thing=actor))
-    spoken = replace(spoken, actor=actor)
+    spoken = afoot(replace(spoken, actor=actor), g)
     target = spoken.object
     if target is not None:
         other = apart(target, actor, g)
@@ -199,7 +201,17 @@ def _acting(spoken: Event, g: Grounder, window: Window) -> Fits:
     elif isinstance(target, Described | Pronoun):
         target = None
     exact = spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
-    return _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
+    anybody = isinstance(spoken.actor, Described) and not spoken.actor.definite
+    fits = _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
+    if not (anybody and spoken.tense == "present" and spoken.action in _ONGOING):
+        return fits
+
+    def still(vehicle: int) -> Episode | None:
+        found = fits(vehicle)
+        over = found is not None and (found.end or g.context.now) < g.context.now - JUST
+        return None if over else found
+
+    return still
 
 
 def _undergoing(spoken: Event, g: Grounder, window: Window) -> Fits:
@@ -237,8 +249,8 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *_searched(g, window))):
             found = moved
     present = mode == "asked" and found.tense == "present" and _is_present(window)
-    if held and present and found.action in _PACES and not window.said:  # "are we speeding up?"
-        held = tuple(e for e in held if e.end is None or e.end >= g.context.now - 0.5)
+    if held and present and found.action in _ONGOING and not window.said:  # "are we speeding up?"
+        held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
     if held:
         return _at(found, _pick(held, window, g), g, window, inner)
     granted = mode == "presupposed"
@@ -275,7 +287,7 @@ def _is_next(found: Event, g: Grounder) -> bool:
     return isinstance(found.actor, Ego) and bool(route) and route[0].turn == found.action
 
 
-_PACES: Final = frozenset(("speed-up", "slow-down", "brake"))
+_ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
 
 
 def _is_present(window: Window) -> bool:

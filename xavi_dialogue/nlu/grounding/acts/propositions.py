@@ -42,6 +42,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
+from xavi_dialogue.nlu.grounding.acts.afoot import walked
 from xavi_dialogue.nlu.grounding.acts.dangers import threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
@@ -114,14 +115,13 @@ def proposition(
             if limited is not None:
                 return g.proposition(limited, mode, outer)
             amiss = something_wrong(spoken, g)
-            return amiss if amiss is not None else _is(spoken, g, mode, outer)
-        case Related("can-see", Ego(), Described(definite=False) as somebody) if mode == "asked":
-            seen = Exists(somebody, time=spoken.time)  # "can you see any pedestrians?"
-            return g.proposition(seen, mode, outer)
+            return amiss if amiss is not None else walked(_is(spoken, g, mode, outer), g)
+        case Related("can-see", Ego(), Described(definite=False) as any_) if mode == "asked":
+            return g.proposition(Exists(any_, time=spoken.time), mode, outer)
         case Related() if (there := somebody_behind(spoken, g)) is not None:
             return g.proposition(there, mode, outer)
         case Related():
-            return _related(past_hider(come_along(spoken), g), g, outer)
+            return walked(_related(past_hider(come_along(spoken), g), g, outer), g)
         case Has():
             window = at_moment(spoken.time, spoken.tense, g, outer)
             return replace(spoken, thing=g.thing(spoken.thing, window), time=window.term)

@@ -100,6 +100,12 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, time=Start())
         case Whether(that=Related(relation=relation, thing=Pronoun(form="it" | "that"), to=Ego())):
             return _by_side(relation, spoken, g)
+        case HowMuch(
+            of=Measured(
+                attribute="duration", thing=Feature(kind="light") as lit, tense="present" | "future"
+            )
+        ):  # "how long is this red light going to last?"
+            return When(Happens(Event("turn-colour", replace(lit, colour=None), tense="future")))
         case HowMuch(of=Measured(attribute="delay", thing=Feature(kind="light"), to=None) as cost):
             waited = Event("wait", Ego(), Feature("light"), time=cost.time, tense=cost.tense)
             return HowLong(waited)  # "how long did that light hold us up?"

@@ -21,6 +21,8 @@ def several(
     """List those that a plural means, nearest first."""
     best = matches[0].total
     kept = [m for m in matches if m.total <= best + 2.0 * TIE]
+    if wanted.definite and len(kept) < (wanted.number or 1):
+        kept = list(matches)  # "have those two crossed?" is of both, whoever of them has
     exact = [m for m in kept if not m.misses.get("kind")]
     kept = exact if len(exact) >= (wanted.number or 1) else kept
     order = sorted(kept, key=lambda m: (m.look.distance, m.vehicle))

@@ -238,7 +238,8 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
     others = [m for m in good if m.vehicle not in _spoken_of(search)] if thing.other else good
     if not others:
         return Nobody(described=thing) if not thing.definite else _missing(search, None)
-    if thing.plural or (thing.number or 1) > 1:
+    ranked = thing.rank is not None or thing.extreme is not None
+    if thing.plural or ((thing.number or 1) > 1 and not ranked):
         chosen = several(g.context, thing, others, search.moment)
         return Vehicle(chosen[0]) if len(chosen) == 1 else Vehicles(chosen)
     options = choose(g.context, thing, others, search.moment, search.reference)

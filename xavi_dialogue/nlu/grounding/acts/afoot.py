@@ -1,0 +1,72 @@
+"""Afoot: what people on foot do, where it is put in words for vehicles."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from planner.trace import ON_FOOT
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Is,
+    Junction,
+    Lane,
+    Related,
+    Road,
+    Tense,
+    Thing,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.grounding.context import Grounder
+
+#: What leads a vehicle onto or across a road leads people over it.
+ACROSS: Final = frozenset[ActionName](
+    ("change-lane", "change-left", "change-right", "leave", "pull-out", "enter", "cut-in", "merge")
+)
+#: What is crossed where our way is: there is one crossing in view that matters, the one before us.
+_OURS: Final = (Junction, Lane, Road, Feature)
+
+
+def afoot(event: Event, g: Grounder) -> Event:
+    """Read "get across", "step out", "be over" of people on foot as crossing our way."""
+    if not on_foot(event.actor, g):
+        return event
+    action: ActionName = "cross" if event.action in ACROSS else event.action
+    if action != "cross":
+        return event
+    ours = event.object is None or isinstance(event.object, _OURS)
+    return replace(event, action=action, object=Ego() if ours else event.object, side=None)
+
+
+def on_foot(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether a thing, grounded or described, is one or several people on foot."""
+    match thing:
+        case Vehicle(number=number):
+            look = g.context.look(number, g.context.now)
+            return look is not None and look.kind in ON_FOOT
+        case Vehicles(numbers=numbers):
+            return bool(numbers) and all(on_foot(Vehicle(n), g) for n in numbers)
+        case Described(kind=kind) | Wanted(kind=kind):
+            return kind in ON_FOOT
+    return False
+
+
+def walked(of: Is | Related, g: Grounder) -> Is | Happens | Related:
+    """Read "they are over", "he is on the crossing" of people on foot as crossing our way."""
+    if not on_foot(of.thing, g):
+        return of
+    tense: Tense = "present" if of.tense == "future" else of.tense
+    match of:
+        case Is(state="over"):
+            tense = "perfect" if tense == "present" else tense
+        case Related(relation="on", to=Junction() | Road("own")):
+            pass
+        case _:
+            return of
+    return Happens(Event("cross", of.thing or Ego(), Ego(), tense=tense))
