@@ -11,7 +11,14 @@ from tests.sources import PACKAGES, Module, functions, imports, modules
 
 # Rooms from the world to the shell. A module may import its own room and those before it.
 ROOMS = (
-    ("sim.scene", "sim.network", "sim.lanes", "sim.lines", "sim.places", "sim.boxes"),
+    (
+        "sim.scene",
+        "sim.roads.network",
+        "sim.roads.lanes",
+        "sim.roads.lines",
+        "sim.roads.places",
+        "sim.boxes",
+    ),
     ("planner",),
     ("xavi_dialogue.domain",),
     ("xavi_dialogue.causal",),
@@ -31,19 +38,19 @@ PURE = (
 )
 APART = {"xavi_dialogue.nlu": "xavi_dialogue.nlg", "xavi_dialogue.nlg": "xavi_dialogue.nlu"}
 GATES = {  # each outside world enters through one file
-    "cryptography": "xavi_dialogue/transports/certificates.py",
+    "cryptography": "xavi_dialogue/bus/certificates.py",
     "libsumo": "sim/engine.py",
-    "sumolib": "sim/netreader.py",
-    "mcap": "xavi_dialogue/transports/mcap_file.py",
-    "playwright": "xavi_dialogue/app/bench/browser.py",
-    "sqlite3": "xavi_dialogue/transports/database.py",
-    "starlette": "xavi_dialogue/transports/web/site.py",
-    "uvicorn": "xavi_dialogue/transports/web/server.py",
-    "websockets": "xavi_dialogue/transports/web/server.py",
-    "zenoh": "xavi_dialogue/transports/zenoh_bus.py",
-    "zstandard": "xavi_dialogue/transports/mcap_file.py",
+    "sumolib": "sim/roads/netreader.py",
+    "mcap": "xavi_dialogue/storage/mcap_file.py",
+    "playwright": "benchmarks/service/browser.py",
+    "sqlite3": "xavi_dialogue/storage/database.py",
+    "starlette": "xavi_dialogue/dashboard/web/routes.py",
+    "uvicorn": "xavi_dialogue/dashboard/web/server.py",
+    "websockets": "xavi_dialogue/dashboard/web/server.py",
+    "zenoh": "xavi_dialogue/bus/zenoh_bus.py",
+    "zstandard": "xavi_dialogue/storage/mcap_file.py",
 }
-SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/transports/terminal.py"}
+SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/terminal/prompt.py"}
 IMPURE = {
     *("asyncio", "datetime", "http", "multiprocessing", "os", "pathlib", "secrets", "shutil"),
     *("socket", "sqlite3", "subprocess", "sys", "tempfile", "threading", "time", "uuid"),
@@ -106,8 +113,8 @@ def test_every_module_has_a_room() -> None:
 
 def test_the_scene_imports_nothing_of_ours() -> None:
     assert ours(modules()["sim.scene"]) == []
-    parts = {"sim.scene", "sim.lanes", "sim.lines", "sim.places"}
-    for name in ("sim.network", *parts):
+    parts = {"sim.scene", "sim.roads.lanes", "sim.roads.lines", "sim.roads.places"}
+    for name in ("sim.roads.network", *parts):
         assert set(ours(modules()[name])) <= parts
 
 
@@ -137,7 +144,7 @@ def test_the_planner_sees_of_the_world_the_scene_and_the_roads_alone() -> None:
     for name, module in modules().items():
         if within(name, "planner"):
             seen = {target for target in ours(module) if within(target, "sim")}
-            assert seen <= {"sim.scene", "sim.network", "sim.boxes"}, module.path
+            assert seen <= {"sim.scene", "sim.roads.network", "sim.boxes"}, module.path
 
 
 def test_nothing_in_the_planner_speaks_of_sumo() -> None:
