@@ -13,8 +13,6 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
-from benchmarks.commands import Measure, commands
-from benchmarks.reproduce.command import command as reproduce
 from xavi_dialogue.cli.commands import chat as riding
 from xavi_dialogue.cli.commands import dashboard, doctor, keys, sessions
 from xavi_dialogue.cli.commands import inspect as looking
@@ -118,14 +116,26 @@ def _long_options(command: Any) -> dict[str, str]:
     }
 
 
-def _measured(measure: Measure, as_json: bool) -> None:
-    with _errors():
-        found = measure(_note)
-    _write(to_json(found) if as_json else found.table())
+def _add_benchmarks() -> None:
+    """Add the commands that a checkout has besides those of an installation."""
+    top = Path(__file__).parents[1]
+    if not (top / "pyproject.toml").exists():
+        return
+    if str(top) not in sys.path:
+        sys.path.append(str(top))
+    from benchmarks.commands import Measure, commands
+    from benchmarks.reproduce.command import command as reproduce
+
+    def measured(measure: Measure, as_json: bool) -> None:
+        with _errors():
+            found = measure(_note)
+        _write(to_json(found) if as_json else found.table())
+
+    app.add_typer(commands(measured), name="bench")
+    app.command("reproduce")(reproduce(measured))
 
 
-app.add_typer(commands(_measured), name="bench")
-app.command("reproduce")(reproduce(_measured))
+_add_benchmarks()
 
 
 @contextlib.contextmanager

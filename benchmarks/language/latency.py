@@ -4,9 +4,7 @@ Caches of the modules that read texts and are bounded hold what texts brought al
 emptied before a text is timed. Unbounded ones hold the tables of grammar and word lists, and stay.
 """
 
-import sys
 import time
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from xavi_dialogue.domain.discourse import Discourse
@@ -16,10 +14,10 @@ from xavi_dialogue.explain.history.ride import Ride
 from xavi_dialogue.nlu.grounding.ground import ground
 from xavi_dialogue.nlu.grounding.result import Grounding
 from xavi_dialogue.nlu.parse import Parser
+from xavi_dialogue.process.caches import forget
 from xavi_dialogue.storage import ride_file
 
 RIDE = Path("transcripts/rides/s1-0.ride.jsonl.gz")
-_READING = "xavi_dialogue.nlu."
 
 
 def record_of(path: Path) -> Record:
@@ -35,21 +33,6 @@ def record_of(path: Path) -> Record:
 def understood(text: str, record: Record, discourse: Discourse) -> Grounding:
     """Read a text and ground it in the world of a record."""
     return ground(Parser().read(text), World(Ride(record)), discourse)
-
-
-def forget() -> None:
-    """Empty every bounded cache of the modules that read texts."""
-    for clear in _bounded():
-        clear()
-
-
-def _bounded() -> Iterator[Callable[[], None]]:
-    for name, module in list(sys.modules.items()):
-        if name.startswith(_READING):
-            for held in list(vars(module).values()):
-                parameters = getattr(held, "cache_parameters", None)
-                if parameters is not None and parameters()["maxsize"] is not None:
-                    yield held.cache_clear
 
 
 def hearing_time(

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from xavi_dialogue.process.exit_status import RunFault
+
 if TYPE_CHECKING:
     from playwright.sync_api import CDPSession, Page
 
@@ -15,7 +17,7 @@ PATIENCE = 60.0  # [s] for what a page comes to
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 
-class NoBrowser(Exception):
+class NoBrowser(RunFault):
     """There is no browser, or nothing to drive it with."""
 
 

@@ -1,8 +1,9 @@
 """What people on foot may be up to: to cross here, to walk on, or to stay.
 
 As with vehicles, a goal is the more probable, the less the observed track costs in excess of the
-best way to it (see `planner.prediction.likelihood`). Waiting at a red light, or for vehicles that do not make
-way, is never held against a goal; who stands though he might go has probably no mind to.
+best way to it (see `planner.prediction.likelihood`). Waiting at a red light, or for vehicles that
+do not make way, is never held against a goal. Somebody who stands though he might go has probably
+no mind to.
 """
 
 import math

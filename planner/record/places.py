@@ -1,7 +1,7 @@
 """What a trace records of the road: where everybody is on it, and what the ego comes to.
 
-SI units. All of it follows from the network, the scene and the ego's plan; planner.search.road_facts
-works it out.
+SI units. All of it follows from the network, the scene and the ego's plan;
+`planner.search.road_facts` works it out.
 """
 
 from typing import Literal

@@ -180,8 +180,8 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     """One simulation of the search.
 
     Many rollouts drive the very same line at the same speeds. It is recorded once: the later
-    ones carry `same_as`, the index of the first, and null path and speed. In a crowd, where a
-    trace would grow beyond MAX_BYTES, further rollouts go without their line (see planner.record.fitting).
+    ones carry `same_as`, the index of the first, and null path and speed. Where a trace would
+    grow beyond MAX_BYTES, further rollouts go without their line (planner.record.fitting).
     """
 
     index: int

@@ -44,7 +44,8 @@ class Task:
     yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
     pace: float = math.inf  # [m/s] faster than which it does not want to drive
     reacting: bool = False  # whether the others brake for who drives
-    #: links to come slowly to, and where [m] behind their lines to be slow: see planner.hidden_areas.caution
+    #: links to come slowly to, and where [m] behind their lines to be slow: see
+    #: planner.hidden_areas.caution
     slow: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
 

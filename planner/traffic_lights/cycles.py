@@ -1,7 +1,7 @@
 """How a traffic light may go on: from what was seen of its cycle, else from a stated prior.
 
-`planner.traffic_lights.greens` has the prior of how long a green lasts. Amber lasts as by the formula of the
-Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
+`planner.traffic_lights.greens` has the prior of how long a green lasts. Amber lasts as by the
+formula of the Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
 FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face one another
 are taken to be green together, and who has been held longest to come next.
 """

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from xavi_dialogue.bus.messages import HistoryReply, PastTurn
 from xavi_dialogue.dashboard.conversation import GLANCE, MAX_TURNS, Conversation
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.service.vehicle_session import MAX_PAST
+from xavi_dialogue.storage.turn_log import MAX_PAST
 
 
 def turn(text: str) -> PastTurn:

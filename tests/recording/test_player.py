@@ -345,8 +345,9 @@ def test_the_record_of_a_late_recorder_is_played_from_where_it_begins(tmp_path: 
 NO_SUMO = """
 import sys
 from pathlib import Path
-from xavi_dialogue.app import player, recorder, worker
-from xavi_dialogue.cli.commands import recording
+from xavi_dialogue.cli.commands import record
+from xavi_dialogue.recording import player, recorder
+from xavi_dialogue.vehicle import replan_worker
 player.load(Path(sys.argv[1]), None, print)
 print(sorted(name for name in sys.modules if name.startswith(("libsumo", "traci"))))
 """

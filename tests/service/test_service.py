@@ -47,10 +47,9 @@ from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.service.reorder_buffer import InOrder
 from xavi_dialogue.service.requests import Answer
 from xavi_dialogue.service.server import Service
-from xavi_dialogue.service.vehicle_session import MAX_PAST
 from xavi_dialogue.storage import turn_log as memory
 from xavi_dialogue.storage.conversations import DAY, New, NewTurn, RideName, Store
-from xavi_dialogue.storage.turn_log import PURGED_EVERY, Keeping, Memory
+from xavi_dialogue.storage.turn_log import MAX_PAST, PURGED_EVERY, Keeping, Memory
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 KEYS = Keys()

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from benchmarks.errors import FaultFound, ForeignUnusable, QuestionFileError
-from benchmarks.service.browser import NoBrowser
 from planner.driving.driver import DriverError
 from planner.record.trace import TraceError
 from sim.roads.netconvert import NetconvertMissing
@@ -22,7 +20,7 @@ from xavi_dialogue.dashboard.web.address import ListenError
 from xavi_dialogue.inspection.search_tree import TreeError
 from xavi_dialogue.inspection.trace_files import TraceFileError
 from xavi_dialogue.process.config import SettingsError
-from xavi_dialogue.process.exit_status import ExitStatus
+from xavi_dialogue.process.exit_status import ExitStatus, RunFault, UsageFault
 from xavi_dialogue.process.subprocesses import ChildFailed
 from xavi_dialogue.security.client_token import IdentityError
 from xavi_dialogue.security.provisioning import BadEndpoint, KeysError, KeysExist, NotOnlyKeys
@@ -41,16 +39,16 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     (
         (
             *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
-            *(TreeError, QuestionFileError, SessionUsageError, SettingsError, BadLink),
+            *(TreeError, UsageFault, SessionUsageError, SettingsError, BadLink),
             *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
-            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError, ForeignUnusable),
+            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError),
         ),
         ExitStatus.USAGE,
     ),
     (
         (
             *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(FaultFound, NoBrowser, StoreError, KeysError, IdentityError, RecordingError),
+            *(RunFault, StoreError, KeysError, IdentityError, RecordingError),
             NetconvertMissing,
         ),
         ExitStatus.FAILED,

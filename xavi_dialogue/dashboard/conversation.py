@@ -11,7 +11,7 @@ from xavi_dialogue.bus.sanitize import clean
 from xavi_dialogue.dashboard.views.evidence import has_evidence, vehicles_of
 from xavi_dialogue.dashboard.web.websocket_messages import Turns, TurnShown
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.service.vehicle_session import MAX_PAST
+from xavi_dialogue.storage.turn_log import MAX_PAST
 
 GLANCE = 5  # turns that are looked at for new ones
 MAX_TURNS = 500  # that are known of

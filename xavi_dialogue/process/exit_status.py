@@ -7,6 +7,14 @@ if TYPE_CHECKING:  # the command line needs the numbers at once, and replies lat
     from xavi_dialogue.dialogue.reply import Reply
 
 
+class UsageFault(ValueError):
+    """A user gave something that cannot be used; the message says how to mend it."""
+
+
+class RunFault(RuntimeError):
+    """A command could not do its work; the message says why."""
+
+
 class ExitStatus(IntEnum):
     """Exit statuses of `xavi`."""
 

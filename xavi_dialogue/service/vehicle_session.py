@@ -37,9 +37,9 @@ from xavi_dialogue.service.reorder_buffer import Heard, Ledger
 from xavi_dialogue.service.requests import Answer, Errand, PlanAgain, Question
 from xavi_dialogue.service.ride_tracker import Rides
 from xavi_dialogue.service.scheduler import Waiting
+from xavi_dialogue.storage.turn_log import MAX_PAST
 
 _LOG = logging.getLogger(__name__)
-MAX_PAST = 200  # turns of a session that are known of
 MAX_SESSIONS = 2000  # that are known of; who has been silent for longest is forgotten first
 
 

@@ -13,10 +13,10 @@ from pathlib import Path
 
 from planner.record.events import Event
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.service.vehicle_session import MAX_PAST
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
 from xavi_dialogue.storage.database import Damaged, StoreError, Unfit, Unpurged, Unwritable
 
+MAX_PAST = 200  # turns of a session that are known of
 _LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # in place of the digest of an owner that cannot be read: no token has it
 REST = 10.0  # times as long as an attempt took to fail, there is no other

@@ -15,7 +15,7 @@ from importlib.resources import files
 from types import FrameType
 from typing import TypeAlias, get_args
 
-from benchmarks.language.latency import forget
+from xavi_dialogue.process.caches import forget
 from xavi_dialogue.transcripts.replay import Written, by_ride, recording, replay_recorded
 from xavi_dialogue.service.in_process import make_mind
 from xavi_dialogue.dialogue.mind import Mind
