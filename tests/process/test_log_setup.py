@@ -79,7 +79,7 @@ def test_what_passengers_say_is_told_only_where_that_is_asked_for(form: Form) ->
     line = told(form, made)
     assert SECRET not in line
     assert "ValueError" in line
-    assert "test_logs.py" in line
+    assert "test_log_setup.py" in line
     assert told(form, made, dialogue=True).count(SECRET) == 5
 
 
