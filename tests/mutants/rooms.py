@@ -29,7 +29,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
 }
 #: The tests of these rooms, less those that are marked slow.
 TESTS = (
-    "tests/app/dashboard",
+    "tests/dashboard",
     "tests/service/test_evidence.py",
     "tests/chat/test_killed.py",
     "tests/nlg/test_narration.py",

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from sim import scenario
+from sim.setup import scenario
 from tests.panels.score import figures, read
 
 HERE = Path(__file__).parent
