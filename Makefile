@@ -52,10 +52,10 @@ format: develop ## put the code in its standard form
 	@$(BIN)/python -m ruff format
 
 schema: develop ## write docs/plan_trace.schema.json and docs/messages/ anew
-	@$(BIN)/python -m xavi_dialogue.transports.schema docs
+	@$(BIN)/python -m xavi_dialogue.bus.schema docs
 
 diagram: develop ## draw the conversation's states in ARCHITECTURE.md anew
-	@$(BIN)/python -m xavi_dialogue.app.diagram ARCHITECTURE.md
+	@$(BIN)/python -m xavi_dialogue.transcripts.state_diagram ARCHITECTURE.md
 
 bench: runtime ## measure; ARGS="dialogue --json" chooses
 	@$(BIN)/xavi bench $(or $(ARGS),plan)

@@ -116,7 +116,7 @@ kernels() { cat planner/kernels/*.py; }
 warm() {
     kernels | cmp -s - "$venv/warm" && return
     say "compiling the planner"
-    "$venv/bin/python" -m xavi_dialogue.app.warm ||
+    "$venv/bin/python" -m xavi_dialogue.vehicle.compile_kernels ||
         fail "the planner does not compile; its message stands above"
     kernels >"$venv/warm"
 }

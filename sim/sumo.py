@@ -11,19 +11,20 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from sim import appearance, routes
 from sim.boxes import overlap
-from sim.departing import depart, forget_stops, step
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
-from sim.levels import apart
-from sim.looking import Eyes, Painted, View
 from sim.names import VehicleNames
-from sim.netfile import read_network
-from sim.options import listed, of_ride
-from sim.scenario import Scenario
+from sim.perception import appearance
+from sim.perception.looking import Eyes, Painted, View
+from sim.roads.bridges import apart
+from sim.roads.netfile import read_network
 from sim.scene import Command, Scene, VehicleState
-from sim.source import FromConfiguration, FromRoutes
-from sim.spawning import with_spawn
+from sim.setup import routes
+from sim.setup.departing import depart, forget_stops, step
+from sim.setup.options import listed, of_ride
+from sim.setup.scenario import Scenario
+from sim.setup.source import FromConfiguration, FromRoutes
+from sim.setup.spawning import with_spawn
 
 __all__ = [
     "EgoGone",

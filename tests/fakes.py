@@ -5,15 +5,15 @@ from dataclasses import dataclass, field, replace
 
 import msgspec
 
-from planner.driver import DriveStep
-from planner.events import Event
-from planner.trace import PlanTrace, WhatIf
+from planner.driving.driver import DriveStep
+from planner.record.events import Event
+from planner.record.trace import PlanTrace, WhatIf
 from sim.scene import Command, Scene, VehicleState
 from tests.traces import Ride, s1_ride
-from xavi_dialogue.app.ride import Moment
+from xavi_dialogue.bus.messages import WhatIfRequest
 from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.domain.answers import NeedRollout
-from xavi_dialogue.transports.messages import WhatIfRequest
+from xavi_dialogue.vehicle.episode import Moment
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
 

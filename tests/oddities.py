@@ -1,10 +1,10 @@
 """More made-up rides: hold-ups of every kind, many options, a plan without hope."""
 
-from planner.events import Event
-from planner.trace import Action, HeldUp, HoldUp, NotApplicable
+from planner.record.events import Event
+from planner.record.trace import Action, HeldUp, HoldUp, NotApplicable
 from tests.planted import Actions, Moment, Seen, ride_of
 from tests.traces import Aim, Chosen, End, Way, World
-from xavi_dialogue.transports.ride_file import RecordedRide
+from xavi_dialogue.storage.ride_file import RecordedRide
 
 BEGUN = Event("action-started", 0.0, "continue", 0)
 NO_RIGHT = NotApplicable((), "change-right", "there is no lane to the right")

@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 import msgspec.structs
 import numpy as np
 
-from planner.events import Event
-from planner.trace import SAMPLE_PERIOD, Action, PlanTrace, Rollout, Track, WhatIf
+from planner.record.events import Event
+from planner.record.trace import SAMPLE_PERIOD, Action, PlanTrace, Rollout, Track, WhatIf
 from tests.traces import World, joints, prior, trace_of
 from xavi_dialogue.domain.answers import NeedRollout
-from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.ride_file import RecordedRide
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.ride_file import RecordedRide
 
 Actions = tuple[Action, ...]
 Pace = Callable[[Actions], tuple[float, ...]]  # [m/s] the ego's speeds in rollouts of a plan

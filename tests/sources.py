@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-PACKAGES = ("grammars", "planner", "sim", "xavi_dialogue")
+PACKAGES = ("benchmarks", "grammars", "planner", "sim", "xavi_dialogue")
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,14 @@
 import gzip
 from pathlib import Path
 
-from planner.events import Event
-from planner.trace import HeldUp, NotApplicable, PlanTrace, encode
+from planner.record.events import Event
+from planner.record.trace import HeldUp, NotApplicable, PlanTrace, encode
 from tests import oddities
 from tests.planted import Actions, Moment, Seen, decision, ride_of, without
 from tests.traces import Aim, Chosen, End, Way, World
-from xavi_dialogue.app.golden import BESIDE, ENDING, TRACES
-from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.ride_file import RecordedRide
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.ride_file import RecordedRide
+from xavi_dialogue.transcripts.replay import BESIDE, ENDING, TRACES
 
 FOLDER = Path(__file__).parents[1] / "transcripts" / TRACES
 NO_LEFT = NotApplicable((), "change-left", "there is no lane to the left")

@@ -124,13 +124,13 @@ def test_what_serves_the_passenger_is_not_enough_for_the_developer(checkout: Che
 
 def test_the_planner_is_compiled_once(checkout: Checkout) -> None:
     checkout.setup()
-    assert "-m xavi_dialogue.app.warm" in checkout.log
+    assert "-m xavi_dialogue.vehicle.compile_kernels" in checkout.log
     checkout.setup("develop")
     assert "warm" not in checkout.log
     with (checkout.folder / "planner" / "kernels" / "driving.py").open("a") as changed:
         changed.write("# changed\n")
     assert checkout.setup().returncode == 0
-    assert checkout.log == "-m xavi_dialogue.app.warm\n"
+    assert checkout.log == "-m xavi_dialogue.vehicle.compile_kernels\n"
 
 
 def test_a_planner_that_does_not_compile_is_tried_again(checkout: Checkout) -> None:
@@ -138,7 +138,7 @@ def test_a_planner_that_does_not_compile_is_tried_again(checkout: Checkout) -> N
     assert checkout.setup().returncode == 1
     checkout.mends("warm")
     assert checkout.setup().returncode == 0
-    assert checkout.log == "-m xavi_dialogue.app.warm\n"
+    assert checkout.log == "-m xavi_dialogue.vehicle.compile_kernels\n"
 
 
 def test_an_installation_that_broke_off_is_made_anew(checkout: Checkout) -> None:

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from planner.trace import decode, encode
+from planner.record.trace import decode, encode
 from tests import stories
-from xavi_dialogue.app.coverage import measure
-from xavi_dialogue.app.golden import (
+from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.transcripts.coverage import measure
+from xavi_dialogue.transcripts.replay import (
     BESIDE,
     ENDING,
     RIDES,
@@ -23,8 +24,7 @@ from xavi_dialogue.app.golden import (
     replay_recorded,
     transcripts_in,
 )
-from xavi_dialogue.app.local import make_mind
-from xavi_dialogue.transports.transcript import Comment, Exchange, write
+from xavi_dialogue.transcripts.transcript import Comment, Exchange, write
 
 FOLDER = Path(__file__).parents[1] / "transcripts"
 TRANSCRIPTS = transcripts_in(FOLDER)
@@ -39,9 +39,9 @@ REPLAY = """
 import sys
 from pathlib import Path
 import msgspec
-from xavi_dialogue.app.golden import recording, replay_recorded, transcripts_in
-from xavi_dialogue.app.local import make_mind
-from xavi_dialogue.transports.transcript import write
+from xavi_dialogue.transcripts.replay import recording, replay_recorded, transcripts_in
+from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.transcripts.transcript import write
 for one in transcripts_in(Path(sys.argv[1])):
     played = replay_recorded(one.transcript, recording(one.ride), make_mind())
     sys.stdout.write(write(played.transcript))

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import msgspec
 import pytest
 
-from planner.trace import PlanTrace, Rollout
-from sim import scenario
-from xavi_dialogue.app.local import Conversation, drive_to, make_mind, planner_for
-from xavi_dialogue.app.ride import network_of, start
+from planner.record.trace import PlanTrace, Rollout
+from sim.setup import scenario
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.service.in_process import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.vehicle.episode import network_of, start
 
 pytestmark = pytest.mark.slow
 

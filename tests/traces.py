@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.trace import (
+from planner.record.events import Event
+from planner.record.trace import (
     SCHEMA,
     Action,
     EgoGoal,

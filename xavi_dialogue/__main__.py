@@ -13,21 +13,14 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
-from xavi_dialogue.app.bench.commands import Measure, commands
-from xavi_dialogue.app.commands import (
-    dashboard,
-    doctor,
-    keys,
-    looking,
-    processes,
-    recording,
-    riding,
-    sessions,
-)
-from xavi_dialogue.app.commands.shell import Shell, to_json
-from xavi_dialogue.app.exit_status import ExitStatus
-from xavi_dialogue.app.kernels import find_place
-from xavi_dialogue.app.reproduce.command import command as reproduce
+from xavi_dialogue.cli.commands import chat as riding
+from xavi_dialogue.cli.commands import dashboard, doctor, keys, sessions
+from xavi_dialogue.cli.commands import inspect as looking
+from xavi_dialogue.cli.commands import record as recording
+from xavi_dialogue.cli.commands import serve as processes
+from xavi_dialogue.cli.commands.common import Shell, to_json
+from xavi_dialogue.process.exit_status import ExitStatus
+from xavi_dialogue.process.kernel_cache import find_place
 
 
 class _Commands(TyperGroup):
@@ -43,7 +36,7 @@ class _Commands(TyperGroup):
 
 def _place(context: Any, error: typer.BadParameter) -> None:
     """Say where a value was set, if a file of settings did."""
-    from xavi_dialogue.app import settings
+    from xavi_dialogue.process import config as settings
 
     command, parameter = error.ctx, error.param
     if command is None or parameter is None or parameter.name is None:
@@ -90,7 +83,7 @@ def _options(
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
 ) -> None:
-    from xavi_dialogue.app.settings import SettingsError
+    from xavi_dialogue.process.config import SettingsError
 
     with _errors():
         try:
@@ -103,7 +96,7 @@ def _options(
 
 def _settings(context: typer.Context, given: Path | None) -> dict[str, Any]:
     """What the file of settings says, if there is one."""
-    from xavi_dialogue.app import settings
+    from xavi_dialogue.process import config as settings
 
     path = settings.default_path() if given is None else given
     if given is None and not path.exists():
@@ -123,14 +116,26 @@ def _long_options(command: Any) -> dict[str, str]:
     }
 
 
-def _measured(measure: Measure, as_json: bool) -> None:
-    with _errors():
-        found = measure(_note)
-    _write(to_json(found) if as_json else found.table())
+def _add_benchmarks() -> None:
+    """Add the commands that a checkout has besides those of an installation."""
+    top = Path(__file__).parents[1]
+    if not (top / "pyproject.toml").exists():
+        return
+    if str(top) not in sys.path:
+        sys.path.append(str(top))
+    from benchmarks.commands import Measure, commands
+    from benchmarks.reproduce.command import command as reproduce
+
+    def measured(measure: Measure, as_json: bool) -> None:
+        with _errors():
+            found = measure(_note)
+        _write(to_json(found) if as_json else found.table())
+
+    app.add_typer(commands(measured), name="bench")
+    app.command("reproduce")(reproduce(measured))
 
 
-app.add_typer(commands(_measured), name="bench")
-app.command("reproduce")(reproduce(_measured))
+_add_benchmarks()
 
 
 @contextlib.contextmanager
@@ -139,7 +144,7 @@ def _errors() -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        from xavi_dialogue.app.failures import failure
+        from xavi_dialogue.cli.errors import failure
 
         known = failure(error)
         if known is None:
@@ -163,7 +168,7 @@ def _note(text: str) -> None:
     if sys.stderr.isatty():
         from shutil import get_terminal_size
 
-        from xavi_dialogue.transports.commands import wrapper
+        from xavi_dialogue.terminal.slash_commands import wrapper
 
         line = wrapper(get_terminal_size().columns).fill(line)
     print(f"{line}\n", end="", file=sys.stderr, flush=True)  # in one piece, whatever else writes

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Error, expect, sync_playwright
 
+from benchmarks.service.browser import options, program
 from tests.browser.screen import PATIENCE, Screen
 from tests.drills.processes import Crew
-from xavi_dialogue.app.bench.browser import options, program
 
 
 @pytest.fixture(scope="session")

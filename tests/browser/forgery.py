@@ -7,14 +7,13 @@ from dataclasses import dataclass, field
 
 import msgspec
 
-from planner.events import Event
-from planner.trace import PlanTrace
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
 from sim.scene import VehicleState
 from tests.traces import s1_ride
-from xavi_dialogue.app.alive import Alive
-from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.transports.bus import Bus, BusError, Call, Keys
-from xavi_dialogue.transports.messages import (
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys
+from xavi_dialogue.bus.messages import (
     AskReply,
     AskRequest,
     HistoryReply,
@@ -23,6 +22,7 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
+from xavi_dialogue.dialogue.reply import Reply
 
 MARKUP = (
     "<img class=forged src=x onerror=\"window.__pwned='img'\">",

@@ -13,10 +13,10 @@ from typing import Any
 
 from playwright.sync_api import Browser, expect, sync_playwright
 
+from benchmarks.service.browser import options, program
 from tests.browser.screen import Screen
 from tests.browser.served import S1, dashboard
 from tests.drills.processes import Crew
-from xavi_dialogue.app.bench.browser import options, program
 
 QUESTION = "Why did you change lanes instead of going straight?"
 MOMENT = 4.4  # [s] the lane change is under way, and both lines lie ahead

@@ -6,15 +6,15 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import expect
 
+from benchmarks.service.synthetic_vehicle import ForgedCar
 from tests.browser.conftest import Visits
 from tests.browser.forgery import MARKUP, ForgedService, decisions, events, traffic
 from tests.browser.screen import Screen
 from tests.browser.served import Dashboard, dashboard
 from tests.drills.processes import Crew, free_endpoint
-from xavi_dialogue.app.bench.forged import ForgedCar
-from xavi_dialogue.transports.bus import Keys
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.zenoh_bus import host
+from xavi_dialogue.bus.interface import Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.zenoh_bus import host
 
 PERIOD = 0.1  # [s] between scenes
 #: Whether the decision in force has come, with all that there is to it.

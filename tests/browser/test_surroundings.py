@@ -10,16 +10,16 @@ import pytest
 from msgspec import structs
 from playwright.sync_api import expect
 
-from planner.hidden_areas import Phantom
+from benchmarks.service.synthetic_vehicle import ForgedCar
+from planner.record.hidden_record import Phantom
 from sim.scene import Light, LightState, PersonState, Scene, Signal, Unseen, VehicleState
 from tests.browser.conftest import Visits
 from tests.browser.served import Dashboard, dashboard
 from tests.drills.processes import Crew, free_endpoint
 from tests.traces import s1_ride
-from xavi_dialogue.app.bench.forged import ForgedCar
-from xavi_dialogue.transports.bus import Keys
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.zenoh_bus import host
+from xavi_dialogue.bus.interface import Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.zenoh_bus import host
 
 ROADS = Path("sim/scenarios/junction/junction.net.xml")
 BEGIN = 10.0  # [s]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner.trace import COMPONENTS
+from planner.record.trace import COMPONENTS
 from tests.causal import oracle
 from xavi_dialogue.causal import effects as effect_module
 from xavi_dialogue.causal import holdups, seeing

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from xavi_dialogue.app.bench.explain import stories
-from xavi_dialogue.app.bench.factorisations import BEGIN, END, summary, table, written
+from benchmarks.explain.explain import stories
+from benchmarks.explain.factorisations import BEGIN, END, summary, table, written
 from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT
-from xavi_dialogue.transports import ride_file
+from xavi_dialogue.storage import ride_file
 
 
 def rides(root: Path):

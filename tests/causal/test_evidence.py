@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from planner.trace import OUTCOMES
+from planner.record.trace import OUTCOMES
 from tests.traces import Aim, End, Way, World, joints, prior, random_world, trace_of
 from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT, enough

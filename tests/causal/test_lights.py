@@ -3,9 +3,9 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.traffic_lights import LightCourse, LightPrediction, LightSample, Showing
+from benchmarks.truth.reckoning import Reckoning, joint
+from planner.record.light_record import LightCourse, LightPrediction, LightSample, Showing
 from tests.traces import s1_ride
-from xavi_dialogue.app.bench.truth.reckoning import Reckoning, joint
 from xavi_dialogue.causal.influence import influence
 from xavi_dialogue.causal.model import CausalModel
 

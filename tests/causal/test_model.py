@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.trace import OUTCOMES, Sample
+from planner.record.trace import OUTCOMES, Sample
 from tests.traces import Aim, End, Way, World, joints, prior, random_world, trace_of
 from xavi_dialogue.causal.model import CausalModel, InconsistentTrace
 

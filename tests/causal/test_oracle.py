@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from planner.trace import ACTIONS, OUTCOMES
+from planner.record.trace import ACTIONS, OUTCOMES
 from tests.causal import checks, oracle
 from tests.traces import ragged_trace
 from xavi_dialogue.causal.model import CausalModel

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from planner.reward import WEIGHTS
-from planner.trace import HeldUp, HoldUp, PlanTrace
+from planner.record.trace import HeldUp, HoldUp, PlanTrace
+from planner.rollouts.reward import WEIGHTS
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.causal.effects import SCALES, effects
 from xavi_dialogue.causal.holdups import colliding_choice, hold_ups

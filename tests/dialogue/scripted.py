@@ -1,6 +1,6 @@
 """A scripted mind: it understands the names of what it shall do."""
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.domain.answers import (
     Activity,

@@ -3,8 +3,7 @@
 from functools import cache
 from pathlib import Path
 
-from planner.trace import PlanTrace
-from xavi_dialogue.app.local import make_mind
+from planner.record.trace import PlanTrace
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
@@ -21,7 +20,8 @@ from xavi_dialogue.dialogue.events import (
 from xavi_dialogue.dialogue.manager import advance, fold
 from xavi_dialogue.dialogue.state import Dialogue, Session
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.transports import ride_file
+from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.storage import ride_file
 
 RIDES = Path(__file__).parents[2] / "transcripts" / "rides"
 MIND = make_mind()

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event
+from planner.record.events import Event
 from tests.dialogue.test_states import MIND, PLANNED, RIDE
 from tests.fakes import again
 from xavi_dialogue.dialogue import manager

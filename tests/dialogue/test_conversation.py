@@ -202,7 +202,7 @@ def test_without_the_rollouts_the_rest_is_answered_all_the_same() -> None:
 def _planned_again():  # type: ignore[no-untyped-def]
     from msgspec.structs import replace
 
-    from planner.trace import WhatIf
+    from planner.record.trace import WhatIf
 
     return replace(s1_ride().traces[1], what_if=WhatIf(removed=1))
 

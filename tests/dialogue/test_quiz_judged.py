@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.trace import Action
+from planner.record.trace import Action
 from tests.dialogue.test_quiz_questions import sooner_with, who, without
 from xavi_dialogue.dialogue.quiz_replies import Sign, judged, signs
 from xavi_dialogue.dialogue.turn import Judgement, Quiz

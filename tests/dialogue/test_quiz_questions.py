@@ -6,8 +6,8 @@ from typing import Any, cast
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Happened
-from planner.trace import Action
+from planner.record.events import Event as Happened
+from planner.record.trace import Action
 from tests.dialogue.test_chain import turn
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.quiz import MANY, candidates, solved

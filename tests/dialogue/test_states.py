@@ -11,7 +11,6 @@ from sim.scene import Scene
 from tests.dialogue.scripted import scripted_mind
 from tests.fakes import again
 from tests.traces import s1_ride
-from xavi_dialogue.app.diagram import drawn
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,
@@ -43,6 +42,7 @@ from xavi_dialogue.dialogue.states import (
 )
 from xavi_dialogue.dialogue.turn import Turn
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.transcripts.state_diagram import drawn
 
 ROOT = Path(__file__).resolve().parents[2]
 RIDE = s1_ride(draws=20)

@@ -10,10 +10,9 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from tests.drills.processes import DEADLINE, LATE, PATIENCE, until
-from xavi_dialogue.app.client import new_request
-from xavi_dialogue.transports.bus import Bus, Keys, NoAnswer, Outcome, Refused, call
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.messages import (
+from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, call
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import (
     AliveReport,
     AskReply,
     AskRequest,
@@ -28,7 +27,8 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.transports.zenoh_bus import join
+from xavi_dialogue.bus.zenoh_bus import join
+from xavi_dialogue.chat.client import new_request
 
 M = TypeVar("M", bound=Message)
 RECENT = 50  # scenes among which the latest is

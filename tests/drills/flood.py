@@ -14,16 +14,16 @@ from collections.abc import Iterator
 
 import msgspec
 
-from xavi_dialogue.transports.bus import Bus, BusError, Keys
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.messages import (
+from xavi_dialogue.bus.interface import Bus, BusError, Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import (
     AskRequest,
     EvidenceRequest,
     ForgetRequest,
     HistoryRequest,
     pack,
 )
-from xavi_dialogue.transports.zenoh_bus import join
+from xavi_dialogue.bus.zenoh_bus import join
 
 READY = "ready"
 PERIOD = 0.004  # [s] between messages

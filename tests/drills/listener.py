@@ -9,9 +9,9 @@ it tells how much it heard.
 import sys
 from collections import Counter
 
-from xavi_dialogue.transports.bus import Keys
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.zenoh_bus import join
+from xavi_dialogue.bus.interface import Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.zenoh_bus import join
 
 READY = "ready"
 

@@ -11,7 +11,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from tests.drills.processes import Crew, Process, until
-from xavi_dialogue.app.client import new_request
+from xavi_dialogue.chat.client import new_request
 
 SAYS = "xavi: dashboard at "
 NOTE = "xavi: "  # how every line on standard error begins

@@ -15,12 +15,12 @@ from functools import partial
 
 import msgspec
 
-from xavi_dialogue.app import control
-from xavi_dialogue.app.report import KEPT_EVENTS, KEPT_TRACES
-from xavi_dialogue.transports.bus import Bus, BusError, Call, Keys, Outcome, Presence, Refused
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.messages import WhatIfRequest, unpack
-from xavi_dialogue.transports.zenoh_bus import join
+from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Outcome, Presence, Refused
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import WhatIfRequest, unpack
+from xavi_dialogue.bus.zenoh_bus import join
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 
 LATEST = 0.6  # [s] that a message is held back at most
 KEYS = Keys()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from tests.drills.bus import Ear, Passenger, on_bus
 from tests.drills.processes import Crew, Process, free_endpoint, until
-from xavi_dialogue.transports.bus import Bus
+from xavi_dialogue.bus.interface import Bus
 
 HALT = 8.0  # [s] by then the car of s1 has changed lanes, and has more of its way before it
 WHY = "Why did you change lanes?"  # has the planner plan again, without the vehicle to blame
@@ -29,7 +29,7 @@ class Stage:
 
     def planners(self) -> list[int]:
         """The processes in which the car plans again."""
-        return self.crew.pids("xavi_dialogue.app.worker")
+        return self.crew.pids("xavi_dialogue.vehicle.replan_worker")
 
     def ready(self) -> bool:
         """Whether the car has a planner that waits for work."""

@@ -15,23 +15,17 @@ from pathlib import Path
 
 import pytest
 
-from planner.trace import Action
-from sim.scenario import load
+from planner.record.trace import Action
+from sim.setup.scenario import load
 from sim.sumo import EgoGone, SumoFailed
-from tests.app.desk import PATIENCE, children, there, until
-from tests.app.test_outbox import Bench as StalledBench
 from tests.fakes import s1_moments
-from xavi_dialogue.app.alive import Alive
-from xavi_dialogue.app.car import COUNTERS, Car, Pace
-from xavi_dialogue.app.company import Attendance, Dismissed, NameTaken, claim
-from xavi_dialogue.app.control import Order, Orders, Quit, Signals
-from xavi_dialogue.app.drive import _remedied
-from xavi_dialogue.app.report import Reporter
-from xavi_dialogue.app.ride import Moment
-from xavi_dialogue.transports.bus import Bus, Call, Keys, NoAnswer, call
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.memory_bus import MemoryHub
-from xavi_dialogue.transports.messages import (
+from tests.service.desk import PATIENCE, children, there, until
+from tests.vehicle.test_outbox import Bench as StalledBench
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import Bus, Call, Keys, NoAnswer, call
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.memory_bus import MemoryHub
+from xavi_dialogue.bus.messages import (
     AliveReport,
     EventReport,
     SceneReport,
@@ -40,7 +34,13 @@ from xavi_dialogue.transports.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.transports.zenoh_bus import host, join
+from xavi_dialogue.bus.zenoh_bus import host, join
+from xavi_dialogue.process.child_commands import Order, Orders, Quit, Signals
+from xavi_dialogue.vehicle.bus_session import Attendance, Dismissed, NameTaken, claim
+from xavi_dialogue.vehicle.episode import Moment
+from xavi_dialogue.vehicle.main import _remedied
+from xavi_dialogue.vehicle.node import COUNTERS, Car, Pace
+from xavi_dialogue.vehicle.telemetry import Reporter
 
 KEY = Keys().of
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tests.drills.processes import DEADLINE, Crew, until
 from tests.drills.stage import HALT, WHERE, staged
-from xavi_dialogue.transports.store import Store
+from xavi_dialogue.storage.conversations import Store
 
 HOUR = 3600
 CLOCK = Path(__file__).parent / "clock"

@@ -7,7 +7,7 @@ import pytest
 from tests.drills.bus import Answer, Passenger
 from tests.drills.processes import DEADLINE, Crew, until
 from tests.drills.stage import HALT, WHERE, WHY, staged
-from xavi_dialogue.transports.store import Store
+from xavi_dialogue.storage.conversations import Store
 
 MANY = 100
 IN_TIME = DEADLINE + 1.0  # [s]

@@ -6,9 +6,9 @@ from pathlib import Path
 from tests.drills.bus import Passenger, on_bus
 from tests.drills.processes import PATIENCE, Crew, Process, free_endpoint, until
 from tests.drills.stage import HALT, staged
-from xavi_dialogue.transports.mcap_file import read
-from xavi_dialogue.transports.recording import Entry
-from xavi_dialogue.transports.store import Store
+from xavi_dialogue.storage.conversations import Store
+from xavi_dialogue.storage.mcap_file import read
+from xavi_dialogue.storage.recording_format import Entry
 
 FULL = "what is said is not kept until this is mended"
 MENDED = "what is said is kept again, and what was missed as well"

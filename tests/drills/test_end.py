@@ -9,8 +9,8 @@ import pytest
 from tests.drills.bus import Ear, on_bus
 from tests.drills.processes import ENDED, Crew, Process, free_endpoint, until
 from tests.drills.stage import HALT, WHERE, WHY, staged
-from xavi_dialogue.transports.mcap_file import read
-from xavi_dialogue.transports.recording import Entry
+from xavi_dialogue.storage.mcap_file import read
+from xavi_dialogue.storage.recording_format import Entry
 
 TERM, INT = signal.SIGTERM, signal.SIGINT
 CROWD = 300  # questions; none of them is answered before the signal comes

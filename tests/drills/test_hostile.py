@@ -5,7 +5,7 @@ import time
 from tests.drills.bus import Passenger
 from tests.drills.processes import DEADLINE, ENDED, Crew, resident_bytes
 from tests.drills.stage import HALT, WHERE, WHY, staged
-from xavi_dialogue.app.client import new_request
+from xavi_dialogue.chat.client import new_request
 
 IN_TIME = DEADLINE + 1.0  # [s]
 MOST = 90.0  # [s] until the flood has done its worst

@@ -13,10 +13,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from tests.app.desk import children, there, until
+from tests.service.desk import children, there, until
 from xavi_dialogue.__main__ import app
-from xavi_dialogue.app.children import Child, ChildFailed, Steady
-from xavi_dialogue.transports.store import Store
+from xavi_dialogue.process.subprocesses import Child, ChildFailed, Steady
+from xavi_dialogue.storage.conversations import Store
 
 PATIENCE = 120.0  # [s] before a test gives up on what never comes
 WHY = "Why did you do that?"

@@ -12,15 +12,15 @@ from pathlib import Path
 
 import pytest
 
-from tests.app.test_player import Ears, recorded
-from tests.app.test_recorder import FakeCar, turn
 from tests.fakes import s1_moments
-from xavi_dialogue.transports.bus import Keys, call
-from xavi_dialogue.transports.link import Link
-from xavi_dialogue.transports.mcap_file import read
-from xavi_dialogue.transports.messages import AliveReport, unpack
-from xavi_dialogue.transports.recording import Entry
-from xavi_dialogue.transports.zenoh_bus import ZenohBus, host
+from tests.recording.test_player import Ears, recorded
+from tests.recording.test_recorder import FakeCar, turn
+from xavi_dialogue.bus.interface import Keys, call
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import AliveReport, unpack
+from xavi_dialogue.bus.zenoh_bus import ZenohBus, host
+from xavi_dialogue.storage.mcap_file import read
+from xavi_dialogue.storage.recording_format import Entry
 
 pytestmark = pytest.mark.slow
 

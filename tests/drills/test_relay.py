@@ -7,7 +7,7 @@ from tests.drills.bus import Answer, Ear, Passenger, on_bus
 from tests.drills.processes import DEADLINE, Crew, free_endpoint, until
 from tests.drills.relay import Faults
 from tests.drills.stage import WHERE, WHY, Stage, staged
-from xavi_dialogue.transports.bus import Bus
+from xavi_dialogue.bus.interface import Bus
 
 MOMENTS = (2.0, 5.0, 8.0, 12.0)
 QUESTIONS = (WHERE, WHY, "What if you had stopped?", "How fast are we going?")

@@ -7,7 +7,7 @@ from pathlib import Path
 from tests.drills.bus import Ear, Passenger, on_bus
 from tests.drills.processes import Crew, free_endpoint, until
 from tests.drills.stage import WHERE
-from xavi_dialogue.transports.store import Store
+from xavi_dialogue.storage.conversations import Store
 
 QUESTIONS = ("Hello!", WHERE, "What are you doing?", "Why?", WHERE)
 SPEED = 0.5  # simulated seconds per second

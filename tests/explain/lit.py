@@ -11,8 +11,15 @@ from functools import cache
 
 from msgspec.structs import replace
 
-from planner.road import LightAhead, RoadFacts, RouteStep
-from planner.trace import (
+from planner.record.light_record import (
+    HeldByLight,
+    LightCourse,
+    LightPrediction,
+    LightSample,
+    Showing,
+)
+from planner.record.places import LightAhead, RoadFacts, RouteStep
+from planner.record.trace import (
     EgoGoal,
     PlannedAction,
     PlanTrace,
@@ -21,13 +28,6 @@ from planner.trace import (
     TimedAction,
     Track,
     WhatIf,
-)
-from planner.traffic_lights import (
-    HeldByLight,
-    LightCourse,
-    LightPrediction,
-    LightSample,
-    Showing,
 )
 from sim.scene import Signal, VehicleState
 from xavi_dialogue.domain.answers import NeedRollout

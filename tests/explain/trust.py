@@ -1,6 +1,6 @@
 """What is told of a probability among rollouts, by hand."""
 
-from planner.trace import Outcome
+from planner.record.trace import Outcome
 from xavi_dialogue.explain.causes.ranges import table
 
 ERROR = table().model_error  # probability that rollouts tell nothing of the outcome

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.trace import COMPONENTS
+from planner.record.trace import COMPONENTS
 from tests.nlg import causal_cases, light_cases, rare_cases, supposed_cases
 from tests.nlg.causal_cases import AHEAD, CHANGED, LATER, RISKY, effect
 from tests.nlg.scenery import CONTEXT

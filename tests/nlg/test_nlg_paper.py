@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.trace import UNITS
+from planner.record.trace import UNITS
 from xavi_dialogue.domain.answers import (
     Cause,
     ChoiceReason,

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from xavi_dialogue.app.bench.learning import Asked, Example, learnt, read
+from benchmarks.language.learning import Asked, Example, learnt, read
 from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.domain.terms import AtDecision, Described, Ego, Event, Happens, Vehicle
 from xavi_dialogue.nlu.intents.classifier import Intent, judge, model

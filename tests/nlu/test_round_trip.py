@@ -5,7 +5,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from xavi_dialogue.app.bench.questions import read
+from benchmarks.language.questions import read
 from xavi_dialogue.domain.meaning import Reading
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.nlu.projection import QueryFields, project

@@ -6,8 +6,8 @@ hides the road from the west, until the ego is near.
 
 from pathlib import Path
 
-from sim.netconvert import compile_plain
-from sim.scenario import Scenario, load
+from sim.roads.netconvert import compile_plain
+from sim.setup.scenario import Scenario, load
 
 ARMS = {"west": (-200, 0), "east": (200, 0), "south": (0, -160), "north": (0, 180)}
 HOUSE = (-60.0, -60.0, -7.0, -6.0)  # [m] west, south, east and north

@@ -9,19 +9,19 @@ from functools import cache
 
 import numpy as np
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.cycles import Watched
 from planner.kernels.course import Codes
-from planner.obstacles import Obstacle
-from planner.routes import Refusal
-from planner.signals import MEANING, OPEN, Lights
-from planner.trace import Action
-from planner.tracks import links_of
-from planner.traffic_lights import Showing
-from planner.trajectory import Roads
-from sim.lanes import Lane, Link
-from sim.lines import point_at
-from sim.network import Direction, Location, Network
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import links_of
+from planner.record.light_record import Showing
+from planner.record.trace import Action
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.traffic_lights.cycles import Watched
+from planner.traffic_lights.signals import MEANING, OPEN, Lights
+from sim.roads.lanes import Lane, Link
+from sim.roads.lines import point_at
+from sim.roads.network import Direction, Location, Network
 from sim.scene import Point, Signal
 from tests.planner.nets import lane
 

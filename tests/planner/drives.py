@@ -9,11 +9,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from planner.forward import DT
-from planner.obstacles import Obstacle
-from planner.tracks import Observed
-from planner.trajectory import Roads
-from sim.network import Lane, Link
+from planner.motion.forward import DT
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import Observed
+from planner.roads.trajectory import Roads
+from sim.roads.network import Lane, Link
 from sim.scene import Point
 from tests.planner.nets import drawn, lane, link
 

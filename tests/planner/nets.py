@@ -8,12 +8,12 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from planner.actions import Situation
-from planner.trajectory import Roads
-from sim.netfile import read_network
-from sim.network import Direction, Lane, Link, Location, Network, cumulative, point_at
-from sim.scenario import load
+from planner.manoeuvres.actions import Situation
+from planner.roads.trajectory import Roads
+from sim.roads.netfile import read_network
+from sim.roads.network import Direction, Lane, Link, Location, Network, cumulative, point_at
 from sim.scene import Point
+from sim.setup.scenario import load
 
 SCENARIOS = ("s1", "s2", "s3", "s4", "motorway", "town")
 

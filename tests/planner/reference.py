@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.forward import DT, Motion, advance
 from planner.kernels.collision import BERTH, SAFE_CUT_IN
 from planner.kernels.driving import (
     ACCELERATION,
@@ -33,10 +32,11 @@ from planner.kernels.driving import (
     STANDING_TIME,
 )
 from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
-from planner.manoeuvres import ActionPlan, GiveWay, KeepClear, LetCross
-from planner.obstacles import Obstacle
-from planner.trace import HoldUp
-from planner.trajectory import Array, Path, relative
+from planner.manoeuvres.plans import ActionPlan, GiveWay, KeepClear, LetCross
+from planner.motion.forward import DT, Motion, advance
+from planner.motion.obstacles import Obstacle
+from planner.record.trace import HoldUp
+from planner.roads.trajectory import Array, Path, relative
 
 
 class Occupancy:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.actions import (
+from planner.manoeuvres.actions import (
     CLEAR,
     COMFORT,
     LANE_CHANGE_LENGTH,
@@ -18,11 +18,11 @@ from planner.actions import (
     Turn,
     expand,
 )
-from planner.manoeuvres import KeepClear
-from planner.routes import Refusal, onward, straight_on
-from planner.trace import ACTIONS, Action, EgoGoal
-from planner.trajectory import LATERAL_ACCELERATION, Roads
-from sim.network import Direction, project
+from planner.manoeuvres.plans import KeepClear
+from planner.record.trace import ACTIONS, Action, EgoGoal
+from planner.roads.routes import Refusal, onward, straight_on
+from planner.roads.trajectory import LATERAL_ACCELERATION, Roads
+from sim.roads.network import Direction, project
 from tests.planner.nets import drawn, lane, on_lane, shipped
 from tests.planner.nets import link as link_to
 from tests.planner.worlds import VIEW, before_end, goal, link, plan_of, roads, situation

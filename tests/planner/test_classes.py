@@ -1,9 +1,9 @@
 """The roads as others than cars may use them."""
 
-from planner.classes import roads_of
-from planner.trajectory import Roads
-from sim.lanes import Lane, Link
-from sim.network import Network
+from planner.roads.classes import roads_of
+from planner.roads.trajectory import Roads
+from sim.roads.lanes import Lane, Link
+from sim.roads.network import Network
 
 CAR, BOTH, BICYCLE = frozenset({"passenger"}), frozenset({"passenger", "bicycle"}), {"bicycle"}
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.clearance import MARGIN, first_touch
+from planner.manoeuvres.clearance import MARGIN, first_touch
 from sim.boxes import overlap
 from sim.scene import VehicleState
 from tests.planner.worlds import LENGTH, WIDTH, plan_of, situation

@@ -9,11 +9,11 @@ from typing import TypeAlias
 import numpy as np
 import pytest
 
-from planner.comparison import draw, likeliest, weighted
-from planner.goals import Goal
-from planner.obstacles import Motions, Obstacle
-from planner.recognise import Belief, Trajectory
-from planner.trace import Sample
+from planner.motion.obstacles import Motions, Obstacle
+from planner.prediction.goals import Goal
+from planner.prediction.recognise import Belief, Trajectory
+from planner.record.trace import Sample
+from planner.search.comparison import draw, likeliest, weighted
 
 Known: TypeAlias = dict[int, tuple[Belief, ...]]
 

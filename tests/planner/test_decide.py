@@ -4,8 +4,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from planner.decide import decide
-from planner.trace import (
+from planner.record.trace import (
     ACTIONS,
     COMPONENTS,
     MAX_BYTES,
@@ -16,6 +15,7 @@ from planner.trace import (
     decode,
     encode,
 )
+from planner.search.decide import decide
 from tests.planner.worlds import (
     Seen,
     before_end,

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.actions import Situation
-from planner.obstacles import NOBODY, Traffic
-from planner.tracks import (
+from planner.manoeuvres.actions import Situation
+from planner.motion.obstacles import NOBODY, Traffic
+from planner.motion.tracks import (
     Observed,
     coast,
     drive_on,
     sample_path,
 )
-from sim.network import Location
+from sim.roads.network import Location
 from tests.planner.drives import (
     LENGTH,
     SIZE,

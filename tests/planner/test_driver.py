@@ -5,13 +5,13 @@ from dataclasses import dataclass, field, replace
 
 import pytest
 
-from planner.driver import Driver, DriverError, DriveStep
-from planner.events import Event
+from planner.driving.driver import Driver, DriverError, DriveStep
 from planner.kernels.driving import ACCELERATION, EMERGENCY
-from planner.trace import EgoGoal, PlanTrace, Settings, encode
-from planner.trajectory import Path
+from planner.record.events import Event
+from planner.record.trace import EgoGoal, PlanTrace, Settings, encode
+from planner.roads.trajectory import Path
 from sim.boxes import overlap
-from sim.network import angle_between
+from sim.roads.network import angle_between
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.nets import drawn, lane
 from tests.planner.worlds import (

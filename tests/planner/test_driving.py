@@ -9,16 +9,16 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from planner.decide import Frame, Moment, decide, root_at
-from planner.driver import Driver
-from planner.events import Event
-from planner.search import Root
-from planner.trace import MAX_BYTES, Action, EgoGoal, PlanTrace, Settings, encode
-from planner.trajectory import Roads
-from planner.whatif import WhatIf, replan
-from sim.netfile import read_network
-from sim.scenario import Scenario, load
+from planner.counterfactuals.whatif import WhatIf, replan
+from planner.driving.driver import Driver
+from planner.record.events import Event
+from planner.record.trace import MAX_BYTES, Action, EgoGoal, PlanTrace, Settings, encode
+from planner.roads.trajectory import Roads
+from planner.search.decide import Frame, Moment, decide, root_at
+from planner.search.mcts import Root
+from sim.roads.netfile import read_network
 from sim.scene import EGO, Scene
+from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 
 pytestmark = pytest.mark.slow

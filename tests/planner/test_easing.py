@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planner.easing import AWAY, curvature_of, eased
+from planner.roads.easing import AWAY, curvature_of, eased
 
 RADIUS = 65.0  # [m]
 

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from planner.forward import DT, Drive, Lane, Motion, advance, drive
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
 from planner.kernels.driving import (
@@ -19,8 +18,9 @@ from planner.kernels.driving import (
     STANDING_TIME,
     safe_speed,
 )
-from planner.obstacles import HOW, Obstacle, Traffic
-from sim.network import Direction
+from planner.motion.forward import DT, Drive, Lane, Motion, advance, drive
+from planner.motion.obstacles import HOW, Obstacle, Traffic
+from sim.roads.network import Direction
 from tests.planner.worlds import (
     LENGTH,
     SIZE,

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.goals import goals_in_view
-from planner.routes import Refusal
-from planner.trace import ACTIONS, EgoGoal
-from planner.trajectory import LATERAL_ACCELERATION, Roads
-from sim.network import Network
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.prediction.goals import goals_in_view
+from planner.record.trace import ACTIONS, EgoGoal
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import LATERAL_ACCELERATION, Roads
+from sim.roads.network import Network
 from tests.planner.nets import GENERATED, SCENARIOS, generate, on_lane, shipped
 from tests.planner.worlds import VIEW
 

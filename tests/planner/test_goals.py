@@ -2,9 +2,9 @@ import math
 
 import pytest
 
-from planner.goals import PLACES, STOP_PRIOR, goals_in_view
-from planner.trace import Action, EgoGoal
-from planner.trajectory import Roads
+from planner.prediction.goals import PLACES, STOP_PRIOR, goals_in_view
+from planner.record.trace import Action, EgoGoal
+from planner.roads.trajectory import Roads
 from tests.planner.nets import drawn, lane, link, on_lane, shipped
 from tests.planner.worlds import VIEW
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from planner.goals import PLACES, Goal, goals_in_view, stopping_time
-from planner.trace import EgoGoal
-from planner.trajectory import Roads
+from planner.prediction.goals import PLACES, Goal, goals_in_view, stopping_time
+from planner.record.trace import EgoGoal
+from planner.roads.trajectory import Roads
 from sim.scene import Point
 from tests.planner.drives import avenue, crossing
 from tests.planner.nets import drawn, lane, link, on_lane

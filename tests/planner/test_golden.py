@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from planner.decide import Frame, Moment, predict, prepare
-from planner.search import Search
-from planner.trace import Settings
+from planner.record.trace import Settings
+from planner.search.decide import Frame, Moment, predict, prepare
+from planner.search.mcts import Search
 from tests.planner.worlds import before_end, changing, driven, frame, moment, still
 
 GOLDEN = Path(__file__).parent / "golden" / "s1_cut_in.json"

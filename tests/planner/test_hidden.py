@@ -7,13 +7,9 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from planner.actions import Situation
-from planner.caution import CAUTION, CREEPING, cautious, name_of
-from planner.comparison import likeliest
-from planner.decide import Frame, Moment, decide
-from planner.hidden_areas import HeldByHidden, Phantom, PhantomSample
-from planner.kernels.driving import READY
-from planner.phantoms import (
+from planner.counterfactuals.whatif import NotInView, WhatIf, replan
+from planner.hidden_areas.caution import CAUTION, CREEPING, cautious, name_of
+from planner.hidden_areas.phantoms import (
     LEAST,
     PRIOR_RATE,
     Counts,
@@ -24,11 +20,15 @@ from planner.phantoms import (
     time_across,
     ways_ahead,
 )
-from planner.search import Root
-from planner.trace import EgoGoal, PlanTrace, Settings, TraceError, Track, decode, encode
-from planner.trajectory import Roads
-from planner.whatif import NotInView, WhatIf, replan
-from sim.network import Location
+from planner.kernels.driving import READY
+from planner.manoeuvres.actions import Situation
+from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
+from planner.record.trace import EgoGoal, PlanTrace, Settings, TraceError, Track, decode, encode
+from planner.roads.trajectory import Roads
+from planner.search.comparison import likeliest
+from planner.search.decide import Frame, Moment, decide
+from planner.search.mcts import Root
+from sim.roads.network import Location
 from sim.scene import EGO, Unseen, VehicleState
 from tests.planner.nets import drawn, lane, link
 

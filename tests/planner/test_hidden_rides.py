@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from planner.driver import Driver
-from planner.trace import EgoGoal, PlanTrace, Settings, decode, encode
-from planner.whatif import WhatIf, replan
-from sim.netfile import read_network
-from sim.network import Network
+from planner.counterfactuals.whatif import WhatIf, replan
+from planner.driving.driver import Driver
+from planner.record.trace import EgoGoal, PlanTrace, Settings, decode, encode
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
 from sim.sumo import Simulation
 from tests.planner.corner import OTHER, at_the_corner
 

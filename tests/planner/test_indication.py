@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from planner.goals import goals_in_view
-from planner.indication import indicated
-from planner.tracks import Side
+from planner.motion.tracks import Side
+from planner.prediction.goals import goals_in_view
+from planner.prediction.indication import indicated
 from sim.scene import VehicleState
 from tests.planner.test_recognise import beliefs, probability
 from tests.planner.worlds import VIEW, Seen, before_end, roads, situation, still

@@ -6,17 +6,17 @@ import random
 import numpy as np
 import pytest
 
-from planner import forward
-from planner.actions import ActionPlan, Situation, expand
-from planner.forward import DT, Motion
 from planner.kernels import driving
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
 from planner.kernels.driving import GAP_HORIZON
-from planner.obstacles import HOW, NOBODY, Obstacle, Traffic, occupancy
-from planner.trace import ACTIONS
-from planner.tracks import links_of
-from sim.network import Lane, Location, point_at, project
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion import forward
+from planner.motion.forward import DT, Motion
+from planner.motion.obstacles import HOW, NOBODY, Obstacle, Traffic, occupancy
+from planner.motion.tracks import links_of
+from planner.record.trace import ACTIONS
+from sim.roads.network import Lane, Location, point_at, project
 from tests.planner import reference
 from tests.planner.worlds import SIZE, roads
 

@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.forward import DT, Hindrances, Lane, Motion, advance
-from planner.obstacles import NOBODY, Obstacle, Traffic
-from planner.rollout import Leg, Task, summarise, take
-from planner.routes import Refusal
-from planner.trace import Action, EgoGoal
-from planner.trajectory import Roads
-from sim.network import Location
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion.forward import DT, Hindrances, Lane, Motion, advance
+from planner.motion.obstacles import NOBODY, Obstacle, Traffic
+from planner.record.trace import Action, EgoGoal
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Leg, Task, summarise, take
+from sim.roads.network import Location
 from tests.planner.drives import LENGTH, SIZE, WIDTH, avenue, corner, standing
 from tests.planner.nets import on_lane
 

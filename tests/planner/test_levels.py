@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.actions import ActionPlan, expand
-from planner.clearance import first_touch
-from planner.forward import Motion
-from planner.levels import Levels
-from planner.obstacles import Obstacle, Traffic, occupancy
-from planner.rollout import Leg, Task, take
-from planner.routes import Refusal
-from planner.trace import EgoGoal
-from planner.tracks import lanes_at
-from planner.trajectory import Roads
-from planner.walkers import with_walkers
-from sim.network import Lane, Link, Network
+from planner.driving.walkers import with_walkers
+from planner.manoeuvres.actions import ActionPlan, expand
+from planner.manoeuvres.clearance import first_touch
+from planner.motion.forward import Motion
+from planner.motion.obstacles import Obstacle, Traffic, occupancy
+from planner.motion.tracks import lanes_at
+from planner.record.trace import EgoGoal
+from planner.roads.levels import Levels
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Leg, Task, take
+from sim.roads.network import Lane, Link, Network
 from sim.scene import Point, VehicleState
 from tests.planner.nets import drawn, lane, link, on_lane
 

@@ -1,11 +1,11 @@
 import pytest
 
-from planner.actions import expand
-from planner.lights import AHEAD, EARLY, lights
-from planner.manoeuvres import ActionPlan
-from planner.roundabouts import Roundabout, roundabout_ahead
-from planner.trace import Action
-from planner.trajectory import Roads
+from planner.manoeuvres.actions import expand
+from planner.manoeuvres.indicators import AHEAD, EARLY, lights
+from planner.manoeuvres.plans import ActionPlan
+from planner.record.trace import Action
+from planner.roads.roundabouts import Roundabout, roundabout_ahead
+from planner.roads.trajectory import Roads
 from tests.planner.nets import on_lane, shipped
 from tests.planner.worlds import before_end, plan_of, roads, row, situation
 

@@ -9,13 +9,13 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from planner.goals import Goal
-from planner.likelihood import NO_WAY, UNEXPLAINED, likelihoods
-from planner.obstacles import NOBODY, Obstacle, Traffic
-from planner.rollout import Task
-from planner.trace import EgoGoal, Settings
-from planner.tracks import Observed
-from planner.trajectory import Roads
+from planner.motion.obstacles import NOBODY, Obstacle, Traffic
+from planner.motion.tracks import Observed
+from planner.prediction.goals import Goal
+from planner.prediction.likelihood import NO_WAY, UNEXPLAINED, likelihoods
+from planner.record.trace import EgoGoal, Settings
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Task
 from tests.planner.drives import LENGTH, SIZE, WIDTH, avenue, crossing, eastward, seen
 
 SLOW, FAST = avenue(limit=10.0), avenue()

@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import pytest
 
-from planner.driver import Driver
-from planner.memory import HIDDEN, HISTORY, Memory
-from planner.trace import Settings, decode, encode
+from planner.driving.driver import Driver
+from planner.driving.memory import HIDDEN, HISTORY, Memory
+from planner.record.trace import Settings, decode, encode
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.worlds import LENGTH, WIDTH, before_end, goal, roads, still
 

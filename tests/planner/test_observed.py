@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from planner.actions import Situation
-from planner.forward import DT
-from planner.obstacles import NOBODY
-from planner.tracks import (
+from planner.manoeuvres.actions import Situation
+from planner.motion.forward import DT
+from planner.motion.obstacles import NOBODY
+from planner.motion.tracks import (
     aligned,
     coast,
     drive_on,
@@ -20,7 +20,7 @@ from planner.tracks import (
     links_of,
     queued,
 )
-from sim.network import Location
+from sim.roads.network import Location
 from sim.scene import VehicleState
 from tests.planner.drives import (
     SIZE,

@@ -2,11 +2,11 @@
 
 import pytest
 
-from planner.forward import Motion
-from planner.obstacles import Traffic
-from planner.rollout import Leg, Task, take
-from planner.trace import Action, EgoGoal
-from planner.waypoints import cost_by, cost_left
+from planner.motion.forward import Motion
+from planner.motion.obstacles import Traffic
+from planner.record.trace import Action, EgoGoal
+from planner.rollouts.rollout import Leg, Task, take
+from planner.rollouts.waypoints import cost_by, cost_left
 from tests.planner.crossroads import EAST_WEST, before, crossroads, plan, shown
 
 HORIZON = 60  # steps of 0.2 s

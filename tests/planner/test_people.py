@@ -7,21 +7,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.footways import crossings_along, over
-from planner.forward import Motion, drive
-from planner.manoeuvres import LetCross
-from planner.obstacles import HOW, Obstacle, Traffic
-from planner.people import concerned, recognise_people
-from planner.routes import Refusal
-from planner.scenery import Scenery
-from planner.signals import DARK, Outlook
-from planner.trace import Settings
-from planner.tracks import Observed
-from planner.traffic_lights import LightCourse, LightPrediction, Showing
-from planner.trajectory import Roads
-from planner.walkers import passing_speed
-from sim.network import Location
+from planner.driving.walkers import passing_speed
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.manoeuvres.footways import crossings_along, over
+from planner.manoeuvres.plans import LetCross
+from planner.motion.forward import Motion, drive
+from planner.motion.obstacles import HOW, Obstacle, Traffic
+from planner.motion.scenery import Scenery
+from planner.motion.tracks import Observed
+from planner.prediction.people import concerned, recognise_people
+from planner.record.light_record import LightCourse, LightPrediction, Showing
+from planner.record.trace import Settings
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.traffic_lights.signals import DARK, Outlook
+from sim.roads.network import Location
 from sim.scene import Signal, VehicleState
 from tests.planner.zebra import KEY, before, standing_at, stepping, walker, walking, zebra
 

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from planner.driver import Driver
-from planner.trace import ON_FOOT, EgoGoal, PlanTrace, Settings, decode, encode
-from planner.whatif import WhatIf, replan
+from planner.counterfactuals.whatif import WhatIf, replan
+from planner.driving.driver import Driver
+from planner.record.trace import ON_FOOT, EgoGoal, PlanTrace, Settings, decode, encode
 from sim.boxes import overlap
-from sim.netfile import read_network
-from sim.network import Network
-from sim.scenario import load
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
 from sim.scene import Scene
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 from tests.sim.footways import person, zebra_folder
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.forward import DT
 from planner.kernels.collision import first_hit
 from planner.kernels.reaction import DELAY, FIRM, react
-from planner.levels import NOBODY_ELSEWHERE
-from planner.obstacles import Obstacle, Traffic
-from planner.trajectory import Array
+from planner.motion.forward import DT
+from planner.motion.obstacles import Obstacle, Traffic
+from planner.roads.levels import NOBODY_ELSEWHERE
+from planner.roads.trajectory import Array
 
 SIZE = (4.8, 1.8)
 STEPS = 100

@@ -3,11 +3,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pytest
 
-from planner.decide import predict
-from planner.goals import STOP_PRIOR, goals_in_view, stopping_time
-from planner.indication import MEANT, SHOWN, WRONG
-from planner.recognise import Belief
-from planner.trace import Settings, Track
+from planner.prediction.goals import STOP_PRIOR, goals_in_view, stopping_time
+from planner.prediction.indication import MEANT, SHOWN, WRONG
+from planner.prediction.recognise import Belief
+from planner.record.trace import Settings, Track
+from planner.search.decide import predict
 from sim.scene import VehicleState
 from tests.planner.worlds import (
     LENGTH,

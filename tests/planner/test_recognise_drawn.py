@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.forward import DT
-from planner.goals import Goal
-from planner.recognise import Belief, recognise, trajectories_to
-from planner.rollout import Task
-from planner.scenery import Others, Scenery
-from planner.signals import DARK
-from planner.trace import EgoGoal, Settings
-from planner.tracks import Observed, Side
-from planner.trajectory import Roads
+from planner.motion.forward import DT
+from planner.motion.scenery import Others, Scenery
+from planner.motion.tracks import Observed, Side
+from planner.prediction.goals import Goal
+from planner.prediction.recognise import Belief, recognise, trajectories_to
+from planner.record.trace import EgoGoal, Settings
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Task
+from planner.traffic_lights.signals import DARK
 from tests.planner.drives import SIZE, avenue, corner, eastward, seen, turned
 
 CORNER = corner()

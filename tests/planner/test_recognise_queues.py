@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from planner.trace import Settings
+from planner.record.trace import Settings
 from tests.planner.drives import SIZE, avenue, eastward
 from tests.planner.test_recognise_drawn import beliefs, chances
 

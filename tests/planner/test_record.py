@@ -6,8 +6,9 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from planner.actions import Situation
-from planner.decide import (
+from planner.manoeuvres.actions import Situation
+from planner.record.trace import EgoGoal, Sample, Settings, Track
+from planner.search.decide import (
     Frame,
     Moment,
     decide,
@@ -18,10 +19,9 @@ from planner.decide import (
     rollouts,
     root_at,
 )
-from planner.search import Root
-from planner.simulated import Simulated
-from planner.trace import EgoGoal, Sample, Settings, Track
-from sim.network import Location
+from planner.search.mcts import Root
+from planner.search.simulated import Simulated
+from sim.roads.network import Location
 from sim.scene import VehicleState
 from tests.planner.drives import LENGTH, WIDTH, avenue, corner
 from tests.planner.nets import on_lane

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.kernels.projection import AFTER, BEFORE, SIDE_MARGIN
-from planner.obstacles import Obstacle
-from planner.trajectory import Path
+from planner.motion.obstacles import Obstacle
+from planner.roads.trajectory import Path
 from sim.boxes import overlap
 from sim.scene import VehicleState
 from tests.planner.reference import Occupancy, occupancy

@@ -1,9 +1,9 @@
 """Whoever can meet the ego is planned for in a crowd; whoever cannot changes nothing."""
 
-from planner.decide import Frame, Moment, decide
-from planner.relevance import FEW, relevant
-from planner.search import Root
-from planner.trace import EgoGoal, Settings, Track
+from planner.prediction.relevance import FEW, relevant
+from planner.record.trace import EgoGoal, Settings, Track
+from planner.search.decide import Frame, Moment, decide
+from planner.search.mcts import Root
 from sim.scene import VehicleState
 from tests.planner.crossroads import ARM, before, crossroads
 from tests.planner.nets import on_lane

@@ -5,15 +5,15 @@ import math
 import msgspec
 import pytest
 
-from planner.actions import SIDES
-from planner.decide import Frame, Moment, decide, root_at
-from planner.driver import Driver
-from planner.resume import resume
-from planner.routes import Refusal
-from planner.search import Root
-from planner.trace import Action, EgoGoal, PlanTrace
-from planner.trajectory import Roads
-from planner.whatif import WhatIf, WhatIfError, replan
+from planner.counterfactuals.resume import resume
+from planner.counterfactuals.whatif import WhatIf, WhatIfError, replan
+from planner.driving.driver import Driver
+from planner.manoeuvres.actions import SIDES
+from planner.record.trace import Action, EgoGoal, PlanTrace
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.search.decide import Frame, Moment, decide, root_at
+from planner.search.mcts import Root
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.worlds import LENGTH, QUICK, WIDTH, before_end, driven, goal, roads, row
 

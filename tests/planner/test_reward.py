@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from planner.reward import EFFORT, PENALTY, WEIGHTS, absent, components, reward, terms
-from planner.trace import Action, Component, Outcome, RewardTerm
+from planner.record.trace import Action, Component, Outcome, RewardTerm
+from planner.rollouts.reward import EFFORT, PENALTY, WEIGHTS, absent, components, reward, terms
 
 DRIVEN: dict[Component, float] = {
     "time": 10.0,

@@ -7,14 +7,14 @@ from itertools import pairwise
 
 import pytest
 
-from planner.decide import decide
-from planner.road import PriorityFact, RoadFacts, RouteStep
-from planner.road_facts import place, road_facts
-from planner.search import Root
-from planner.trace import EgoGoal, PlannedAction
-from sim.network import Location, angle_between, point_at
-from sim.scenario import load
+from planner.record.places import PriorityFact, RoadFacts, RouteStep
+from planner.record.trace import EgoGoal, PlannedAction
+from planner.search.decide import decide
+from planner.search.mcts import Root
+from planner.search.road_facts import place, road_facts
+from sim.roads.network import Location, angle_between, point_at
 from sim.scene import VehicleState
+from sim.setup.scenario import load
 from tests.planner.nets import drawn, lane, on_lane, shipped
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 

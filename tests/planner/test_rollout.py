@@ -5,10 +5,10 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from planner.forward import DT
-from planner.obstacles import HOW
-from planner.rollout import GRACE, Leg, held_up
-from planner.trace import HeldUp
+from planner.motion.forward import DT
+from planner.motion.obstacles import HOW
+from planner.record.trace import HeldUp
+from planner.rollouts.rollout import GRACE, Leg, held_up
 
 LEADER, RIGHT, CUT_IN = (HOW.index(name) for name in ("leader", "right-of-way", "cut-in"))
 BLOCKED = HOW.index("blocked")

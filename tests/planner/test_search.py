@@ -3,13 +3,13 @@ import random
 import numpy as np
 import pytest
 
-from planner.comparison import likeliest
-from planner.decide import predict, prepare
-from planner.forward import Motion
-from planner.search import Root, Search
-from planner.simulated import Simulated
-from planner.trace import ACTIONS, Settings
-from planner.tree import Tree
+from planner.motion.forward import Motion
+from planner.record.trace import ACTIONS, Settings
+from planner.search.comparison import likeliest
+from planner.search.decide import predict, prepare
+from planner.search.mcts import Root, Search
+from planner.search.simulated import Simulated
+from planner.search.tree import Tree
 from tests.planner.worlds import (
     before_end,
     changing,

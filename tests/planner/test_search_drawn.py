@@ -2,11 +2,11 @@
 
 import pytest
 
-from planner.rollout import Task
-from planner.search import Root, Search
-from planner.trace import ACTIONS, Action, EgoGoal, PlannedAction, Settings
-from planner.trajectory import Roads
-from planner.tree import Edge, Tree
+from planner.record.trace import ACTIONS, Action, EgoGoal, PlannedAction, Settings
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Task
+from planner.search.mcts import Root, Search
+from planner.search.tree import Edge, Tree
 from tests.planner.drives import SIZE, avenue, corner
 from tests.planner.nets import on_lane
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner.shifts import ROOM, shifted
+from planner.roads.shifts import ROOM, shifted
 
 
 def jog(aside: float, over: float = 8.0, turn: float = 0.0) -> np.ndarray:

@@ -5,17 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from planner.driver import Driver
-from planner.events import Event, LightPlace
-from planner.trace import EgoGoal, PlanTrace, Settings, decode, encode
-from planner.tracks import lanes_at
-from planner.traffic_lights import LightSupposed
-from planner.trajectory import Roads
-from planner.whatif import NotInView, WhatIf, WhatIfError, replan
-from sim.netfile import read_network
-from sim.network import Network
-from sim.scenario import load
+from planner.counterfactuals.whatif import NotInView, WhatIf, WhatIfError, replan
+from planner.driving.driver import Driver
+from planner.motion.tracks import lanes_at
+from planner.record.events import Event, LightPlace
+from planner.record.light_record import LightSupposed
+from planner.record.trace import EgoGoal, PlanTrace, Settings, decode, encode
+from planner.roads.trajectory import Roads
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
 from sim.scene import EGO, LightState, Scene, Signal
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 from tests.sim.crossroads import ROUTES, TOML, signalled
 

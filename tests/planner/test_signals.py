@@ -8,9 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.cycles import Watched, foresee, supposed
-from planner.forward import DT, Drive, Motion, drive
-from planner.greens import LONG, SHORT, residual
 from planner.kernels.driving import (
     AMBER,
     BEYOND,
@@ -21,13 +18,16 @@ from planner.kernels.driving import (
     RIGHT_OF_WAY,
     SHUT,
 )
-from planner.layout import BEFORE_LINE
-from planner.obstacles import Obstacle, Traffic
-from planner.rollout import Task, summarise, take
-from planner.signals import Lights, Outlook
-from planner.trace import Action, EgoGoal
-from planner.traffic_lights import Showing
-from sim.network import Direction
+from planner.manoeuvres.layout import BEFORE_LINE
+from planner.motion.forward import DT, Drive, Motion, drive
+from planner.motion.obstacles import Obstacle, Traffic
+from planner.record.light_record import Showing
+from planner.record.trace import Action, EgoGoal
+from planner.rollouts.rollout import Task, summarise, take
+from planner.traffic_lights.cycles import Watched, foresee, supposed
+from planner.traffic_lights.greens import LONG, SHORT, residual
+from planner.traffic_lights.signals import Lights, Outlook
+from sim.roads.network import Direction
 from sim.scene import Signal
 from tests.planner.crossroads import (
     CONTROLLER,

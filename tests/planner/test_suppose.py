@@ -6,17 +6,17 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from planner.decide import decide
-from planner.goals import BEYOND
-from planner.trace import (
+from planner.counterfactuals.whatif import Inapplicable, WhatIf, replan
+from planner.prediction.goals import BEYOND
+from planner.record.trace import (
     Action,
     GoalPrediction,
     PlanTrace,
     VehiclePrediction,
     encode,
 )
-from planner.whatif import Inapplicable, WhatIf, replan
-from sim.network import Network
+from planner.search.decide import decide
+from sim.roads.network import Network
 from tests.planner.worlds import (
     QUICK,
     Seen,

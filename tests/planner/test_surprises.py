@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from planner.lookout import STRAY, SURPRISE, as_foreseen
-from planner.obstacles import Obstacle
+from planner.driving.lookout import STRAY, SURPRISE, as_foreseen
+from planner.motion.obstacles import Obstacle
 from sim.scene import PersonState, VehicleState
 
 

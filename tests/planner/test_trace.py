@@ -9,10 +9,9 @@ from typing import Any
 import msgspec
 import pytest
 
-from planner.decide import decide
-from planner.fitting import IMPROBABLE, RECENT, fitted
-from planner.road import LightChange
-from planner.trace import (
+from planner.record.fitting import IMPROBABLE, RECENT, fitted
+from planner.record.places import LightChange
+from planner.record.trace import (
     MAX_BYTES,
     SCHEMA,
     PlanTrace,
@@ -22,6 +21,7 @@ from planner.trace import (
     decode,
     encode,
 )
+from planner.search.decide import decide
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 
 

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from planner.decide import observed
-from planner.forward import DT
-from planner.obstacles import Obstacle
-from planner.tracks import aligned, coast, lanes_at, links_of
+from planner.motion.forward import DT
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import aligned, coast, lanes_at, links_of
+from planner.search.decide import observed
 from tests.planner.worlds import Seen, before_end, driven, link, roads, row, situation
 
 STEPS = 40

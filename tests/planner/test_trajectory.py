@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.forward import Lane
-from planner.routes import onward
-from planner.trace import EgoGoal
-from planner.trajectory import LATERAL_ACCELERATION, Path
-from sim.network import Direction, angle_between, point_at, project
+from planner.motion.forward import Lane
+from planner.record.trace import EgoGoal
+from planner.roads.routes import onward
+from planner.roads.trajectory import LATERAL_ACCELERATION, Path
+from sim.roads.network import Direction, angle_between, point_at, project
 from sim.scene import Point
 from tests.planner.nets import arc, drawn, lane, on_lane, shipped
 from tests.planner.nets import link as link_to

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from planner.tree import EXPLORATION, Edge, Tree
+from planner.search.tree import EXPLORATION, Edge, Tree
 
 
 def test_untried_actions_come_first_in_their_order() -> None:

@@ -5,14 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from planner.actions import Situation
-from planner.astar import Solution, held, ways
-from planner.forward import DT
-from planner.obstacles import NOBODY, Obstacle, Traffic
-from planner.rollout import Leg, Task
-from planner.trace import EgoGoal
-from planner.trajectory import Roads
-from sim.network import Location
+from planner.manoeuvres.actions import Situation
+from planner.motion.forward import DT
+from planner.motion.obstacles import NOBODY, Obstacle, Traffic
+from planner.prediction.astar import Solution, held, ways
+from planner.record.trace import EgoGoal
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Leg, Task
+from sim.roads.network import Location
 from tests.planner.drives import LENGTH, SIZE, WIDTH, avenue
 from tests.planner.nets import drawn, lane
 

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import pytest
 
-from planner.comparison import Samples, weighted
-from planner.trace import Sample
+from planner.record.trace import Sample
+from planner.search.comparison import Samples, weighted
 from tests.planner.test_comparison import Known, beliefs
 
 

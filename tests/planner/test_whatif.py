@@ -3,10 +3,10 @@ from dataclasses import replace
 import msgspec
 import pytest
 
-from planner.decide import decide
-from planner.trace import PlanTrace, encode
-from planner.whatif import NotInView, WhatIf, WhatIfError, decide_again, replan
-from sim.network import Network
+from planner.counterfactuals.whatif import NotInView, WhatIf, WhatIfError, decide_again, replan
+from planner.record.trace import PlanTrace, encode
+from planner.search.decide import decide
+from sim.roads.network import Network
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
 
 

@@ -10,19 +10,19 @@ from functools import cache
 
 import numpy as np
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.decide import Frame, Moment, root_at
-from planner.forward import DT
-from planner.obstacles import Obstacle
-from planner.routes import Refusal
-from planner.search import Root
-from planner.trace import Action, EgoGoal, Settings, Track
-from planner.tracks import links_of
-from planner.trajectory import Path, Roads
-from sim.netfile import read_network
-from sim.network import Direction, Link, Location, point_at
-from sim.scenario import load
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion.forward import DT
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import links_of
+from planner.record.trace import Action, EgoGoal, Settings, Track
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Path, Roads
+from planner.search.decide import Frame, Moment, root_at
+from planner.search.mcts import Root
+from sim.roads.netfile import read_network
+from sim.roads.network import Direction, Link, Location, point_at
 from sim.scene import EGO, VehicleState
+from sim.setup.scenario import load
 
 LENGTH, WIDTH = 4.8, 1.8  # [m] of every vehicle here
 SIZE = (LENGTH, WIDTH)

@@ -9,14 +9,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from planner.actions import ActionPlan, Situation, expand
-from planner.obstacles import Obstacle
-from planner.routes import Refusal
-from planner.trace import Action
-from planner.tracks import Observed
-from planner.trajectory import Roads
-from sim.lanes import UNSIGNALLED, Control, Crossing
-from sim.network import Lane, Link, Location, Network
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import Observed
+from planner.record.trace import Action
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from sim.roads.lanes import UNSIGNALLED, Control, Crossing
+from sim.roads.network import Lane, Link, Location, Network
 from tests.planner.nets import lane
 
 INDEX = 9

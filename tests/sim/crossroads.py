@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sim.netconvert import generate
+from sim.roads.netconvert import generate
 
 SIGNALLED = (
     *("-g", "--grid.number", "1", "--grid.attach-length", "150", "-L", "1"),

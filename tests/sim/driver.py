@@ -2,7 +2,7 @@
 
 import math
 
-from sim.network import Network, angle_between, point_at, project
+from sim.roads.network import Network, angle_between, point_at, project
 from sim.scene import EGO, Command, Point, Scene, VehicleState
 
 

@@ -3,7 +3,7 @@
 import shutil
 from pathlib import Path
 
-from sim.scenario import load
+from sim.setup.scenario import load
 
 
 def copy_of(name: str, target: Path) -> Path:

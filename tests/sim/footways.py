@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from sim.netconvert import _run
+from sim.roads.netconvert import _run
 
 NODES = """<nodes><node id="a" x="0" y="0"/><node id="m" x="120" y="0" type="priority"/>
 <node id="b" x="240" y="0"/></nodes>"""

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.blind import SPACING, Blind
-from sim.buildings import NO_WALLS, Buildings, Walls
-from sim.netfile import read_network
-from sim.network import point_at
-from sim.scenario import load
+from sim.perception.blind import SPACING, Blind
+from sim.perception.buildings import NO_WALLS, Buildings, Walls
+from sim.roads.netfile import read_network
+from sim.roads.network import point_at
 from sim.scene import VehicleState
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 
 S2 = read_network(load("s2").network)

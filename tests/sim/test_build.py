@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from sim.netconvert import ConversionFailed, compile_plain, main
-from sim.scenario import available, load
+from sim.roads.netconvert import ConversionFailed, compile_plain, main
+from sim.setup.scenario import available, load
 from tests.sim.folders import copy_of, edit
 
 PLAIN = [name for name in available() if (load(name).folder / f"{name}.nod.xml").is_file()]

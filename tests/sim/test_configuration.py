@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from sim import configuration
-from sim.netfile import read_network
-from sim.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
+from sim.roads.netfile import read_network
 from sim.scene import LightState
-from sim.source import Added, Departing, FromConfiguration
+from sim.setup import configuration
+from sim.setup.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
+from sim.setup.source import Added, Departing, FromConfiguration
 from sim.sumo import Simulation
 from tests.sim.crossroads import signalled
-from xavi_dialogue.app.new_scenario import write
+from xavi_dialogue.cli.new_scenario import write
 
 pytestmark = pytest.mark.slow
 

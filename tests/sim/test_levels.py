@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from sim.levels import apart
-from sim.network import Network
+from sim.roads.bridges import apart
+from sim.roads.network import Network
 from sim.scene import Point, VehicleState
 from tests.planner.nets import drawn, lane, link
 

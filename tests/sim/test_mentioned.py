@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.mentioned import mentioned
+from sim.setup.mentioned import mentioned
 
 ROUTES = """<routes>
     <vehicle id="a&amp;b" depart="0"/><trip id='late' depart="5"/>

@@ -2,8 +2,8 @@
 
 import pytest
 
-from sim.appearance import colour_name, kind_of, lights
 from sim.names import VehicleNames
+from sim.perception.appearance import colour_name, kind_of, lights
 
 
 def test_the_ego_is_0_and_positive_integers_stand() -> None:

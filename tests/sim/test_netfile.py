@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from sim.netconvert import generate
-from sim.netfile import DrivesOnTheLeft, NetworkInvalid, NetworkUnreadable, read_network
-from sim.network import Link, Network
-from sim.scenario import available, load
+from sim.roads.netconvert import generate
+from sim.roads.netfile import DrivesOnTheLeft, NetworkInvalid, NetworkUnreadable, read_network
+from sim.roads.network import Link, Network
 from sim.scene import Signal
+from sim.setup.scenario import available, load
 
 S1 = read_network(load("s1").network)
 S2 = read_network(load("s2").network)

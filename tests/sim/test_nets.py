@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from sim.netconvert import _run
-from sim.netfile import read_network
-from sim.network import UNSIGNALLED, Network
+from sim.roads.netconvert import _run
+from sim.roads.netfile import read_network
+from sim.roads.network import UNSIGNALLED, Network
 from sim.scene import Signal
 
 LARGEST = 100_000  # bytes of a file that is read here

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from sim.netfile import read_network
-from sim.network import angle_between, cumulative, point_at, project
-from sim.scenario import load
+from sim.roads.netfile import read_network
+from sim.roads.network import angle_between, cumulative, point_at, project
+from sim.setup.scenario import load
 
 S1 = read_network(load("s1").network)
 LINES = st.sampled_from([lane.centreline for lane in S1.lanes.values()])

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from sim.netconvert import convert_opendrive
-from sim.netfile import read_network
-from sim.network import Network
-from sim.opendrive import conversion_warnings
-from sim.scenario import ScenarioInvalid, load
+from sim.roads.netconvert import convert_opendrive
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
+from sim.roads.opendrive import conversion_warnings
+from sim.setup.scenario import ScenarioInvalid, load
 from tests.sim.folders import copy_of, edit
 
 PRIORITY = '[priority]\n"-1" = 10\n"-3" = 10\n'

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from planner.actions import Situation, expand
-from planner.routes import Refusal
-from planner.tracks import lanes_at
-from planner.trajectory import Roads
-from sim.netfile import read_network
-from sim.scenario import Scenario, load
+from planner.manoeuvres.actions import Situation, expand
+from planner.motion.tracks import lanes_at
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from sim.roads.netfile import read_network
 from sim.scene import LightState, Signal
+from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 from tests.sim.folders import copy_of, edit
 

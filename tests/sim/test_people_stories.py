@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from sim.scenario import load
 from sim.scene import LightState, PersonState, Scene, Signal
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 
 pytestmark = pytest.mark.slow

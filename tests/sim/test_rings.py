@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from sim.netfile import read_network
-from sim.network import Lane, Link, Network
-from sim.rings import find_rings
-from sim.scenario import load
+from sim.roads.netfile import read_network
+from sim.roads.network import Lane, Link, Network
+from sim.roads.rings import find_rings
+from sim.setup.scenario import load
 from tests.sim.folders import edit
 
 S3 = read_network(load("s3").network)

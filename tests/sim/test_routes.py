@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from sim.routes import (
+from sim.setup.routes import (
     RoutesError,
     coloured_types,
     departures,

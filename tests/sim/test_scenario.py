@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from sim import netconvert
-from sim.netfile import read_network
-from sim.scenario import (
+from sim.roads import netconvert
+from sim.roads.netfile import read_network
+from sim.setup.scenario import (
     Goal,
     NeedsMaps,
     ScenarioInvalid,
@@ -17,7 +17,7 @@ from sim.scenario import (
     descriptions,
     load,
 )
-from sim.spawning import Spawn
+from sim.setup.spawning import Spawn
 from tests.sim.folders import copy_of, edit
 
 

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.boxes import corners
-from sim.buildings import Buildings, Walls
-from sim.scenario import Scenario, load
+from sim.perception.buildings import Buildings, Walls
+from sim.perception.sight import Body, crosses, hidden
 from sim.scene import EGO, Command, PersonState, VehicleState
-from sim.sight import Body, crosses, hidden
+from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 from tests.sim.crossroads import ROUTES, signalled
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from sim.netfile import parse_network, read_network
-from sim.network import UNSIGNALLED, Network
-from sim.scenario import load
+from sim.perception.signals import BEHIND, Signals
+from sim.roads.netfile import parse_network, read_network
+from sim.roads.network import UNSIGNALLED, Network
 from sim.scene import LightState, Signal, VehicleState
-from sim.signals import BEHIND, Signals
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 from tests.sim.crossroads import signalled
 

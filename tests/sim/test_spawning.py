@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.netfile import read_network
-from sim.network import Network
-from sim.routes import RoutesError, departures, parse
-from sim.scenario import load
-from sim.spawning import GAP, Spawn, with_spawn
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
+from sim.setup.routes import RoutesError, departures, parse
+from sim.setup.scenario import load
+from sim.setup.spawning import GAP, Spawn, with_spawn
 
 SPAWN = Spawn(10.0, (5.0, 10.0))
 S1 = read_network(load("s1").network)

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from sim.netfile import read_network
-from sim.scenario import Scenario, load
+from sim.roads.netfile import read_network
 from sim.scene import Command, Scene
+from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 from tests.sim.driver import LaneFollower, lane_line
 

@@ -13,9 +13,9 @@ from types import ModuleType
 import pytest
 
 from sim import engine
-from sim.netfile import read_network
-from sim.scenario import Scenario, load
+from sim.roads.netfile import read_network
 from sim.scene import EGO, Command, Scene, VehicleState
+from sim.setup.scenario import Scenario, load
 from sim.sumo import EgoGone, Simulation, SimulationRunning, SumoFailed, SumoMissing
 from tests.sim.driver import LaneFollower, lane_line
 
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 S1, S2 = load("s1"), load("s2")
 RIDE = """
-from sim.scenario import load
+from sim.setup.scenario import load
 from sim.sumo import Simulation
 with Simulation(load("s1"), 5) as world:
     print([world.step(None) for _ in range(80)])

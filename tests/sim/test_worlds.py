@@ -2,10 +2,10 @@
 
 import pytest
 
-from sim.netfile import read_network
-from sim.routes import departures, parse
-from sim.scenario import Scenario, available, load
+from sim.roads.netfile import read_network
 from sim.scene import EGO, Scene
+from sim.setup.routes import departures, parse
+from sim.setup.scenario import Scenario, available, load
 from sim.sumo import Simulation
 
 pytestmark = pytest.mark.slow

@@ -2,11 +2,11 @@
 
 import pytest
 
-from sim import scenario
-from xavi_dialogue.app.bench.truth.checker import checked
-from xavi_dialogue.app.bench.truth.ridden import Ridden, ridden
-from xavi_dialogue.app.local import Conversation, make_mind, planner_for
-from xavi_dialogue.app.ride import clock, network_of, start
+from benchmarks.truth.checker import checked
+from benchmarks.truth.ridden import Ridden, ridden
+from sim.setup import scenario
+from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.vehicle.episode import clock, network_of, start
 
 QUESTIONS = (
     "Why are we braking?",

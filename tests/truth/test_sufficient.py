@@ -5,17 +5,17 @@ import dataclasses
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import Action, EgoGoal, PlannedAction, PlanTrace, WhatIf
+from benchmarks.truth.checker import checked
+from benchmarks.truth.decision import Decision
+from benchmarks.truth.reckoning import Reckoning
+from benchmarks.truth.ridden import Ridden, ridden
+from benchmarks.truth.sufficient import Check, check_of, insufficient
+from planner.record.trace import Action, EgoGoal, PlannedAction, PlanTrace, WhatIf
 from sim.scene import Scene
 from tests.explain.trust import trusted
 from tests.sources import imports, modules
 from tests.traces import Aim, Chosen, End, Way, World, trace_of
-from xavi_dialogue.app.bench.truth.checker import checked
-from xavi_dialogue.app.bench.truth.decision import Decision
-from xavi_dialogue.app.bench.truth.reckoning import Reckoning
-from xavi_dialogue.app.bench.truth.ridden import Ridden, ridden
-from xavi_dialogue.app.bench.truth.sufficient import Check, check_of, insufficient
-from xavi_dialogue.app.ride import Moment
+from xavi_dialogue.vehicle.episode import Moment
 
 APART = ("explain", "causal", "nlg", "nlu", "dialogue", "domain")
 ASKED = "Why don't you move to the left lane?"

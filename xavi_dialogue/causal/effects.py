@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.reward import WEIGHTS
-from planner.trace import COMPONENTS, UNITS, Component
+from planner.record.trace import COMPONENTS, UNITS, Component
+from planner.rollouts.reward import WEIGHTS
 from xavi_dialogue.causal.mixtures import Joint
 from xavi_dialogue.causal.model import Intervention
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from planner.trace import HeldUp, HoldUp
+from planner.record.trace import HeldUp, HoldUp
 from xavi_dialogue.causal.mixtures import Result
 from xavi_dialogue.causal.model import Choice, Intervention
 

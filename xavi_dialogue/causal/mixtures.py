@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
-from planner.trace import OUTCOMES, Component, Outcome, Rollout
+from planner.record.trace import OUTCOMES, Component, Outcome, Rollout
 
 #: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory), and
 #: for every traffic light that was drawn, as (-1 - index in the trace, course, 0).

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias, TypeVar
 
-from planner.trace import Action, PlanTrace, Rollout
+from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.mixtures import Joint, Mixture, Result
 
 #: One vehicle's goal and trajectory, as indices into its prediction.

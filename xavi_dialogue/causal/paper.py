@@ -9,7 +9,7 @@ the four components that belong to it is present in half of them, and p(done) co
 import math
 from collections import Counter
 
-from planner.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout
+from planner.record.trace import OUTCOMES, Action, Component, Outcome, PlanTrace, Rollout
 from xavi_dialogue.causal.influence import SMOOTHING
 from xavi_dialogue.causal.model import Actions, Choice
 

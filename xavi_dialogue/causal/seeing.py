@@ -12,7 +12,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from planner.trace import Action, Outcome
+from planner.record.trace import Action, Outcome
 from xavi_dialogue.causal.mixtures import Joint, Mixture, Result
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, plan_of, shared_out
 

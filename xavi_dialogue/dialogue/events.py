@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from planner.events import Event
-from planner.trace import PlanTrace
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
 from sim.scene import Scene
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn

@@ -6,7 +6,7 @@ from typing import get_args
 
 import msgspec
 
-from planner.trace import Action
+from planner.record.trace import Action
 from xavi_dialogue.dialogue.standing import Result, reason_of
 from xavi_dialogue.domain.answers import (
     Acknowledged,

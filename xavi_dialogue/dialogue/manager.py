@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import msgspec
 
-from planner.trace import PlanTrace, WhatIf
+from planner.record.trace import PlanTrace, WhatIf
 from xavi_dialogue.dialogue.events import (
     Answered,
     Asked,

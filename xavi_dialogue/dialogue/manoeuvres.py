@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from planner.events import Event
-from planner.trace import Action
+from planner.record.events import Event
+from planner.record.trace import Action
 
 MANOEUVRES: tuple[Action, ...] = ("change-left", "change-right", "exit-left", "exit-right")
 

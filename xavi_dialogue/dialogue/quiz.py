@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.dialogue.discourse import event_of
 from xavi_dialogue.dialogue.manoeuvres import carried_out

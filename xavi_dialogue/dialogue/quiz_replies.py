@@ -7,7 +7,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Literal, TypeAlias, get_args
 
-from planner.trace import Action
+from planner.record.trace import Action
 from xavi_dialogue.dialogue.turn import Judgement, Quiz
 from xavi_dialogue.domain.meaning import Act, Ask, Reading
 from xavi_dialogue.domain.rewriting import parts

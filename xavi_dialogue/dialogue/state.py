@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from planner.events import Event
-from planner.trace import PlanTrace
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
 from sim.scene import Scene
 from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.states import Phase, RidePhase

@@ -4,7 +4,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from planner.trace import Action
+from planner.record.trace import Action
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Answer, Posed, Refusal
 from xavi_dialogue.domain.discourse import GroundedAct

@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
-from planner.trace import Action as MacroAction
-from planner.traffic_lights import LightSupposed
+from planner.record.light_record import LightSupposed
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.evidence import (
     Aim,
@@ -336,7 +336,7 @@ Answer: TypeAlias = (
 
 
 class NeedRollout(Value, frozen=True):
-    """The record lacks a plan: the planner is to plan again (planner.trace.WhatIf)."""
+    """The record lacks a plan: the planner is to plan again (planner.record.trace.WhatIf)."""
 
     trace_id: str
     actions: tuple[MacroAction, ...] = ()  # forced for the ego, in order

@@ -2,8 +2,8 @@
 
 from typing import Literal, TypeAlias
 
-from planner.trace import OUTCOMES, Component, HoldUp, Outcome
-from planner.trace import Action as MacroAction
+from planner.record.trace import OUTCOMES, Component, HoldUp, Outcome
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 
 

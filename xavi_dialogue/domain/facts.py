@@ -5,8 +5,8 @@ Times are simulation seconds. Things are grounded: `Ego`, `Vehicle`, and places.
 
 from typing import Literal, TypeAlias
 
-from planner.trace import Action as MacroAction
-from planner.trace import HoldUp, Outcome
+from planner.record.trace import Action as MacroAction
+from planner.record.trace import HoldUp, Outcome
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.terms import Ego, Feature, Junction, Thing, Vehicle
 from xavi_dialogue.domain.traffic_lights import Crossed, Foreseen, Shown

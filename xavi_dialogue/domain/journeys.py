@@ -2,8 +2,8 @@
 
 from typing import Literal
 
-from planner.road import JunctionKind, Turn
-from planner.trace import Action as MacroAction
+from planner.record.places import JunctionKind, Turn
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 

@@ -2,7 +2,7 @@
 
 from typing import Literal, TypeAlias
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.terms import Feature, Thing
 

@@ -2,7 +2,7 @@
 
 from typing import Literal, TypeAlias, get_args
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 
 #: What somebody does. First the macro actions, then what people say beside them. A lane change or
 #: turn whose side is open is "change-lane" or "turn" with `Event.side` None.

@@ -4,7 +4,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planner.events import Event as RideEvent
+from planner.record.events import Event as RideEvent
 from tests.explain.answers.stated import decision, driven, look, place, roads, scene
 from tests.traces import End
 from xavi_dialogue.explain.answers.asked import Asked

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import Action, EgoGoal, PlannedAction, PlanTrace, Settings, TimedAction
+from planner.record.events import Event as Recorded
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import Action, EgoGoal, PlannedAction, PlanTrace, Settings, TimedAction
 from sim.scene import VehicleState
 from tests.traces import straight_track
 from xavi_dialogue.domain.discourse import GroundedAct, Span

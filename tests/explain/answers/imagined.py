@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from planner.trace import SAMPLE_PERIOD, Action, HeldUp, PlanTrace, TimedAction
+from planner.record.trace import SAMPLE_PERIOD, Action, HeldUp, PlanTrace, TimedAction
 from tests.explain.answers.given import NOW
 from tests.traces import Aim, End, Way, World, straight_track, trace_of
 

@@ -9,9 +9,9 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planner.events import Event as RideEvent
-from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
-from planner.trace import PlanTrace
+from planner.record.events import Event as RideEvent
+from planner.record.places import PriorityFact, RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import PlanTrace
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Look, Measure

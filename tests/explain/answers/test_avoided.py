@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as RideEvent
+from planner.record.events import Event as RideEvent
 from tests.explain.answers.chosen import chosen
 from tests.explain.answers.stated import did, driven, result
 from tests.explain.answers.test_deciding import told

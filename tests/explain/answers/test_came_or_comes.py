@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Told
+from planner.record.events import Event as Told
 from tests.explain.answers.stated import belief, did, look, result, scene, they
 from xavi_dialogue.domain.answers import Bound, NoSuchVehicle
 from xavi_dialogue.domain.discourse import Span

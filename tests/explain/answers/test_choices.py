@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import WhatIf
+from planner.record.trace import WhatIf
 from tests.explain.answers.chosen import (
     EVENTS,
     LEFT,

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Recorded
-from planner.road import RoadFacts
+from planner.record.events import Event as Recorded
+from planner.record.places import RoadFacts
 from tests.explain.answers.stated import (
     decision,
     did,

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as RideEvent
-from planner.trace import NotApplicable as Refused
+from planner.record.events import Event as RideEvent
+from planner.record.trace import NotApplicable as Refused
 from tests.explain.answers.stated import (
     US,
     belief,

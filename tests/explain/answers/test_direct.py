@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from planner.road import RoadFacts, RouteStep
+from planner.record.places import RoadFacts, RouteStep
 from tests.explain.answers.asked_facts import told
 from tests.explain.answers.test_factual import HALT, STOPS, place
 from tests.explain.facts.scenes import Actor, made, speeds, straight

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as RideEvent
+from planner.record.events import Event as RideEvent
 from tests.explain.answers.stated import (
     US,
     aim,

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from planner.events import Event as Told
-from planner.road import LightChange, PriorityFact, RoadFacts, RoadPlace, RouteStep
-from planner.trace import HeldUp
+from planner.record.events import Event as Told
+from planner.record.places import LightChange, PriorityFact, RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import HeldUp
 from tests.explain.answers.asked_facts import told
 from tests.explain.facts.scenes import Actor, made, recorded, shifted, speeds, straight
 from tests.explain.trust import trusted

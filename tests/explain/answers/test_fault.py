@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import PriorityFact, RoadFacts
+from planner.record.places import PriorityFact, RoadFacts
 from tests.explain.answers.given import NOW, Given, deed, look, place, plan, their
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure

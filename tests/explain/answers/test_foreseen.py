@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.goals import BRANCHES
-from planner.trace import HeldUp, TrajectoryPrediction
+from planner.prediction.goals import BRANCHES
+from planner.record.trace import HeldUp, TrajectoryPrediction
 from tests.explain.answers.stated import US, aim, decision, look, scene
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.terms import Event, Road, Vehicle

@@ -1,6 +1,6 @@
 """Why we went when we did, what if we had not slowed down, and what others announce."""
 
-from planner.road import LightChange, PriorityFact, RoadFacts
+from planner.record.places import LightChange, PriorityFact, RoadFacts
 from tests.explain.causes.rides import recorded, story, told
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import Closeness, GoReason, PlaceReason, SignalReason, Unslowed

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.trace import VehicleState
+from planner.record.trace import VehicleState
 from tests.explain.answers.given import NOW, Given, look, plan, refused
 from tests.explain.answers.suppositions import GONE, Setting, did, what_if
 from xavi_dialogue.domain.answers import CannotSay, NoSuchVehicle

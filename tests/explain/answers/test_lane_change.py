@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Told
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.events import Event as Told
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from tests.explain.answers.asked_facts import told
 from tests.explain.facts.scenes import Actor, made, shifted, speeds, straight
 from xavi_dialogue.domain.answers import (

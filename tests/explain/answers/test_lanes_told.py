@@ -1,6 +1,6 @@
 """Why we are in our lane or go straight on, and whether a choice was needed."""
 
-from planner.trace import NotApplicable as Refused
+from planner.record.trace import NotApplicable as Refused
 from tests.explain.answers.chosen import (
     LEFT,
     RIGHT,

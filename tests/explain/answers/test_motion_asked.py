@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Told
-from planner.road import RoadFacts
+from planner.record.events import Event as Told
+from planner.record.places import RoadFacts
 from tests.explain.answers.stated import decision, did, driven, look, place, result, roads, scene
 from xavi_dialogue.domain.answers import (
     ChoiceReason,

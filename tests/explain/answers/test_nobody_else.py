@@ -3,7 +3,7 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace, WhatIf
+from planner.record.trace import PlanTrace, WhatIf
 from sim.scene import EGO
 from tests.explain.answers.given import NOW, Given
 from tests.explain.answers.imagined import Drive, decided

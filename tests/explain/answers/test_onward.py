@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import RouteStep
+from planner.record.places import RouteStep
 from tests.explain.answers.stated import decision, did, place, result, roads, scene, step
 from xavi_dialogue.domain.answers import Course, Measures, NotRecorded
 from xavi_dialogue.domain.discourse import Span

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
+from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, Told, deed, look, plan, refused
 from xavi_dialogue.domain.answers import (
     ChoiceReason,

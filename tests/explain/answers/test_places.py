@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
-from planner.road import RoadFacts
+from planner.record.events import Event as Recorded
+from planner.record.places import RoadFacts
 from tests.explain.answers.given import (
     NOW,
     Given,

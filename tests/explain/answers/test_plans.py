@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
-from planner.trace import EgoGoal, HeldUp
+from planner.record.events import Event as Recorded
+from planner.record.trace import EgoGoal, HeldUp
 from tests.explain.answers.given import NOW, Given, plan
 from tests.explain.answers.imagined import Drive, decided
 from tests.traces import End

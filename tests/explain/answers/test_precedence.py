@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import SAMPLE_PERIOD, TrajectoryPrediction
+from planner.record.trace import SAMPLE_PERIOD, TrajectoryPrediction
 from tests.explain.answers.given import plan
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.explain.answers import precedence

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import LightAhead, PriorityFact, RoadFacts
+from planner.record.places import LightAhead, PriorityFact, RoadFacts
 from tests.explain.answers.given import NOW, Given, deed, look, place, plan, refused, step, their
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotRecorded, Priority
 from xavi_dialogue.domain.discourse import Span

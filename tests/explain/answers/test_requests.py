@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import NotApplicable
+from planner.record.trace import NotApplicable
 from tests.explain.answers.given import NOW, Told, deed, look, option, plan, refused
 from tests.explain.answers.requested import (
     LEADER,

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import RoadFacts
+from planner.record.places import RoadFacts
 from tests.explain.answers.given import NOW, Given, look, place, step
 from xavi_dialogue.domain.terms import (
     At,

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
+from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, Told, deed, option, plan, refused
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.domain.answers import DidNotHappen, Evidence, Options, OwnSignal

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Recorded
+from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, deed, look, plan, their
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Recorded
+from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, deed, look, plan, stand_in
 from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.discourse import Span

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from tests.explain.answers.given import NOW, Given, deed, plan
 from xavi_dialogue.domain.answers import Comforting, Measures, NotRecorded
 from xavi_dialogue.domain.discourse import Span

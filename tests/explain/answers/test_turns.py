@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import PriorityFact, RoadFacts
+from planner.record.places import PriorityFact, RoadFacts
 from tests.explain.answers.given import NOW, Given, deed, look, place, step
 from xavi_dialogue.domain.answers import Answer, Priority, Unblocking
 from xavi_dialogue.domain.meaning import HowMany, Which

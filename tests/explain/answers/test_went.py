@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Told
+from planner.record.events import Event as Told
 from tests.explain.answers.stated import decision, did, look, result, roads, scene
 from xavi_dialogue.domain.answers import Bystander, GoReason
 from xavi_dialogue.domain.discourse import Span

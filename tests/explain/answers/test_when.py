@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event as Told
+from planner.record.events import Event as Told
 from tests.explain.answers.stated import (
     belief,
     decision,

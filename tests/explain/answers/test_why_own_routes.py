@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Recorded
+from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, Told, look, plan, refused, stand_in
 from xavi_dialogue.domain.answers import CannotSay, DidNotHappen, NotRecorded
 from xavi_dialogue.domain.discourse import Span

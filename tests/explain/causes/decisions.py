@@ -7,9 +7,9 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.road import RoadFacts
-from planner.trace import HeldUp, HoldUp, PlannedAction, PlanTrace, Rollout
+from planner.record.events import Event
+from planner.record.places import RoadFacts
+from planner.record.trace import HeldUp, HoldUp, PlannedAction, PlanTrace, Rollout
 from tests.explain.facts.scenes import Actor, made
 from tests.traces import Actions, Aim, Chosen, End, Way, World, trace_of
 from xavi_dialogue.domain.answers import NeedRollout

@@ -5,7 +5,7 @@ from typing import Any
 
 import msgspec
 
-from planner.trace import WhatIf
+from planner.record.trace import WhatIf
 from tests.planted import Moment, decision, without
 from tests.stories import rides
 from xavi_dialogue.domain.answers import NeedRollout
@@ -13,8 +13,8 @@ from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask
 from xavi_dialogue.explain.answers.engine import explain
 from xavi_dialogue.explain.history.record import Record
-from xavi_dialogue.transports import ride_file
-from xavi_dialogue.transports.ride_file import RecordedRide
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.ride_file import RecordedRide
 
 RECORDED = Path(__file__).parents[3] / "transcripts" / "rides"
 

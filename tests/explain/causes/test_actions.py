@@ -4,7 +4,7 @@ from typing import get_args
 
 import pytest
 
-from planner.trace import ACTIONS
+from planner.record.trace import ACTIONS
 from tests.traces import s1_world, trace_of
 from xavi_dialogue.causal.model import Actions, CausalModel
 from xavi_dialogue.domain.answers import NotApplicable

@@ -3,7 +3,7 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from tests.explain.facts.scenes import Actor, made, shifted, straight
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.facts import Episode

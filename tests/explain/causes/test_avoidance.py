@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Told
-from planner.trace import PlanTrace
+from planner.record.events import Event as Told
+from planner.record.trace import PlanTrace
 from tests.explain.causes.decisions import decided, ride, steady
 from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way

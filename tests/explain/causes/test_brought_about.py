@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace
-from planner.trace import PlanTrace, TimedAction, WhatIf
+from planner.record.places import RoadFacts, RoadPlace
+from planner.record.trace import PlanTrace, TimedAction, WhatIf
 from tests.explain.causes.decisions import decided, in_the_way, ride, steady
 from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.explain.causes.involved import holding_up

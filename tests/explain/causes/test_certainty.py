@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace, TimedAction
+from planner.record.trace import PlanTrace, TimedAction
 from tests.explain.causes.decisions import decided, ride
 from tests.explain.trust import ERROR, trusted
 from tests.traces import Actions, Aim, End, Way

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Told
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import NotApplicable, Outcome, PlanTrace, TimedAction
+from planner.record.events import Event as Told
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import NotApplicable, Outcome, PlanTrace, TimedAction
 from tests.explain.causes.decisions import decided, ride
 from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from tests.explain.causes.decisions import decided, ride
 from tests.traces import Aim, End, Way
 from xavi_dialogue.causal.model import CausalModel

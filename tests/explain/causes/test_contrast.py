@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.reward import COSTS
-from planner.trace import COMPONENTS, FORMER, PlanTrace, decode, encode
+from planner.record.trace import COMPONENTS, FORMER, PlanTrace, decode, encode
+from planner.rollouts.reward import COSTS
 from tests.explain.causes.rides import recorded, single, told
 from tests.stories import even, squeezed
 from xavi_dialogue.causal.effects import effects

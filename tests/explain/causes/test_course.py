@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace
-from planner.trace import Action, TimedAction
+from planner.record.places import RoadFacts, RoadPlace
+from planner.record.trace import Action, TimedAction
 from tests.explain.causes.decisions import decided, ride, steady
 from tests.explain.facts.scenes import Actor, made
 from tests.explain.facts.scenes import speeds as at_speeds

@@ -5,7 +5,7 @@ import math
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.explain.causes.decisions import ride
 from tests.explain.facts.scenes import Actor, made, straight
 from xavi_dialogue.explain.causes.crossing import Crossing, crossing

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from planner.events import Event as Told
-from planner.road import PriorityFact, RoadFacts
+from planner.record.events import Event as Told
+from planner.record.places import PriorityFact, RoadFacts
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import Bystander
 from xavi_dialogue.explain.causes.going import bystanders

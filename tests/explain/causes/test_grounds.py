@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace, Track
+from planner.record.trace import PlanTrace, Track
 from sim.scene import VehicleState
 from tests.explain.causes.decisions import decided, ride
 from tests.explain.facts.scenes import Actor, made, shifted, speeds, straight

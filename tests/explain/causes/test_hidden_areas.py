@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.planner.corner import at_the_corner
-from xavi_dialogue.app.local import Conversation, make_mind, planner_for
-from xavi_dialogue.app.ride import Moment, clock, network_of, start
+from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.vehicle.episode import Moment, clock, network_of, start
 
 pytestmark = pytest.mark.slow
 

@@ -6,7 +6,7 @@ from typing import Any, get_args
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import HeldUp, HoldUp, PlanTrace
+from planner.record.trace import HeldUp, HoldUp, PlanTrace
 from tests.explain.causes.decisions import decided, ride
 from tests.traces import Actions, Aim, Chosen, End, Way, straight_track
 from xavi_dialogue.causal.effects import effects

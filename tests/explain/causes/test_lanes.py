@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from tests.explain.facts.scenes import Actor, made, straight
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.explain.causes.blocking import blocking, in_lane_beside

@@ -2,7 +2,7 @@
 
 import msgspec
 
-from planner.trace import HeldUp, PlanTrace
+from planner.record.trace import HeldUp, PlanTrace
 from tests.traces import s1_world, trace_of
 from xavi_dialogue.explain.causes.mediated import holders
 from xavi_dialogue.explain.history.record import Record

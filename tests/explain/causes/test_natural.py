@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.road import RoadFacts, RouteStep
+from planner.record.places import RoadFacts, RouteStep
 from tests.explain.causes.rides import recorded, told
 from tests.explain.facts.scenes import Actor, made, straight
 from tests.nlg.scenery import CONTEXT

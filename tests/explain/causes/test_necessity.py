@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from planner.trace import Action, PlanTrace, WhatIf
+from planner.record.trace import Action, PlanTrace, WhatIf
 from tests.traces import Aim, World, s1_ride, s1_world, trace_of
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import ChoiceReason, NeedRollout

@@ -3,7 +3,7 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from tests.explain.causes.decisions import decided, ride, steady
 from tests.traces import Actions, Aim, Chosen, End, Way
 from xavi_dialogue.causal.model import CausalModel

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import HeldUp, NotApplicable, PlanTrace, WhatIf
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import HeldUp, NotApplicable, PlanTrace, WhatIf
 from tests.explain.causes.decisions import decided, ride, steady
 from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way

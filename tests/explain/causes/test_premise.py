@@ -6,8 +6,8 @@ from functools import cache
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Told
-from planner.trace import PlannedAction, PlanTrace, TimedAction
+from planner.record.events import Event as Told
+from planner.record.trace import PlannedAction, PlanTrace, TimedAction
 from tests.explain.causes.decisions import decided, ride, steady
 from tests.explain.facts.scenes import Actor, made, speeds
 from tests.traces import Actions, End

@@ -5,7 +5,7 @@ import math
 import msgspec
 import pytest
 
-from planner.trace import PlanTrace, WhatIf
+from planner.record.trace import PlanTrace, WhatIf
 from tests.explain.causes.rides import recorded
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel, Intervention

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 from msgspec import structs
 
-from planner.events import Event as Told
-from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
-from planner.trace import HeldUp
+from planner.record.events import Event as Told
+from planner.record.places import PriorityFact, RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import HeldUp
 from tests.explain.causes.decisions import Driven, in_the_way
 from tests.explain.facts.scenes import Actor, straight
 from tests.traces import Actions

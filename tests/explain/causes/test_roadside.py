@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event as Told
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import PlannedAction, PlanTrace, TimedAction
+from planner.record.events import Event as Told
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import PlannedAction, PlanTrace, TimedAction
 from tests.explain.facts.scenes import Actor, Path_, Pose, made, speeds, straight
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode

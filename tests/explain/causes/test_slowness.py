@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import pytest
 
-from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
-from planner.trace import HeldUp
+from planner.record.places import PriorityFact, RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import HeldUp
 from tests.explain.causes.decisions import Driven, in_the_way
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from tests.traces import Actions

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RouteStep
-from planner.trace import Action, PlanTrace, WhatIf
+from planner.record.places import RoadFacts, RouteStep
+from planner.record.trace import Action, PlanTrace, WhatIf
 from tests.explain.causes.decisions import decided, in_the_way, ride
 from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.causal.model import CausalModel

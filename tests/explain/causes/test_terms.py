@@ -5,7 +5,7 @@ import math
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import Action, Component, Costs, Outcome, PlanTrace, RewardTerm
+from planner.record.trace import Action, Component, Costs, Outcome, PlanTrace, RewardTerm
 from tests.explain.causes.decisions import decided
 from tests.explain.trust import trusted
 from tests.traces import Actions, Aim, Chosen, End, Way

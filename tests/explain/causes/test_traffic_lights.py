@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.events import Event as RideEvent
+from planner.record.events import Event as RideEvent
 from tests.explain.lit import LINE, OBEYS, STANDS, answer, driven, record
 from xavi_dialogue.domain.answers import MotionReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct

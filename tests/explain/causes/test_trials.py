@@ -6,7 +6,7 @@ from dataclasses import replace as changed
 import pytest
 from msgspec.structs import replace
 
-from planner.trace import HeldUp, PlanTrace, WhatIf
+from planner.record.trace import HeldUp, PlanTrace, WhatIf
 from tests.explain.causes.decisions import Line, decided, in_the_way, ride, steady
 from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.domain.answers import NeedRollout

@@ -3,8 +3,8 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.hidden_areas import HeldByHidden, Phantom
-from planner.trace import PlanTrace, WhatIf
+from planner.record.hidden_record import HeldByHidden, Phantom
+from planner.record.trace import PlanTrace, WhatIf
 from tests.explain.answers.given import NOW
 from tests.explain.answers.imagined import Drive, decided
 from tests.traces import End

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from planner.road import PriorityFact
+from planner.record.places import PriorityFact
 from tests.explain.causes.rides import recorded
 from xavi_dialogue.domain.answers import Cause, Mechanism
 from xavi_dialogue.domain.evidence import Causation

@@ -9,14 +9,14 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.road import LightChange, RoadFacts
-from planner.trace import PlanTrace, Track
+from planner.record.events import Event
+from planner.record.places import LightChange, RoadFacts
+from planner.record.trace import PlanTrace, Track
 from sim.scene import Scene, VehicleState
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
-from xavi_dialogue.transports import ride_file
+from xavi_dialogue.storage import ride_file
 
 Pose = tuple[float, float, float, float]  # x [m], y [m], heading [rad], speed [m/s]
 Path_ = Callable[[float], Pose]

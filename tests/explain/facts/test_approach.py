@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.explain.facts.scenes import Actor, Path_, Pose, made, straight
 from xavi_dialogue.explain.facts.approach import Closest, Following, closest, following
 from xavi_dialogue.explain.facts.states import States

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.road import RoadPlace
+from planner.record.places import RoadPlace
 from sim.scene import VehicleState
 from xavi_dialogue.explain.facts.bearings import (
     Offset,

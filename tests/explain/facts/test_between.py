@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.explain.facts.scenes import Actor, Path_, made, straight
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Destination, Ego, Thing, Vehicle, Vehicles

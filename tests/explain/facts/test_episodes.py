@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from planner.events import Event
-from planner.road import LightChange, RoadFacts, RoadPlace, RouteStep, Turn
-from planner.trace import HeldUp
+from planner.record.events import Event
+from planner.record.places import LightChange, RoadFacts, RoadPlace, RouteStep, Turn
+from planner.record.trace import HeldUp
 from tests.explain.facts.scenes import Actor, Pose, made, recorded, shifted, speeds, straight
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.facts import Episode

@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.events import Event as Told
+from planner.record.events import Event as Told
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import (

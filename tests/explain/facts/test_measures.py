@@ -5,8 +5,8 @@ from typing import get_args
 
 import pytest
 
-from planner.events import Event
-from planner.road import PriorityFact, RoadFacts, RoadPlace, RouteStep
+from planner.record.events import Event
+from planner.record.places import PriorityFact, RoadFacts, RoadPlace, RouteStep
 from tests.explain.facts.scenes import Actor, made, recorded, speeds, straight
 from xavi_dialogue.domain.facts import Gap
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Lane, Vehicle

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from planner.events import Event
-from planner.road import RoadFacts, RoadPlace
-from planner.trace import Action
+from planner.record.events import Event
+from planner.record.places import RoadFacts, RoadPlace
+from planner.record.trace import Action
 from tests.explain.facts.scenes import Actor, Path_, Pose, glimpsed, made, shifted, speeds, straight
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle

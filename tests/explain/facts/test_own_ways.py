@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from planner.events import Event
-from planner.road import RoadFacts, RoadPlace, RouteStep
-from planner.trace import Action
+from planner.record.events import Event
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import Action
 from tests.explain.facts.scenes import Actor, made, speeds
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Vehicle
 from xavi_dialogue.explain.facts.own import own

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RouteStep
-from planner.trace import PlanTrace
+from planner.record.places import RoadFacts, RouteStep
+from planner.record.trace import PlanTrace
 from tests.explain.facts.scenes import Actor, made, straight
 from tests.traces import Actions, Aim, Chosen, End, Way, trace_of
 from tests.traces import World as Plain

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 
 import pytest
 
-from planner.road import PriorityFact, RoadFacts, RoadPlace
-from planner.trace import HeldUp
+from planner.record.places import PriorityFact, RoadFacts, RoadPlace
+from planner.record.trace import HeldUp
 from tests.explain.facts.scenes import Actor, made, straight
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.terms import (

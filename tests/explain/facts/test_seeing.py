@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.road import LightChange
+from planner.record.places import LightChange
 from tests.explain.facts.scenes import Actor, made, straight
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.facts import Expectation

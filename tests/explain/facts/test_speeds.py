@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner.trace import TimedAction
+from planner.record.trace import TimedAction
 from sim.scene import VehicleState
 from tests.explain.facts.scenes import Actor, glimpsed, kept, made, speeds, straight
 from tests.planted import Moment, Seen, decision

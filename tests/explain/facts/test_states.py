@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner.road import LightChange, RoadFacts, RoadPlace
+from planner.record.places import LightChange, RoadFacts, RoadPlace
 from sim.scene import VehicleState
 from tests.explain.facts.scenes import Actor, Pose, glimpsed, kept, made, speeds, straight
 from xavi_dialogue.explain.facts.states import States, states_of

@@ -5,9 +5,9 @@ from dataclasses import replace as changed
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.road import RoadFacts, RoadPlace
-from planner.trace import EgoGoal, PlanTrace
+from planner.record.events import Event
+from planner.record.places import RoadFacts, RoadPlace
+from planner.record.trace import EgoGoal, PlanTrace
 from tests.explain.facts.scenes import Actor, kept, made, speeds, straight
 from tests.traces import Actions, Aim, Chosen, End, Way, trace_of
 from tests.traces import World as Plain

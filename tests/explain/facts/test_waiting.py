@@ -7,9 +7,9 @@ from dataclasses import replace as changed
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.road import PriorityFact, RoadFacts
-from planner.trace import HeldUp, HoldUp, PlannedAction, PlanTrace
+from planner.record.events import Event
+from planner.record.places import PriorityFact, RoadFacts
+from planner.record.trace import HeldUp, HoldUp, PlannedAction, PlanTrace
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from tests.traces import Aim, End, Way, trace_of
 from tests.traces import World as Plain

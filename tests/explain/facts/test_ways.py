@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from tests.explain.facts.scenes import Actor, Pose, made, shifted, straight
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Junction, Vehicle

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.events import Event
+from planner.record.events import Event
 from tests.explain.facts.scenes import Actor, made, speeds
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.explain.history.deeds import Deed, read_deeds

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from planner.goals import BRANCHES
-from planner.trace import GoalPrediction, TrajectoryPrediction
+from planner.prediction.goals import BRANCHES
+from planner.record.trace import GoalPrediction, TrajectoryPrediction
 from xavi_dialogue.explain.history.motion import branches_off, foresees, foretold, steps
 
 BRANCH = next(iter(BRANCHES.values()))

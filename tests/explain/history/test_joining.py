@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner.trace import SAMPLE_PERIOD, Track
+from planner.record.trace import SAMPLE_PERIOD, Track
 from sim.scene import Scene
 from tests.explain.facts.scenes import Actor, made, recorded, straight
 from xavi_dialogue.explain.facts.states import states_of

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from msgspec.structs import replace as with_fields
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from sim.scene import Scene
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import MotionCause

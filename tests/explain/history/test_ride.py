@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner.events import Event
+from planner.record.events import Event
 from tests.explain.facts.scenes import Actor, made, recorded, speeds, straight
 from xavi_dialogue.domain.answers import NeedRollout, NotRecorded, TooLittle
 from xavi_dialogue.domain.discourse import Span

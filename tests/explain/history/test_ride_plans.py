@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.events import Event
-from planner.trace import NotApplicable as Refused
-from planner.trace import TimedAction, WhatIf
+from planner.record.events import Event
+from planner.record.trace import NotApplicable as Refused
+from planner.record.trace import TimedAction, WhatIf
 from tests.explain.answers.given import plan, refused
 from tests.explain.answers.imagined import Drive, decided
 from tests.explain.facts.scenes import Actor, made, straight

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import LightChange, RoadFacts
-from planner.trace import Track
+from planner.record.places import LightChange, RoadFacts
+from planner.record.trace import Track
 from sim.scene import Scene, VehicleState
 from tests.explain.answers.given import place, plan, step
 from xavi_dialogue.explain.history import joining

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.discourse import Discourse, Mention
 from xavi_dialogue.domain.facts import Episode, Look

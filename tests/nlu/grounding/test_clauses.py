@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.nlu.grounding.fakes import Car, did
 from tests.nlu.grounding.test_things import BLUE, BUS, RED, Meant
 from xavi_dialogue.domain.terms import (

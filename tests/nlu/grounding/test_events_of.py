@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.nlu.grounding.fakes import did, talk
 from tests.nlu.grounding.test_events import BRAKE, TWO, Said, route
 from xavi_dialogue.domain.discourse import Span

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.road import RoadFacts, RoadPlace, RouteStep
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from tests.nlu.grounding.fakes import Car, FakeWorld, did, talk
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import (

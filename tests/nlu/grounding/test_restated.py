@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from planner.road import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace
 from tests.nlu.grounding.fakes import FakeWorld, did, talk
 from tests.nlu.grounding.test_asked import BRAKED, CARS, FOCUS, Grounded, asked, whether
 from xavi_dialogue.domain.discourse import Discourse

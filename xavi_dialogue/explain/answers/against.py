@@ -7,8 +7,8 @@ decision: `foils.foil_at` finds it by the tense of the question and by the deed 
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.trace import Action as MacroAction
-from planner.trace import PlanTrace
+from planner.record.trace import Action as MacroAction
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import CannotSay, Contrast, NotApplicable
 from xavi_dialogue.domain.facts import Episode

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from planner.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO, Point, VehicleState
 from xavi_dialogue.domain.answers import Closeness
 from xavi_dialogue.domain.facts import Measure

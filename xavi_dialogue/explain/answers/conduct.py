@@ -4,7 +4,7 @@ import math
 
 from msgspec.structs import replace
 
-from sim.network import angle_between
+from sim.roads.network import angle_between
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle

@@ -5,7 +5,7 @@ from typing import Literal
 
 from msgspec.structs import replace
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Answer,

@@ -1,6 +1,6 @@
 """Decisions: what was decided at a time, and what was different at another decision."""
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.domain.answers import Altered, Answer, Decided, NotRecorded
 from xavi_dialogue.domain.facts import Belief, Episode, Look
 from xavi_dialogue.domain.meaning import Changed

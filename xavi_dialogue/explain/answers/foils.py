@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import DidNotHappen
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Performed

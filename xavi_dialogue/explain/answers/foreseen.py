@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from planner.trace import Action, HeldUp, PlanTrace, TrajectoryPrediction
+from planner.record.trace import Action, HeldUp, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
 from xavi_dialogue.domain.terms import Event, Road, Vehicle

@@ -7,8 +7,8 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from planner.hidden_areas import Phantom
-from planner.trace import PlanTrace
+from planner.record.hidden_record import Phantom
+from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.hidden_areas import Hider, SightTold, SupposedSeeing
 from xavi_dialogue.domain.meaning import Ask, HowKnow, HowSure, Listing, WhatIf, Whether, Which

@@ -6,8 +6,8 @@ show for good.
 
 from typing import Any, Literal
 
-from planner.trace import PlanTrace
-from planner.traffic_lights import GREENS
+from planner.record.light_record import GREENS
+from planner.record.trace import PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why

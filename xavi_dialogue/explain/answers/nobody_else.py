@@ -7,7 +7,7 @@ decision is made again. Where something else is done then, the nearest are tried
 import math
 from typing import Final
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason, NobodyElse, TooLittle
 from xavi_dialogue.explain.answers.asked import Asked, Unanswered

@@ -4,8 +4,8 @@ from typing import Final, Literal, TypeAlias
 
 from msgspec.structs import replace
 
-from planner.road import RoadFacts
-from planner.trace import ON_FOOT
+from planner.record.places import RoadFacts
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Answer, Priority
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.meaning import Why

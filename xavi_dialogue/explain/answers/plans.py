@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from planner.trace import Action, PlanTrace, Rollout
+from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.effects import quantile
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.answers import PlanAhead

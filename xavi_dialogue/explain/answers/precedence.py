@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final, Literal, TypeAlias
 
-from planner.road import RoadFacts
-from planner.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
+from planner.record.places import RoadFacts
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO, Point
 from xavi_dialogue.explain.causes.course import lines
 from xavi_dialogue.explain.history.motion import Motion

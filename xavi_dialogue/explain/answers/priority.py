@@ -8,8 +8,8 @@ from typing import Any, Literal, TypeAlias, cast
 
 from msgspec.structs import replace as changed
 
-from planner.road import RoadFacts
-from planner.trace import ON_FOOT
+from planner.record.places import RoadFacts
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody

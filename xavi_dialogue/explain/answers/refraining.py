@@ -4,7 +4,7 @@ import math
 
 from msgspec import structs
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import (
     Answer,
     Bystander,

@@ -1,6 +1,6 @@
 """Room: whether a lane beside us, or ours ahead, is free."""
 
-from planner.road import RoadPlace
+from planner.record.places import RoadPlace
 from sim.scene import EGO
 from xavi_dialogue.domain.terms import Ego, Is, Lane
 from xavi_dialogue.explain.answers.asked import Asked

@@ -1,6 +1,6 @@
 """Signalling: why our own indicator is or was on: what it announces, and whether that came."""
 
-from planner.trace import Action as MacroAction
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, OwnSignal
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event

@@ -8,7 +8,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from planner.road import RoadFacts
+from planner.record.places import RoadFacts
 from xavi_dialogue.domain.answers import Answer, Identified, Priority, Unblocking
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why

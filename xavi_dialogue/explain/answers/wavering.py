@@ -3,7 +3,7 @@
 from itertools import pairwise
 from typing import Final
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.domain.answers import Answer, Wavered
 from xavi_dialogue.domain.journeys import Waver
 from xavi_dialogue.domain.meaning import Why

@@ -2,8 +2,8 @@
 
 from typing import TypeGuard
 
-from planner.trace import ACTIONS
-from planner.trace import Action as MacroAction
+from planner.record.trace import ACTIONS
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.causal.model import Actions, CausalModel
 from xavi_dialogue.domain.answers import NotApplicable
 from xavi_dialogue.domain.terms import Event, Lane, Thing

@@ -4,7 +4,7 @@ An indicator announces a change of lanes or a turn to that side; who drives in f
 is no reason for it. Where a vehicle is, seen from us, is told by who let whom go, or went past.
 """
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.answers import SignalReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle

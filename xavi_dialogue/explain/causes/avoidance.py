@@ -9,8 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from planner.events import Event as RideEvent
-from planner.trace import Action, PlanTrace, Rollout
+from planner.record.events import Event as RideEvent
+from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Avoidance, NotRecorded
 from xavi_dialogue.domain.facts import Episode

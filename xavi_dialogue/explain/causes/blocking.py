@@ -1,6 +1,6 @@
 """Blocking: who stood or crept in our lane when we left it, or is in one that we left alone."""
 
-from planner.trace import Action
+from planner.record.trace import Action
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Look

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planner.trace import Outcome
+from planner.record.trace import Outcome
 from xavi_dialogue.causal.mixtures import Joint
 from xavi_dialogue.causal.model import Actions, Intervention
 from xavi_dialogue.domain.answers import Certainty, NeedRollout

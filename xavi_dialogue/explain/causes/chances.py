@@ -7,7 +7,7 @@ enters here and nowhere else.
 
 from dataclasses import dataclass
 
-from planner.trace import Outcome
+from planner.record.trace import Outcome
 from xavi_dialogue.causal.mixtures import Mixture
 from xavi_dialogue.domain.evidence import OutcomeEstimate
 from xavi_dialogue.explain.causes.ranges import Ranges, table

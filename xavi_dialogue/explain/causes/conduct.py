@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from planner.trace import GoalPrediction, PlanTrace, TrajectoryPrediction
+from planner.record.trace import GoalPrediction, PlanTrace, TrajectoryPrediction
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice
 from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.facts import Belief, Expectation

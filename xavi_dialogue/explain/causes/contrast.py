@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from msgspec.structs import replace
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import ComponentEffect, effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import (

@@ -8,8 +8,8 @@ from typing import overload
 
 import numpy as np
 
-from planner.trace import SAMPLE_PERIOD, Action, PlanTrace, Rollout
-from sim.network import angle_between
+from planner.record.trace import SAMPLE_PERIOD, Action, PlanTrace, Rollout
+from sim.roads.network import angle_between
 from sim.scene import Point
 from xavi_dialogue.causal.effects import HIGH, LOW, quantile
 from xavi_dialogue.causal.model import Intervention

@@ -11,7 +11,7 @@ from itertools import accumulate, pairwise
 from typing import TypeAlias
 
 from planner.kernels.driving import ACCELERATION
-from planner.trace import SAMPLE_PERIOD, PlanTrace
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.scene import EGO, Point
 from xavi_dialogue.explain.causes.course import lines
 from xavi_dialogue.explain.history.ride import Ride, planned, prediction

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from planner.events import Event as RideEvent
-from planner.trace import PlanTrace
+from planner.record.events import Event as RideEvent
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded

@@ -1,7 +1,7 @@
 """Going: why the ego went when it did: who had right of way at that moment, and what they did."""
 
-from planner.events import Event as RideEvent
-from planner.trace import PlanTrace
+from planner.record.events import Event as RideEvent
+from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.answers import Bystander
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride

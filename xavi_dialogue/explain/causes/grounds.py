@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Literal
 
-from planner.trace import GoalPrediction, PlanTrace
+from planner.record.trace import GoalPrediction, PlanTrace
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import Grounds, NotRecorded
 from xavi_dialogue.domain.facts import Episode

@@ -7,8 +7,8 @@ that decision again as if one could see past what hides it: it does where this s
 import math
 from typing import Literal
 
-from planner.hidden_areas import Phantom
-from planner.trace import PlanTrace
+from planner.record.hidden_record import Phantom
+from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause, NeedRollout
 from xavi_dialogue.domain.facts import Episode

@@ -8,7 +8,7 @@ seen to brake or stand: what is foreseen and not seen explains nothing. We are v
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
-from planner.trace import HeldUp, HoldUp, PlanTrace
+from planner.record.trace import HeldUp, HoldUp, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Choice
 from xavi_dialogue.domain.answers import Evidence, MotionCause

@@ -7,7 +7,7 @@ a vehicle took, else by the last belief about the same goals.
 
 from dataclasses import replace
 
-from planner.trace import GoalPrediction, PlanTrace
+from planner.record.trace import GoalPrediction, PlanTrace
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.history.ride import Ride, prediction
 

@@ -9,7 +9,7 @@ and none is where the foil leaves the way to the goal: that is nobody's doing.
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 
-from planner.trace import HoldUp
+from planner.record.trace import HoldUp
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import ComponentEffect
 from xavi_dialogue.causal.holdups import VehicleHoldUp, colliding_choice, hold_ups

@@ -7,7 +7,7 @@ of late that foresaw it (mediation: Pearl 2009, Causality, 4.5).
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from planner.trace import PlanTrace, TrajectoryPrediction
+from planner.record.trace import PlanTrace, TrajectoryPrediction
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.causes.actions import CHANGES
 from xavi_dialogue.explain.history.ride import Ride, prediction

@@ -7,7 +7,7 @@ was possible.
 
 from msgspec.structs import replace
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import Contrast, NeedRollout
 from xavi_dialogue.explain.causes.actions import CHANGES, EXITS

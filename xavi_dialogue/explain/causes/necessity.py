@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention

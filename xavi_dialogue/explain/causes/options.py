@@ -1,6 +1,6 @@
 """Options: what a decision weighed, and how each came out."""
 
-from planner.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import Evidence

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from planner.trace import Action
+from planner.record.trace import Action
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice
 from xavi_dialogue.domain.answers import Cause, Contrast, NeedRollout, Pivot
 from xavi_dialogue.explain.causes.actions import same

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from planner.trace import Action as MacroAction
-from planner.trace import PlanTrace
+from planner.record.trace import Action as MacroAction
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import DidNotHappen, NotRecorded
 from xavi_dialogue.domain.discourse import Span

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.trace import SAMPLE_PERIOD, PlanTrace
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.explain.causes.course import lines

@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import msgspec
 
-from planner.trace import Outcome, PlanTrace
+from planner.record.trace import Outcome, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.conformal import COVERAGE, reach
 from xavi_dialogue.causal.effects import ComponentEffect

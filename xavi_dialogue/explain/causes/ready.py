@@ -7,7 +7,7 @@ in the way of what it put off; it was about to change lanes; or it had decided t
 from collections.abc import Collection
 from itertools import pairwise
 
-from planner.trace import ON_FOOT, PlanTrace
+from planner.record.trace import ON_FOOT, PlanTrace
 from xavi_dialogue.causal.holdups import VehicleHoldUp, hold_ups
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode

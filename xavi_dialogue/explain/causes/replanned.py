@@ -4,7 +4,7 @@ import itertools
 import math
 from typing import Final
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.contrast import factual

@@ -4,8 +4,8 @@ import math
 
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace
-from sim.network import angle_between
+from planner.record.trace import PlanTrace
+from sim.roads.network import angle_between
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode

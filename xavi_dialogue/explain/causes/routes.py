@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from itertools import takewhile
 
-from planner.road import RouteStep
-from planner.trace import PlanTrace
+from planner.record.places import RouteStep
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.causes.actions import EXITS
 

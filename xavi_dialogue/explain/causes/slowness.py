@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from msgspec.structs import replace as changed
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded

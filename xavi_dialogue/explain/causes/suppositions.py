@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from planner.trace import Action as MacroAction
-from planner.trace import PlanTrace
+from planner.record.trace import Action as MacroAction
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
 from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRecorded, TooLittle
 from xavi_dialogue.domain.terms import Vehicle

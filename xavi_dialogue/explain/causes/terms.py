@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from planner.trace import COMPONENTS, Costs, Outcome
+from planner.record.trace import COMPONENTS, Costs, Outcome
 from xavi_dialogue.causal.mixtures import Mixture, Result
 from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import Share, Term, Weighing

@@ -6,8 +6,8 @@ where this saves time. Who stands before us in the queue is told beside it.
 
 from collections.abc import Iterable
 
-from planner.trace import PlanTrace
-from planner.traffic_lights import LightSupposed
+from planner.record.light_record import LightSupposed
+from planner.record.trace import PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.domain.answers import MotionCause, NeedRollout
 from xavi_dialogue.domain.facts import Episode

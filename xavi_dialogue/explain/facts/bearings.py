@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass
 
-from planner.road import RoadPlace
-from sim.network import angle_between
+from planner.record.places import RoadPlace
+from sim.roads.network import angle_between
 from sim.scene import VehicleState
 from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.explain.history.thresholds import OPPOSITE, SAME_LANE, SAME_WAY

@@ -1,6 +1,6 @@
 """Beliefs: what the decisions of a ride expected of another vehicle."""
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.facts import Belief, Expectation
 from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.vocabulary import ActionName

@@ -7,8 +7,8 @@ were predicted of it. What is told of another is never sure.
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from planner.trace import PlanTrace
-from planner.traffic_lights import HeldByLight
+from planner.record.light_record import HeldByLight
+from planner.record.trace import PlanTrace
 from sim.scene import EGO, Signal
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Feature

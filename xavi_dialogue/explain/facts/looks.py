@@ -5,7 +5,7 @@ from typing import TypeAlias, get_args
 
 from msgspec.structs import replace
 
-from planner.road import RoadPlace
+from planner.record.places import RoadPlace
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.vocabulary import Kind

@@ -3,8 +3,8 @@
 import itertools
 from collections.abc import Iterator
 
-from planner.road import RoadFacts
-from planner.trace import Action, PlanTrace
+from planner.record.places import RoadFacts
+from planner.record.trace import Action, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Destination

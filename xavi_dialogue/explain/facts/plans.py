@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from planner.trace import PlanTrace
+from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.history.ride import Ride, enough, planned

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
-from planner.trace import ON_FOOT
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.terms import Ego, Exit, Junction, Lane, Road, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import Relation

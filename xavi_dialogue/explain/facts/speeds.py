@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from planner.trace import SAMPLE_PERIOD, Action, Rollout
+from planner.record.trace import SAMPLE_PERIOD, Action, Rollout
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName

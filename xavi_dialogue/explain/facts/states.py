@@ -9,9 +9,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from planner.road import RoadFacts, RoadPlace
-from planner.trace import SAMPLE_PERIOD, PlanTrace
-from sim.network import angle_between
+from planner.record.places import RoadFacts, RoadPlace
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace
+from sim.roads.network import angle_between
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.domain.facts import Gap
 from xavi_dialogue.explain.facts.bearings import Offset, offset

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
-from planner.cycles import BRAKING, REACTION
-from planner.trace import PlanTrace
-from planner.traffic_lights import LightPrediction
+from planner.record.light_record import LightPrediction
+from planner.record.trace import PlanTrace
+from planner.traffic_lights.cycles import BRAKING, REACTION
 from sim.scene import EGO, Signal
 from xavi_dialogue.domain.terms import Feature, Thing, Vehicle
 from xavi_dialogue.domain.traffic_lights import (

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from planner.trace import HoldUp, PlanTrace
+from planner.record.trace import HoldUp, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego

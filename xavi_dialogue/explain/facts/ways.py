@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.road import RoadPlace
-from planner.trace import ON_FOOT
+from planner.record.places import RoadPlace
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Junction

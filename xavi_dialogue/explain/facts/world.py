@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable, Mapping
 
-from planner.road import RoadFacts
-from planner.trace import Action as MacroAction
+from planner.record.places import RoadFacts
+from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Event, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation

@@ -4,8 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from planner.events import Event
-from planner.trace import Action
+from planner.record.events import Event
+from planner.record.trace import Action
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,9 +8,9 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from planner.road import LightChange
-from planner.trace import SAMPLE_PERIOD, PlanTrace, Track
-from sim.network import angle_between
+from planner.record.places import LightChange
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace, Track
+from sim.roads.network import angle_between
 from sim.scene import EGO, Scene, VehicleState
 from xavi_dialogue.explain.history.motion import EPSILON, Motion
 

@@ -15,8 +15,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.goals import BRANCHES
-from planner.trace import SAMPLE_PERIOD, GoalPrediction, TrajectoryPrediction
+from planner.prediction.goals import BRANCHES
+from planner.record.trace import SAMPLE_PERIOD, GoalPrediction, TrajectoryPrediction
 from sim.scene import Point
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.history.thresholds import (

@@ -10,8 +10,8 @@ from collections.abc import Iterable
 import numpy as np
 from msgspec.structs import replace
 
-from planner.road import RouteStep
-from planner.trace import PlanTrace
+from planner.record.places import RouteStep
+from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode

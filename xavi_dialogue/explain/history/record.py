@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from planner.events import Event
-from planner.trace import PlanTrace
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
 from sim.scene import Scene
 from xavi_dialogue.domain.answers import NeedRollout
 

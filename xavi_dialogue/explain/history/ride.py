@@ -11,8 +11,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from planner.everybody import everybody_in
-from planner.trace import Action, PlanTrace, VehiclePrediction, WhatIf
+from planner.motion.everybody import everybody_in
+from planner.record.trace import Action, PlanTrace, VehiclePrediction, WhatIf
 from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import (

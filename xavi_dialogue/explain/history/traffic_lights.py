@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.road import LightAhead
-from planner.traffic_lights import UNSEEN
+from planner.record.light_record import UNSEEN
+from planner.record.places import LightAhead
 from sim.scene import EGO, Signal
 from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride

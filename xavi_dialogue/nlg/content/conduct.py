@@ -1,6 +1,6 @@
 """Conduct: what somebody is doing, what we are going to do, and where somebody is going."""
 
-from planner.trace import ON_FOOT
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Activity, Bound, MotionCause, PlanAhead
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle

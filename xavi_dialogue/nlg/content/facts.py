@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from planner.trace import ON_FOOT
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,

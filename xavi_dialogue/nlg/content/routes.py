@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from planner.trace import Action
+from planner.record.trace import Action
 from xavi_dialogue.domain.answers import Counted
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Junction

@@ -7,7 +7,7 @@ where the description would fit another. A description holds of the time that is
 
 from dataclasses import dataclass, field
 
-from planner.trace import ON_FOOT
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.terms import (
     Described,

@@ -3,7 +3,7 @@
 from collections.abc import Collection
 from typing import Protocol
 
-from planner.road import RoadFacts
+from planner.record.places import RoadFacts
 from xavi_dialogue.domain.facts import Episode, Look, Somebody
 from xavi_dialogue.domain.terms import Event, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Relation

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from sim.network import angle_between
+from sim.roads.network import angle_between
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.vocabulary import Bearing, Side

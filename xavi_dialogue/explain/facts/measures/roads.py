@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from planner.road import RouteStep
+from planner.record.places import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Junction

@@ -5,7 +5,7 @@ import math
 
 from msgspec.structs import replace
 
-from planner.trace import PlanTrace, Rollout
+from planner.record.trace import PlanTrace, Rollout
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import HIGH, LOW
 from xavi_dialogue.causal.model import Intervention

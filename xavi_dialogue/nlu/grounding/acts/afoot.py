@@ -4,7 +4,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from planner.trace import ON_FOOT
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,

@@ -9,7 +9,7 @@ from typing import Final, Literal, TypeAlias
 
 from msgspec.structs import replace
 
-from planner.road import RoadFacts
+from planner.record.places import RoadFacts
 from sim.scene import EGO
 from xavi_dialogue.domain.terms import (
     Ego,

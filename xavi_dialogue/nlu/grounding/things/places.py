@@ -5,7 +5,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from planner.road import RouteStep
+from planner.record.places import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Junction, Lane, Vehicle

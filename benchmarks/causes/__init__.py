@@ -1,0 +1,1 @@
+"""Causes named, beside rides without them."""

@@ -1,0 +1,192 @@
+"""Which deed of a ride is asked about, and the answer: one rule for every ride.
+
+A lane change comes first, where the ego makes none when it drives the same way alone. Else, of
+the places where its speed had fallen, it is that where it is slowest against its drive alone:
+giving way, where it did so about then; stopping, where it stood; else slowing down. Where
+nothing of all this happened, the foil `continue` is asked about.
+"""
+
+from bisect import bisect_left
+from collections import Counter
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from planner.counterfactuals.whatif import WhatIfError
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
+from sim.roads.network import Network
+from sim.setup.scenario import Scenario
+from xavi_dialogue.dialogue.explanation import evidence_of
+from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.domain.answers import Answer, NeedRollout, Refusal, Unavailable
+from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.meaning import Ask, Why
+from xavi_dialogue.domain.terms import Event as Doing
+from xavi_dialogue.domain.terms import Happens, Not
+from xavi_dialogue.explain.answers.engine import explain
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.service.in_process import Replan
+from xavi_dialogue.vehicle.episode import Ending, clock, start
+
+Deed: TypeAlias = Literal[
+    "change-left", "change-right", "give-way", "stop", "slow-down", "continue"
+]
+
+SLOWER = 2.0  # [m/s] than alone, from which a deed is marked
+STANDING = 0.3  # [m/s]
+FALLEN = 1.5  # [m/s] from which a speed has fallen ...
+WITHIN = 10.0  # [s] ... and the time in which it has
+ABOUT = (6.0, 2.0)  # [s] before and after the slowest moment in which giving way belongs to it
+LATER = 2.0  # [s] after the slowest moment at which it is asked about
+ROUNDS = 8  # of planning again for one question, at most
+
+
+@dataclass(frozen=True, slots=True)
+class Ridden:
+    """A ride by our planner, to its end."""
+
+    ending: Ending
+    traces: tuple[PlanTrace, ...]
+    events: tuple[Event, ...]
+    time: tuple[float, ...]  # [s] [N]
+    gone: tuple[float, ...]  # [m] driven since the start [N]
+    speed: tuple[float, ...]  # [m/s] of the ego [N]
+
+    @property
+    def manoeuvres(self) -> tuple[str | None, ...]:
+        """The lane changes and turns carried out, in order."""
+        return tuple(event.action for event in carried_out(self.events))
+
+    def record(self, now: float) -> Record:
+        """What is known at a moment [s]."""
+        traces = tuple(trace for trace in self.traces if trace.sim_time <= now)
+        events = tuple(event for event in self.events if event.sim_time <= now)
+        return Record(now, traces, events, ended=now >= self.time[-1])
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A deed, and when it is asked about."""
+
+    deed: Deed
+    now: float  # [s]
+    usual: bool = False  # it is done alone as well
+
+    @property
+    def moment(self) -> float:
+        """When [s] it is most marked."""
+        return self.now - LATER
+
+    @property
+    def act(self) -> GroundedAct:
+        """The question as it is meant."""
+        done = Happens(Doing(self.deed))
+        return GroundedAct(Ask(Why(Not(done) if self.deed == "continue" else done)))
+
+
+def ride(scenario: Scenario, network: Network) -> Ridden:
+    """Drive a scenario to its end by our planner.
+
+    Raises:
+        SimulationError: SUMO is not installed or fails.
+        DriverError: the car cannot be driven on.
+    """
+    traces: list[PlanTrace] = []
+    events: list[Event] = []
+    samples: list[tuple[float, float]] = []
+    ending: Ending = "duration"
+    with start(scenario, scenario.seed, network) as moments:
+        for moment in moments:
+            traces += [moment.trace] if moment.trace is not None else []
+            events += moment.events
+            samples.append((clock(moment), moment.scene.ego.speed))
+            ending = moment.ending or ending
+    time, speed = zip(*samples, strict=True)
+    gone = np.concatenate(([0.0], np.cumsum(np.asarray(speed[1:]) * np.diff(time))))
+    return Ridden(ending, tuple(traces), tuple(events), time, tuple(gone.tolist()), speed)
+
+
+def question(ridden: Ridden, alone: Ridden) -> Question:
+    """The deed that is most marked, by the rule above.
+
+    Args:
+        ridden: the ride.
+        alone: that on the same roads without anybody else.
+    """
+    usual = Counter(alone.manoeuvres)
+    for event in carried_out(ridden.events):
+        if event.action in ("change-left", "change-right") and not usual[event.action]:
+            return Question(
+                "change-left" if event.action == "change-left" else "change-right", event.sim_time
+            )
+    slowest = _slowest(ridden, alone)
+    if slowest is None:
+        return Question("continue", ridden.time[-1])
+    moment = ridden.time[slowest]
+    now = moment + LATER
+    waits = (e.sim_time for e in ridden.events if e.kind == "gave-way")
+    if any(moment - ABOUT[0] <= time <= moment + ABOUT[1] for time in waits):
+        return Question("give-way", now)
+    return Question("stop" if ridden.speed[slowest] < STANDING else "slow-down", now)
+
+
+def slowing(ridden: Ridden, alone: Ridden) -> Question | None:
+    """Find where the ego has slowed down most, as it does alone; None where it does not."""
+    fall = [_lately(ridden, k) - ridden.speed[k] for k in range(len(ridden.speed))]
+    inside = bisect_left(ridden.gone, alone.gone[-1])
+    most = max(range(1, inside), key=lambda k: round(fall[k], 1), default=0)
+    if fall[most] < 2.0 * FALLEN:
+        return None
+    return Question("slow-down", ridden.time[most] + LATER, usual=True)
+
+
+def ask(
+    asked: Question, ridden: Ridden, again: Replan
+) -> tuple[Answer | Refusal, tuple[PlanTrace, ...]]:
+    """The answer, and the plans that were made again for it."""
+    record = ridden.record(asked.now)
+    extra: tuple[PlanTrace, ...] = ()
+    for _ in range(ROUNDS):
+        found = explain(
+            asked.act, Record(record.now, record.traces, record.events, record.ended, extra)
+        )
+        if not isinstance(found, NeedRollout):
+            return found, extra
+        wanted = found.trace_id
+        trace = next(trace for trace in record.traces if trace.trace_id == wanted)
+        try:
+            extra = (*extra, again(trace, found))
+        except WhatIfError:
+            break
+    return Unavailable("planner-failed"), extra
+
+
+def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrace:
+    """Return the decision that an answer rests on; the last one, where it names none."""
+    evidence = evidence_of((found,))
+    named = () if evidence is None else evidence.traces
+    known = [trace for trace in ridden.traces if trace.sim_time <= now]
+    return next((trace for trace in known if trace.trace_id in named), known[-1])
+
+
+def _slowest(ridden: Ridden, alone: Ridden) -> int | None:
+    """The sample at which a ride is slowest against one alone at the same place.
+
+    Only those count at which the speed had fallen before; of equally slow ones the first does.
+    """
+    free = np.interp(ridden.gone, alone.gone, alone.speed)
+    loss = np.round(free - np.asarray(ridden.speed), 1)
+    fallen = [
+        k
+        for k in range(bisect_left(ridden.gone, alone.gone[-1]))
+        if loss[k] >= SLOWER and _lately(ridden, k) - ridden.speed[k] >= FALLEN
+    ]
+    return max(fallen, key=lambda k: (loss[k], -k), default=None)
+
+
+def _lately(ridden: Ridden, sample: int) -> float:
+    """The highest speed [m/s] in the last seconds before a sample."""
+    first = bisect_left(ridden.time, ridden.time[sample] - WITHIN)
+    return max(ridden.speed[first : sample + 1])

@@ -1,0 +1,1 @@
+"""Driving, beside SUMO's own driver."""

@@ -1,0 +1,180 @@
+"""Runs: a scenario with a seed, driven twice, by our planner and by SUMO's own driver."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from functools import cache
+from multiprocessing import active_children, get_context
+from typing import TypeAlias, TypeVar
+
+import msgspec
+
+from benchmarks.drive.monitor import Drive, Observer
+from planner.driving.driver import Driver
+from planner.record.trace import EgoGoal
+from sim.roads.network import Network
+from sim.scene import Command, Scene
+from sim.setup.scenario import Scenario, load
+from sim.sumo import EgoGone, Simulation
+from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.process.garbage import settled
+from xavi_dialogue.vehicle.episode import network_of, settings_of
+from xavi_dialogue.vehicle.replan_worker import warm_up
+
+WARMING = "s2"  # scenario of the decision that warms a process up
+
+See: TypeAlias = Callable[[Scene], None]
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+
+class Decided(msgspec.Struct, frozen=True):
+    """What one decision took."""
+
+    ms: float  # [ms] of wall time
+    others: int  # in view
+
+
+class Run(msgspec.Struct, frozen=True):
+    """One scenario with one seed."""
+
+    scenario: str  # as it was asked for
+    seed: int
+    ours: Drive | None = None
+    sumo: Drive | None = None
+    error: str | None = None  # of a run that failed
+    decisions: tuple[float, ...] = ()  # [ms] wall time of each decision
+
+    @property
+    def reproduce(self) -> str:
+        """The command that drives it again."""
+        return f"xavi drive --scenario {self.scenario} --seed {self.seed}"
+
+
+def run(task: tuple[str, int]) -> Run:
+    """Drive a scenario (name or folder) with a seed; what goes wrong is told in the result."""
+    name, seed = task
+    try:
+        warm()
+        scenario = load(name)
+        network = network_of(scenario)
+        with Simulation(scenario, seed) as world:
+            sumo = by_sumo(world, scenario, network)
+        with Simulation(scenario, seed) as world:
+            ours, decisions = by_planner(world, scenario, network, seed)
+    except Exception as error:
+        return Run(name, seed, error=f"{type(error).__name__}: {error}")
+    return Run(name, seed, ours, sumo, None, tuple(one.ms for one in decisions))
+
+
+def _overlook(_: Scene) -> None:
+    """Take no note of a scene."""
+
+
+@cache
+def warm() -> None:
+    """Decide once, the first time in a process, so that no decision is timed that compiles."""
+    warm_up(network_of(load(WARMING)))
+
+
+def by_sumo(world: Simulation, scenario: Scenario, network: Network, see: See = _overlook) -> Drive:
+    """The scenario with SUMO as driver of the ego; each scene is shown to `see`."""
+    return _driven(world, scenario, network, lambda _: None, see)
+
+
+def by_planner(
+    world: Simulation, scenario: Scenario, network: Network, seed: int, see: See = _overlook
+) -> tuple[Drive, tuple[Decided, ...]]:
+    """The scenario with our planner, and what each decision took.
+
+    Each scene is shown to `see`.
+    """
+    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
+    driver = Driver(network, goal, settings_of(scenario), seed)
+    decisions: list[Decided] = []
+
+    def command(scene: Scene) -> Command:
+        began = time.perf_counter()
+        driven = driver.step(scene, scenario.step)
+        if driven.trace is not None:
+            taken = round(1000.0 * (time.perf_counter() - began), 2)
+            decisions.append(Decided(taken, len(scene.vehicles) + len(scene.people) - 1))
+        return driven.command
+
+    with settled():
+        return _driven(world, scenario, network, command, see), tuple(decisions)
+
+
+def _driven(
+    world: Simulation,
+    scenario: Scenario,
+    network: Network,
+    command: Callable[[Scene], Command | None],
+    see: See,
+) -> Drive:
+    """Drive to the goal, a collision, the end of the ego's route, or that of the time."""
+    observer = Observer(network, scenario.goal)
+    scene = world.scene()
+    with suppress(EgoGone):
+        while True:
+            observer.see(scene)
+            see(scene)
+            if observer.hits:
+                return observer.drive("collided")
+            if observer.arrived:
+                return observer.drive("arrived")
+            if scene.time >= scenario.duration - EPSILON:
+                return observer.drive("duration")
+            scene = world.step(command(scene))
+    return observer.drive("left")
+
+
+def in_processes(
+    function: Callable[[Task], Result],
+    tasks: Sequence[Task],
+    jobs: int,
+    died: Callable[[Task], Result],
+) -> Iterator[Result]:
+    """The results in the order of the tasks, from processes of their own.
+
+    Args:
+        function: of one task; a function of a module.
+        tasks: what to do.
+        jobs: how many processes work side by side.
+        died: the result of a task whose process dies.
+    """
+    rest = list(tasks)
+    while rest:
+        done = 0
+        with suppress(BrokenProcessPool):
+            for result in _pooled(function, rest, jobs):
+                yield result
+                done += 1
+        rest = rest[done:]
+        if rest:  # one of the next few killed its process: the first is tried by itself
+            try:
+                yield from _pooled(function, rest[:1], 1)
+            except BrokenProcessPool:
+                yield died(rest[0])
+            rest = rest[1:]
+
+
+def _pooled(
+    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int
+) -> Iterator[Result]:
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        futures: list[Future[Result]] = []
+        try:
+            futures += [pool.submit(function, task) for task in tasks]
+            for future in futures:
+                yield future.result()
+        except (KeyboardInterrupt, GeneratorExit):
+            for child in active_children():  # they would carry on with what they have begun
+                child.terminate()
+            raise
+        finally:
+            for future in futures:
+                future.cancel()

@@ -1,0 +1,15 @@
+"""What can be wrong with what is given to a benchmark, or found by it."""
+
+from xavi_dialogue.process.exit_status import RunFault, UsageFault
+
+
+class FaultFound(RunFault):
+    """A text makes the parser fail."""
+
+
+class QuestionFileError(UsageFault):
+    """A folder or file of annotated questions cannot be used."""
+
+
+class ForeignUnusable(UsageFault):
+    """A file of rides, or the name of a network, cannot be used."""

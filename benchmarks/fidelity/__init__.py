@@ -1,0 +1,1 @@
+"""What is said of foils, beside what SUMO makes of them."""

@@ -1,0 +1,219 @@
+"""`xavi bench fidelity`: what we say of foils, beside what SUMO makes of them.
+
+At each decision of each ride, for each foil that applies, SUMO is run on from the very same
+state with the ego carrying out the foil and what it is told to be followed by (see `resimulate`),
+and what an answer would say is compared with what happened: the outcome, and by how much the ego
+arrives later at the destination than it did. Beside it stands what would be said if the others of
+a rollout did not react to the ego, and what the foil's name alone lets one expect.
+"""
+
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from benchmarks.drive.runs import in_processes
+from benchmarks.fidelity.agreement import (
+    ALL,
+    CLEAR,
+    Agreement,
+    Bin,
+    OutcomeRow,
+    agreement,
+    by_outcome,
+    calibration,
+    right,
+    same_sign,
+    tables,
+)
+from benchmarks.fidelity.cases import LEARNING, RANDOM, Case, Compared, Task, compare
+from benchmarks.fidelity.ranging import (
+    Coverage,
+    Extension,
+    coverage,
+    coverage_table,
+    extension,
+    extension_table,
+    learn,
+)
+from benchmarks.fidelity.rivals import by_name
+from xavi_dialogue.explain.causes.ranges import Ranges, table
+
+KINDS = ("stop", "exit", "manoeuvre")  # of foils
+
+
+class Wrong(msgspec.Struct, frozen=True):
+    """A foil of which the wrong thing is said."""
+
+    what: str
+    reproduce: str
+
+
+class FidelityReport(msgspec.Struct, frozen=True):
+    """What the benchmark found."""
+
+    bench: str
+    scenarios: tuple[Agreement, ...]
+    kinds: tuple[Agreement, ...]  # of foils
+    all: Agreement
+    coverage: tuple[Coverage, ...]
+    extension: tuple[Extension, ...]
+    outcomes: tuple[OutcomeRow, ...]
+    calibration: dict[str, tuple[Bin, ...]]  # of chances among rollouts, and as told
+    wrong: tuple[Wrong, ...]
+    failed: tuple[str, ...]
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
+
+    def table(self) -> str:
+        """The report for people."""
+        rows = (*self.scenarios, *self.kinds, self.all)
+        parts = [tables(rows, self.outcomes, self.calibration)]
+        parts += [coverage_table(self.coverage), extension_table(self.extension)]
+        parts.append("\n".join(["wrong:", *(one.what for one in self.wrong)]))
+        if self.failed:
+            parts.append("\n".join(("failed:", *self.failed)))
+        if self.left_out:
+            parts.append(f"left out for want of netconvert: {', '.join(self.left_out)}")
+        return "\n\n".join(parts)
+
+
+class Learnt(msgspec.Struct, frozen=True):
+    """The table of ranges that was made."""
+
+    bench: str
+    ranges: Ranges
+    failed: tuple[str, ...]
+
+    def table(self) -> str:
+        """The table for people."""
+        source = self.ranges.source
+        lines = [f"{source.cases} foils of {source.rides} rides, {source.missed} never arrived"]
+        lines += [
+            f"{one.foil}, {one.road or 'all roads'}: {one.reach:.1f} s to either side"
+            f" ({one.cases} foils of {one.rides} rides)"
+            for one in self.ranges.groups
+        ]
+        return "\n".join([*lines, *(["failed:", *self.failed] if self.failed else [])])
+
+
+def tasks(
+    scenarios: Sequence[str], seeds: Sequence[int], networks: Sequence[int], every: int
+) -> list[Task]:
+    """The rides whose foils are compared.
+
+    Args:
+        scenarios: names or folders.
+        seeds: of each.
+        networks: numbers of random networks, none of which ranges were learnt on.
+        every: 1 for each decision of a ride that has alternatives, 2 for every other one, ...
+    """
+    found = [Task(name, seed, every) for seed in seeds for name in scenarios]
+    return found + [Task(RANDOM, number, every) for number in networks]
+
+
+def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> FidelityReport:
+    """Compare the foils of rides.
+
+    Args:
+        asked: the rides, at least one.
+        jobs: processes side by side.
+        note: is told the progress.
+    """
+    return report(_driven(asked, jobs, note), table())
+
+
+def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str], None]) -> Learnt:
+    """Make the table of ranges on networks that serve nothing else.
+
+    Args:
+        networks: their numbers, in a row.
+        every: as in `tasks`.
+        jobs: processes side by side.
+        note: is told the progress.
+
+    Raises:
+        ValueError: there are too few rides.
+    """
+    asked = [Task(LEARNING, number, every, blind=False) for number in networks]
+    found = _driven(asked, jobs, note)
+    first = f"--seed {networks[0]} --networks {len(networks)}" if networks else "--networks 0"
+    command = f"xavi bench fidelity --learn FILE {first} --every {every}"
+    return Learnt("fidelity-learn", learn(found, command), _failed(found))
+
+
+def _driven(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> list[Compared]:
+    found = []
+    for one in in_processes(compare, asked, jobs, _died):
+        found.append(one)
+        note(f"{len(found)} of {len(asked)}: {one.scenario}, seed {one.seed}")
+    return found
+
+
+def _died(task: Task) -> Compared:
+    return Compared(task.world, task.seed, error="its process died")
+
+
+def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
+    """The rides that were compared, in numbers, with ranges that were learnt on others."""
+    cases = [case for one in found for case in one.cases]
+    groups = {
+        name: [case for case in cases if case.scenario == name]
+        for name in dict.fromkeys(one.scenario for one in found)
+    }
+    kinds = {kind: [case for case in cases if case.kind == kind] for kind in KINDS}
+    named = by_name(cases)
+    every = {**groups, **kinds, ALL: cases}
+    return FidelityReport(
+        bench="fidelity",
+        scenarios=tuple(agreement(name, own, named) for name, own in groups.items()),
+        kinds=tuple(agreement(name, own, named) for name, own in kinds.items()),
+        all=agreement(ALL, cases, named),
+        coverage=tuple(coverage(name, own, ranges) for name, own in every.items()),
+        extension=tuple(extension(name, own) for name, own in every.items()),
+        outcomes=by_outcome(cases),
+        calibration={
+            "rollouts": calibration(cases),
+            "told": calibration(cases, ranges.trusted),
+        },
+        wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
+        failed=_failed(found),
+    )
+
+
+def _failed(found: Sequence[Compared]) -> tuple[str, ...]:
+    return tuple(
+        f"{one.error}\n    {_again(one.scenario, one.seed)}"
+        for one in found
+        if one.error is not None
+    )
+
+
+def _is_wrong(case: Case) -> bool:
+    if case.foreseen.declined is not None:
+        return False
+    known = case.later is not None and case.foreseen.time is not None
+    clear = known and case.later is not None and abs(case.later) > CLEAR
+    return not right(case) or (clear and not same_sign(case))
+
+
+def _what(case: Case) -> str:
+    foreseen, happened = case.foreseen, case.happened
+    said = ", ".join(f"{name} {p:.2f}" for name, p in foreseen.outcomes.items() if p > 0.005)
+    time = "" if foreseen.time is None else f", {foreseen.time:+.1f} s"
+    later = "" if case.later is None else f", {case.later:+.1f} s"
+    struck = "" if happened.collided_with is None else f" with {happened.collided_with}"
+    where = f"{case.scenario}, seed {case.seed}, {case.time:g} s"
+    return (
+        f"{where}: {case.foil} instead of {case.fact}:"
+        f" said {said}{time}; came to {happened.outcome}{struck}{later}"
+    )
+
+
+def _command(case: Case) -> str:
+    return _again(case.scenario, case.seed)
+
+
+def _again(scenario: str, seed: int) -> str:
+    """The command that repeats a ride."""
+    if scenario == RANDOM:
+        return f"xavi bench fidelity --seeds 0 --networks 1 --seed {seed}"
+    return f"xavi bench fidelity --networks 0 --scenario {scenario} --seed {seed}"

@@ -1,0 +1,1 @@
+"""Predictions of others, beside what they did."""

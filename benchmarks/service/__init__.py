@@ -1,0 +1,1 @@
+"""Answers and the dashboard under load."""

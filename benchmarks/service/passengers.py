@@ -1,0 +1,135 @@
+"""Many passengers at once: questions sent at given times, and what came of them."""
+
+import threading
+import time
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import msgspec
+
+from benchmarks.figures import quantile
+from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, TooLate
+from xavi_dialogue.bus.messages import (
+    AskReply,
+    AskRequest,
+    Failure,
+    MessageError,
+    pack,
+    unpack,
+)
+
+DEADLINE = 10.0  # [s] for an answer
+GRACE = 0.5  # [s] that a reply may take on its way
+
+
+@dataclass(frozen=True)
+class Question:
+    """One question of one passenger."""
+
+    due: float  # [s] after the first
+    session: str
+    text: str
+    at: float  # [s] simulation time
+
+
+class Load(msgspec.Struct, frozen=True):
+    """What came of many questions."""
+
+    name: str
+    sessions: int
+    asked: int
+    answered: int  # whatever the answer was, a clear refusal included
+    busy: int  # turned away for the number of questions
+    timed_out: int
+    lost: int  # without a reply that can be read
+    offered_per_s: float
+    answered_per_s: float  # from the first question to the last reply
+    p50_ms: float | None  # of those answered, from question to reply
+    p99_ms: float | None
+    late: int  # replies after their deadline
+
+
+@dataclass
+class _Tally:
+    """What came back so far; told on threads of the bus."""
+
+    wanted: int
+    taken: list[float] = field(default_factory=list)  # [s] of those answered
+    ends: Counter[str] = field(default_factory=Counter)
+    last: float = 0.0  # [s] on the performance clock
+    late: int = 0
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+    done: threading.Event = field(default_factory=threading.Event)
+
+    def take(self, began: float, outcome: Outcome) -> None:
+        """Take down what came of a question sent at a time [s]."""
+        now, end = time.perf_counter(), _end(outcome)
+        with self._lock:
+            self.ends[end] += 1
+            self.last = now
+            self.late += now - began > DEADLINE and end != "timed out"
+            if end == "answered":
+                self.taken.append(now - began)
+            if self.ends.total() == self.wanted:
+                self.done.set()
+
+
+def ask_all(bus: Bus, keys: Keys, name: str, questions: Iterable[Question]) -> Load:
+    """Send every question when it is due, wait for nobody meanwhile, and count what comes back."""
+    rows = sorted(questions, key=lambda one: one.due)
+    tally = _Tally(len(rows))
+    began = time.perf_counter()
+    for number, row in enumerate(rows):
+        time.sleep(max(began + row.due - time.perf_counter(), 0.0))
+        asked = AskRequest(
+            request=f"{name}-{number}".replace(" ", "-"),
+            session=row.session,
+            text=row.text,
+            deadline_ms=DEADLINE * 1000.0,
+            at=row.at,
+        )
+        sent = time.perf_counter()
+        bus.request(
+            keys.of("@rpc/ask"),
+            pack(asked),
+            DEADLINE + GRACE,
+            lambda outcome, sent=sent: tally.take(sent, outcome),  # type: ignore[misc]
+        )
+    tally.done.wait(DEADLINE + 5.0)
+    return _load(name, rows, tally, began)
+
+
+def _load(name: str, rows: list[Question], tally: _Tally, began: float) -> Load:
+    ends, taken = tally.ends, [1000.0 * one for one in tally.taken]
+    span = max(tally.last - began, 1e-6)
+    return Load(
+        name=name,
+        sessions=len({row.session for row in rows}),
+        asked=len(rows),
+        answered=ends["answered"],
+        busy=ends["busy"],
+        timed_out=ends["timed out"],
+        lost=len(rows) - ends["answered"] - ends["busy"] - ends["timed out"],
+        offered_per_s=round(len(rows) / max(rows[-1].due, 1e-6), 1) if rows[-1].due else 0.0,
+        answered_per_s=round(ends["answered"] / span, 1),
+        p50_ms=round(quantile(taken, 50), 1) if taken else None,
+        p99_ms=round(quantile(taken, 99), 1) if taken else None,
+        late=tally.late,
+    )
+
+
+def _end(outcome: Outcome) -> str:
+    """What became of a question, in a word or two."""
+    if isinstance(outcome, TooLate):
+        return "timed out"
+    try:
+        if isinstance(outcome, Refused):
+            reason: str | None = unpack(outcome.payload, Failure).reason
+        elif isinstance(outcome, NoAnswer):
+            return "lost"
+        else:
+            reason = unpack(outcome, AskReply).reason
+    except MessageError:
+        return "lost"
+    return {"busy": "busy", "timed-out": "timed out"}.get(reason or "", "answered")

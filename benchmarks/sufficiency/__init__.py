@@ -1,0 +1,1 @@
+"""Reasons told, beside the decisions that they explain."""

@@ -1,0 +1,154 @@
+"""Judging: each answer read beside its decision, and beside it one with another's reason."""
+
+import re
+from collections.abc import Sequence
+from random import Random
+
+import msgspec
+
+from benchmarks.sufficiency.sufficiency_asking import Answered, Asked, Kind, asked
+from benchmarks.truth.checker import Sentence, checked
+from benchmarks.truth.context import Fault
+from benchmarks.truth.decision import Decision
+from benchmarks.truth.ridden import Ridden, ridden
+from benchmarks.truth.sufficient import Check, check_of, insufficient
+from planner.record.trace import PlanTrace
+
+VEHICLE = re.compile(r"V\d+")
+FIGURE = re.compile(r"\d+(?:\.\d+)?")
+
+
+class Wrong(msgspec.Struct, frozen=True):
+    """Something that an answer tells wrongly, or leaves out."""
+
+    check: Check
+    kind: str
+    detail: str
+
+
+class Judged(msgspec.Struct, frozen=True):
+    """An answer, what is wrong with it, and what of it was not understood."""
+
+    scenario: str
+    seed: int
+    time: float  # [s] of the question
+    kind: Kind
+    question: str
+    text: str
+    declined: bool
+    wrong: tuple[Wrong, ...] = ()
+    sentences: int = 0
+    uncovered: tuple[str, ...] = ()  # sentences not understood, in full
+
+    @property
+    def passed(self) -> bool:
+        """Tell whether nothing is wrong with it."""
+        return not self.wrong
+
+
+class Read(msgspec.Struct, frozen=True):
+    """The answers of one ride and those of the rival; or why there are none."""
+
+    scenario: str
+    seed: int
+    ours: tuple[Judged, ...] = ()
+    rival: tuple[Judged, ...] = ()  # whose text differs from ours
+    same: int = 0  # answers for which another decision has the very same text
+    lone: int = 0  # answers of which no other decision has one to give
+    error: str | None = None
+
+
+def read(task: tuple[str, int, int]) -> Read:
+    """Judge the answers of one ride; errors are told in the result."""
+    scenario, seed, every = task
+    try:
+        return judged(asked(scenario, seed, every))
+    except Exception as error:
+        return Read(scenario, seed, error=f"{type(error).__name__}: {error}")
+
+
+def judged(ride: Asked) -> Read:
+    """Judge the answers of a ride, and those that have the reason of another decision."""
+    seen = ridden(ride.moments)
+    ours = tuple(_judge(ride, seen, one, one.text) for one in ride.answers)
+    rng = Random(f"sufficiency/{ride.scenario}/{ride.seed}")
+    rival: list[Judged] = []
+    same = lone = 0
+    for one in ride.answers:
+        if one.kind != "answer":
+            continue
+        other = donor(one, ride.answers, rng)
+        if other is None:
+            lone += 1
+        elif other.text == one.text:
+            same += 1
+        else:
+            rival.append(_judge(ride, seen, one, other.text))
+    return Read(ride.scenario, ride.seed, ours, tuple(rival), same, lone)
+
+
+def donor(one: Answered, among: Sequence[Answered], rng: Random) -> Answered | None:
+    """Draw an answer to the same words that tells of another decision of the same ride.
+
+    Where nothing else was asked in the same words, one to the same kind of question is drawn.
+    """
+    others = [
+        other for other in among
+        if other.kind == "answer" and other.trace_id != one.trace_id
+        and other.put.kind == one.put.kind
+    ]  # fmt: skip
+    alike = [other for other in others if other.put.text == one.put.text]
+    return rng.choice(alike or others) if others else None
+
+
+def decision_of(seen: Ridden, one: Answered) -> Decision | None:
+    """Find the decision that an answer names, with the plans that were made again from it."""
+    known = [trace for trace in seen.traces if trace.sim_time <= one.at + 1e-6]
+    everything = (*known, *one.again)
+    named = next((trace for trace in everything if trace.trace_id == one.trace_id), None)
+    if named is None:
+        return None
+    trace = next((t for t in known if t.sim_time == named.sim_time), named)
+    again = tuple(other for other in one.again if _further(other, trace))
+    foil = () if one.put.foil is None else (one.put.foil,)
+    before = known[-2] if len(known) > 1 else None
+    gone = (t for t in one.again if t.what_if is not None and t.what_if.gone)
+    without = tuple(other for other in gone if other.sim_time == trace.sim_time)
+    return Decision(trace, again, before, known[-1], without, foil)
+
+
+def _further(other: PlanTrace, trace: PlanTrace) -> bool:
+    """Whether a plan made again is the decision as it was, with further rollouts."""
+    change = other.what_if
+    if change is None or other.sim_time != trace.sim_time:
+        return False
+    return not change.gone and change.vehicle is None
+
+
+def _judge(ride: Asked, seen: Ridden, one: Answered, text: str) -> Judged:
+    declined = one.kind != "answer"
+    decision = None if declined else decision_of(seen, one)
+    faults, sentences, told = checked(seen, one.at, one.put.text, text, decision)
+    if decision is not None:
+        faults += insufficient(text, told, decision)
+    elif not declined:
+        faults.append(Fault("no decision named", f"{one.trace_id}"))
+    return Judged(
+        scenario=ride.scenario,
+        seed=ride.seed,
+        time=one.at,
+        kind=one.put.kind,
+        question=one.put.text,
+        text=text,
+        declined=declined,
+        wrong=tuple(Wrong(check_of(f), f.kind, f.detail) for f in faults),
+        sentences=0 if declined else len(sentences),
+        uncovered=() if declined else tuple(_shown(s) for s in sentences if not s.understood),
+    )
+
+
+def _shown(sentence: Sentence) -> str:
+    """A sentence as a pattern of what was not understood: figures and vehicles left open."""
+    text = FIGURE.sub("#", VEHICLE.sub("V", sentence.text))
+    rest = "; ".join(FIGURE.sub("#", VEHICLE.sub("V", one)) for one in sentence.unread)
+    return f"{text} [{rest or 'all of it'}]"

@@ -1,0 +1,95 @@
+"""Check an answer sentence by sentence; say what no pattern covers."""
+
+import re
+from dataclasses import dataclass
+
+from benchmarks.truth import (
+    blames,
+    chances,
+    conduct,
+    consequences,
+    deeds,
+    hazards,
+    motion,
+    outcomes,
+    own,
+    without,
+)
+from benchmarks.truth.context import RULES, Fault, Said, Told
+from benchmarks.truth.decision import Decision
+from benchmarks.truth.mentions import mentions
+from benchmarks.truth.phrases import COUNTS
+from benchmarks.truth.ridden import Ridden
+
+__all__ = [
+    "blames", "chances", "checked", "conduct", "consequences", "deeds", "hazards", "motion",
+    "outcomes", "own", "without",
+]  # fmt: skip
+SENTENCE = re.compile(r"(?<=[.!?;]) ")
+PLACES_ONLY = motion.place_of
+FIGURE = re.compile(rf"(?<![V\w])(?:\d+(?:[.:]\d+)?|half a|{'|'.join(COUNTS[2:])})\b")
+
+
+CLAUSE = re.compile(r", (?:because|but|though|and|as) |: | because ")
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """A sentence, and its clauses and figures that no pattern covers."""
+
+    text: str
+    met: bool  # a pattern covers some of it
+    unread: tuple[str, ...] = ()
+
+    @property
+    def understood(self) -> bool:
+        """Tell whether every clause and figure of it was held against the record."""
+        return self.met and not self.unread
+
+
+def checked(
+    ride: Ridden, now: float, question: str, answer: str, decision: Decision | None = None
+) -> tuple[list[Fault], list[Sentence], list[Told]]:
+    """Check an answer.
+
+    Args:
+        ride: what was seen and decided, to its end.
+        now: [s] when it was asked.
+        question: its words.
+        answer: the words of the answer.
+        decision: the decision that it tells of; without it, consequences go unchecked.
+
+    Returns:
+        What is told wrongly, the sentences, and what is told of foils.
+    """
+    text, found = mentions(answer, ride, now)
+    faults: dict[tuple[str, str], Fault] = {}
+    told: list[Told] = []
+    sentences: list[Sentence] = []
+    before = ""
+    for sentence in SENTENCE.split(text):
+        said = Said(ride, now, question, sentence, tuple(found), before, decision)
+        spans: list[tuple[int, int]] = []
+        for pattern, check in RULES:
+            for match in pattern.finditer(sentence):
+                spans += [match.span()] if check is not PLACES_ONLY else []
+                for one in check(said, match):
+                    if isinstance(one, Told):
+                        told.append(one)
+                    else:
+                        faults[one.kind, one.detail] = one
+        sentences.append(Sentence(sentence, bool(spans), _unread(sentence, spans)))
+        before += sentence + " "
+    return list(faults.values()), sentences, told
+
+
+def _unread(sentence: str, spans: list[tuple[int, int]]) -> tuple[str, ...]:
+    """The clauses of a sentence that no pattern meets, and the figures that none holds."""
+    cuts = [(m.start(), m.end()) for m in CLAUSE.finditer(sentence)]
+    edges = [0, *(edge for cut in cuts for edge in cut), len(sentence)]
+    clauses = zip(edges[::2], edges[1::2], strict=True)
+    found = [sentence[a:b] for a, b in clauses if not any(s < b and e > a for s, e in spans)]
+    found += [
+        m[0] for m in FIGURE.finditer(sentence) if not any(s <= m.start() < e for s, e in spans)
+    ]
+    return tuple(found)

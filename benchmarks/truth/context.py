@@ -1,0 +1,135 @@
+"""One sentence of an answer, in what it was said, and what patterns are given to check it."""
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from benchmarks.truth.decision import Decision
+from benchmarks.truth.mentions import Mention
+from benchmarks.truth.reckoning import Actions, Term
+from benchmarks.truth.ridden import Ridden
+from sim.scene import EGO
+
+KMH = 3.6
+CLOSE = 2.6  # [km/h] what a speed told may be off
+NUMBERS = {
+    "half a": 0.5, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7,
+    "eight": 8, "nine": 9, "ten": 10, "eleven": 11, "twelve": 12,
+}  # fmt: skip
+CLOCK = re.compile(r"\b(\d+):(\d\d)\b")
+AGO = re.compile(r"[Aa]bout (\d+(?:\.\d+)?|half a) seconds? ago")
+WHO = r"(?P<who>V\d+|[Ww]e|I|[Ii]t)"
+
+
+@dataclass(frozen=True)
+class Said:
+    """A sentence: who is spoken of, when it was said, and of what time it tells."""
+
+    ride: Ridden
+    now: float
+    question: str
+    text: str  # with V0, V1, ... for vehicles
+    mentions: tuple[Mention, ...]  # of the whole answer
+    before: str  # what was said before it
+    decision: Decision | None = None  # that the answer tells of, where it is known
+
+    def who(self, name: str) -> tuple[int, ...]:
+        """The vehicles that a name may stand for."""
+        if name in ("we", "We", "I", "us"):
+            return (EGO,)
+        if name.startswith("V"):
+            return self.mentions[int(name[1:])].vehicles
+        return self.last()
+
+    def last(self) -> tuple[int, ...]:
+        """The vehicles that "it" may stand for."""
+        spoken = re.findall(r"V(\d+)", self.before + self.text)
+        if spoken:
+            return tuple(v for k in spoken for v in self.mentions[int(k)].vehicles)
+        asked = re.search(r"vehicle (\d+)", self.question)
+        return (int(asked[1]),) if asked else tuple(self.ride.known(self.now))
+
+    def told(self, text: str | None = None) -> tuple[float, float] | None:
+        """The interval [s] that a time phrase of the sentence names, if any does."""
+        text = self.text if text is None else text
+        if match := CLOCK.search(text):
+            time = 60.0 * int(match[1]) + int(match[2])
+            return time - 0.2, time + 1.2  # clocks show whole seconds that are over
+        if match := AGO.search(text):
+            ago = NUMBERS.get(match[1]) or float(match[1])
+            return self.now - 1.15 * ago - 0.6, self.now - 0.85 * ago + 0.6
+        if re.search(r"\bjust now\b", text):
+            return self.now - 4.0, self.now
+        return None
+
+    def when(self, past: bool, text: str | None = None) -> tuple[float, float]:
+        """The interval [s] told: what a phrase names, or now, or what "did" means in it."""
+        if not past:
+            return self.now - 0.15, self.now
+        return self.told(text) or self.episode()
+
+    def episode(self) -> tuple[float, float]:
+        """The interval that a past question is about: the braking, or all up to now."""
+        if re.search(r"\b(stop|stand|wait)", self.question):
+            held = [t for t in self.ride.span(0.0, self.now) if self.speeds("we", (t, t))[0] < 1.0]
+            if held:
+                return held[0] - 8.0, self.now
+        if re.search(r"\b(brak|slow|stop|stand|that)", self.question):
+            found = self.ride.brakings(self.now)
+            if found:
+                return found[-1][0] - 2.0, self.now
+        return 0.0, self.now
+
+    def some(
+        self, who: str, span: tuple[float, float], holds: Callable[[int, float], bool]
+    ) -> bool:
+        """Whether something holds of one whom a name may stand for, at a time of an interval."""
+        times = self.ride.span(*span) or [self.ride.times[self.ride.index(span[1])]]
+        return any(holds(vehicle, time) for vehicle in self.who(who) for time in times)
+
+    def speeds(self, who: str, span: tuple[float, float]) -> list[float]:
+        """Speeds [km/h] of whom a name may stand for in an interval."""
+        times = self.ride.span(*span) or [self.ride.times[self.ride.index(span[1])]]
+        states = (self.ride.state(v, time) for v in self.who(who) for time in times)
+        return [KMH * state.speed for state in states if state is not None]
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A statement that the ride does not bear out."""
+
+    kind: str
+    detail: str
+
+
+@dataclass(frozen=True)
+class Told:
+    """What is told of a foil: a term of the reward, that it is close, or that it is better."""
+
+    term: Term | Literal["close", "better"]
+    foil: Actions
+
+
+Check = Callable[[Said, re.Match[str]], Iterator[Fault | Told]]
+RULES: list[tuple[re.Pattern[str], Check]] = []
+
+
+def claim(*patterns: str) -> Callable[[Check], Check]:
+    """Have a function check what patterns find in a sentence."""
+
+    def registered(check: Check) -> Check:
+        RULES.extend((re.compile(pattern), check) for pattern in patterns)
+        return check
+
+    return registered
+
+
+def near(told: float, found: list[float], off: float = CLOSE) -> bool:
+    """Whether a value told lies within what was found, give or take."""
+    return bool(found) and min(found) - off <= told <= max(found) + off
+
+
+def rounded(found: list[float]) -> str:
+    """Show the range of values in the report."""
+    return f"{min(found):.1f}..{max(found):.1f}" if found else "never"

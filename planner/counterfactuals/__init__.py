@@ -1,0 +1,1 @@
+"""Counterfactuals: a recorded decision planned again with something changed."""

@@ -1,0 +1,287 @@
+"""Planning again from a recorded decision with something changed.
+
+The ego may have to do something first, vehicles may be taken away, another may be supposed to
+have a goal, to do certain things or to drive faster, and lights to show something else. Everything
+that is needed stands in the trace, so a replayed ride can be asked as well as a live one. The same
+request gives the same trace.
+
+What is inferred of those who stay is inferred from the world as it was, with everybody in it, and
+only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So
+they keep the probabilities of their goals; and who drove slowly behind one that is taken away is
+not held to want to drive so.
+
+    WhatIfError        the question cannot be planned from this trace
+    ├── NotInView      the vehicle, or the light, is not in the trace's scene
+    └── Inapplicable   what is supposed of it cannot be
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+import msgspec
+
+from planner.counterfactuals.resume import resume
+from planner.counterfactuals.suppose import edge_of, suppose
+from planner.motion.tracks import Observed, leads
+from planner.prediction.recognise import Belief
+from planner.record.fitting import fitted
+from planner.record.hidden_record import Phantom
+from planner.record.light_record import LightPrediction, LightSupposed
+from planner.record.trace import PlanTrace, Settings, Track, VehiclePrediction, WhatIf
+from planner.roads.routes import Refusal
+from planner.roads.trajectory import Roads
+from planner.search.decide import (
+    Frame,
+    Moment,
+    decide,
+    observed,
+    predict,
+    prepare,
+    record,
+    rollouts,
+    root_at,
+)
+from planner.search.mcts import Root
+from planner.traffic_lights.cycles import supposed
+from sim.roads.network import Network
+from sim.scene import EGO, LightState, VehicleState
+
+__all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "decide_again", "replan"]
+
+HEADWAY, GAP = 1.5, 5.0  # [s], [m] to the one ahead up to which a vehicle is held up by it
+RECOGNISED = 0.5  # probability of the goals that must still be possible to keep what was inferred
+
+
+class WhatIfError(Exception):
+    """The question cannot be planned from this trace."""
+
+
+class NotInView(WhatIfError):
+    """The vehicle is not in the trace's scene."""
+
+
+class Inapplicable(WhatIfError):
+    """What is supposed of a vehicle cannot be."""
+
+
+def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
+    """Plan again from the scene of a trace; `what_if` of the result says what was changed.
+
+    With forced actions alone, the result is the trace with more rollouts, marked as forced; where
+    an action does not apply, it has none more and says why. With a vehicle removed or its conduct
+    supposed, it is the decision that would then have been taken, with the budget of the trace's
+    settings, before any forced actions are added. A manoeuvre that was under way is finished
+    first, forced or not; see planner.counterfactuals.resume for how exactly.
+
+    Raises:
+        WhatIfError: the request contradicts itself, the trace is of another network or of a
+            what-if itself, or the ego's place is not clear from it.
+        NotInView: a vehicle is not in the trace.
+        Inapplicable: a vehicle cannot have that goal or do those things.
+    """
+    _check(trace, network, request)
+    frame, moment = _restore(trace, Roads(network), request)
+    beliefs = _beliefs(frame, moment, request, trace.predictions)
+    changed = bool(request.gone or supposed_lights(request) or seen_past(request))
+    changed = changed or request.vehicle is not None
+    if changed:
+        search = prepare(frame, moment, beliefs)
+        search.run()
+        trace = record(frame, moment, beliefs, search)
+    trace = msgspec.structs.replace(trace, what_if=request)
+    if not changed or request.actions:
+        trace = _with_more(trace, frame, moment, beliefs, request)
+    return fitted(trace)
+
+
+def decide_again(trace: PlanTrace, network: Network, settings: Settings) -> PlanTrace:
+    """Take the decision of a trace again with other settings, from the same scene.
+
+    Raises:
+        WhatIfError: as for `replan`.
+    """
+    _check(trace, network, WhatIf())
+    there = msgspec.structs.replace(trace, settings=settings)
+    frame, moment = _restore(there, Roads(network), WhatIf())
+    return decide(frame, moment).trace
+
+
+def _with_more(
+    trace: PlanTrace,
+    frame: Frame,
+    moment: Moment,
+    beliefs: Mapping[int, Sequence[Belief]],
+    request: WhatIf,
+) -> PlanTrace:
+    """The trace with rollouts that begin with the forced actions."""
+    search = prepare(frame, moment, beliefs, salt="/" + ",".join(request.actions))
+    search.force(request.actions, request.rollouts)
+    known = {(entry.node, entry.action) for entry in trace.not_applicable}
+    fresh = (e for e in search.not_applicable() if (e.node, e.action) not in known)
+    more = rollouts(search.rollouts, moment.time, offset=len(trace.rollouts))
+    return msgspec.structs.replace(
+        trace,
+        rollouts=trace.rollouts + more,
+        not_applicable=trace.not_applicable + tuple(fresh),
+    )
+
+
+def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
+    """Whether the request makes sense, and is about this trace."""
+    if network.hash != trace.network:
+        raise WhatIfError(f"the trace is of network {trace.network}, not of {network.hash}")
+    if trace.what_if is not None:
+        raise WhatIfError("the trace is of a what-if itself; ask about the decision behind it")
+    depth = trace.settings.depth
+    if max(len(request.actions), len(request.vehicle_actions)) > depth:
+        raise WhatIfError(f"at most {depth} actions in a row are planned")
+    faster = isinstance(request.faster, float)
+    supposed = request.goal is not None or bool(request.vehicle_actions) or faster
+    if supposed and request.vehicle is None:
+        raise WhatIfError("a goal, actions or a speed are supposed, but of no vehicle")
+    if request.vehicle is not None and not supposed:
+        raise WhatIfError(f"nothing is supposed of vehicle {request.vehicle}")
+    if EGO in request.gone:
+        raise WhatIfError("the ego cannot be removed; name another vehicle")
+    if request.vehicle == EGO:
+        raise WhatIfError("the ego's goal stands; force its actions instead")
+    if request.vehicle in request.gone:
+        raise WhatIfError(f"vehicle {request.vehicle} cannot be removed and do something")
+    for vehicle in (*sorted(request.gone), request.vehicle):
+        if vehicle is not None and vehicle not in trace.scene:
+            raise NotInView(f"vehicle {vehicle} was not in view at {trace.sim_time} s")
+    for light in supposed_lights(request):
+        if light.state not in {state.value for state in LightState}:
+            raise WhatIfError(f"{light.state!r} is no state of a traffic light")
+        places = (known.places for known in trace.lights if known.controller == light.controller)
+        if light.place not in next(places, ()):
+            where = f"place {light.place} of the light {light.controller!r}"
+            raise NotInView(f"{where} was not in view at {trace.sim_time} s")
+    if not seen_past(request) <= frozenset(range(len(trace.phantoms))):
+        raise NotInView(f"nobody of that number was imagined at {trace.sim_time} s")
+
+
+def changes_world(request: WhatIf) -> bool:
+    """Whether what was inferred of the others is kept, though the world is another."""
+    hastened = isinstance(request.faster, float)
+    return bool(request.gone or hastened or supposed_lights(request) or seen_past(request))
+
+
+def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
+    """What lights are supposed to show."""
+    return request.lights if isinstance(request.lights, tuple) else ()
+
+
+def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
+    """The frame and moment of a recorded decision, with what is changed in its scene."""
+    here = root_at(roads, trace.scene[EGO], trace.sim_time)
+    if here is None:
+        raise WhatIfError(f"the ego was on no lane at {trace.sim_time} s")
+    rest = resume(roads, trace)
+    if isinstance(rest, Refusal):
+        action = "" if trace.under_way is None else trace.under_way.action
+        raise WhatIfError(f"{action} was under way at {trace.sim_time} s; {rest.reason}")
+    frame = Frame(roads, trace.goal, trace.settings, trace.seed, trace.vehicle)
+    gone = request.gone
+    scene = {vehicle: state for vehicle, state in trace.scene.items() if vehicle not in gone}
+    history = {vehicle: track for vehicle, track in trace.history.items() if vehicle not in gone}
+    one = request.vehicle
+    if one is not None and isinstance(request.faster, float):
+        scene[one], history[one] = _hastened(scene[one], history[one], request.faster)
+    moment = Moment(
+        trace.decision,
+        trace.sim_time,
+        scene,
+        history,
+        Root(here, rest),
+        {vehicle: since for vehicle, since in trace.unseen.items() if vehicle not in gone},
+        frozenset(_followers(trace, gone)),
+        _lit(roads, trace, request),
+        _imagined(trace, request),
+    )
+    return frame, moment
+
+
+def seen_past(request: WhatIf) -> frozenset[int]:
+    """The indices of the imagined road users that are not there."""
+    return frozenset(request.seen_past if isinstance(request.seen_past, tuple) else ())
+
+
+def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
+    """Who may come out of what is hidden: not out of what one sees past, or sees without some."""
+    away, gone = seen_past(request), request.gone
+    return tuple(
+        one for k, one in enumerate(trace.phantoms) if k not in away and not one.seen_without(gone)
+    )
+
+
+def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPrediction, ...]:
+    """How the lights may go on, with what is supposed of some."""
+    found = {known.controller: known for known in trace.lights}
+    for light in supposed_lights(request):
+        known = found[light.controller]
+        now = supposed(roads, known, light.place, light.state, trace.sim_time)
+        found[light.controller] = now
+    return tuple(found.values())
+
+
+def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[VehicleState, Track]:
+    """A vehicle that is where it is, but drives faster by so much [m/s], and did."""
+    speeds = tuple(max(speed + faster, 0.0) for speed in track.speed)
+    return (
+        replace(state, speed=max(state.speed + faster, 0.0)),
+        msgspec.structs.replace(track, speed=speeds),
+    )
+
+
+def _followers(trace: PlanTrace, gone: frozenset[int]) -> Iterator[int]:
+    """Those whose speed was that of one who is taken away: who follow it, and who follow these."""
+    if not gone:
+        return
+    tracks = {v: observed(v, trace.history[v], state) for v, state in trace.scene.items()}
+    before, rest = set(gone), set(tracks) - gone - {EGO}
+    while True:
+        found = {v for v in rest if any(_follows(tracks[v], tracks[w]) for w in before)}
+        if not found:
+            return
+        yield from sorted(found)
+        before, rest = found, rest - found
+
+
+def _follows(track: Observed, other: Observed) -> bool:
+    """Whether a vehicle drives behind another, no farther than one does who cannot go faster."""
+    dx, dy = other.position[-1] - track.position[-1]
+    gap = float((dx * dx + dy * dy) ** 0.5) - other.length
+    return leads(track, other) and gap <= HEADWAY * float(track.speed[-1]) + GAP
+
+
+def _beliefs(
+    frame: Frame, moment: Moment, request: WhatIf, recorded: Sequence[VehiclePrediction]
+) -> dict[int, Sequence[Belief]]:
+    """What the others may be up to, with what is supposed of one of them."""
+    beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
+    if changes_world(request):
+        known_goals = {known.vehicle: known for known in recorded}
+        beliefs = {
+            one: _as_inferred(found, known_goals[one]) if one in known_goals else found
+            for one, found in beliefs.items()
+        }
+    vehicle = request.vehicle
+    if vehicle is None or isinstance(request.faster, float):
+        return beliefs
+    known = beliefs.get(vehicle, ())
+    supposed = suppose(frame, moment, known, vehicle, request.goal, request.vehicle_actions)
+    if isinstance(supposed, Refusal):
+        raise Inapplicable(f"vehicle {vehicle}: {supposed.reason}")
+    return {**beliefs, vehicle: (supposed,)}
+
+
+def _as_inferred(found: Sequence[Belief], recorded: VehiclePrediction) -> Sequence[Belief]:
+    """Beliefs with the goals' probabilities as they were recorded, where most of these remain."""
+    chances = {(goal.kind, goal.edge): goal.probability for goal in recorded.goals}
+    known = [chances.get((b.goal.kind, edge_of(b.goal)), 0.0) for b in found]
+    mass = sum(known)
+    if mass < RECOGNISED:
+        return found
+    pairs = zip(found, known, strict=True)
+    return tuple(replace(b, probability=chance / mass) for b, chance in pairs if chance > 0.0)

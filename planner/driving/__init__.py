@@ -1,0 +1,1 @@
+"""Driving: from scene to command, step by step."""

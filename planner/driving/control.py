@@ -1,0 +1,255 @@
+"""Control: how to brake or speed up in the coming step, among what is seen and foreseen."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from planner.driving.lookout import shown_now
+from planner.driving.memory import Memory
+from planner.driving.walkers import AROUND, passing_speed, with_walkers
+from planner.hidden_areas.caution import allowed_speed
+from planner.hidden_areas.phantoms import View
+from planner.kernels.driving import (
+    COMFORT,
+    CRAWL,
+    EMERGENCY,
+    FOLLOWING,
+    FORESIGHT,
+    GAP_HORIZON,
+    LEAST,
+    REACTION,
+    RELAXATION,
+    safe_speed,
+    towards,
+)
+from planner.manoeuvres.clearance import first_touch
+from planner.manoeuvres.plans import ActionPlan, GiveWay
+from planner.motion.everybody import everybody_in, going_on
+from planner.motion.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
+from planner.motion.obstacles import Obstacle, Traffic, occupancy
+from planner.motion.tracks import aligned
+from planner.prediction.recognise import Belief
+from planner.record.trace import ON_FOOT
+from planner.roads.trajectory import Roads
+from planner.search.decide import observed
+from sim.scene import EGO, Scene, VehicleState
+
+CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
+CERTAIN = 0.5  # the same for people once they have kept the ego for a while: else it never goes
+LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
+SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
+INSIDE = 1.0  # [m] beyond its line from which the ego is in the way of those who may go first
+PATIENCE = 25  # samples at 5 Hz for which one of them stands before it is taken to wait
+STANDING = 0.1  # [m/s]
+SPARE = 3.0  # [m] to look beyond where the ego can stop
+
+
+@dataclass(frozen=True, slots=True)
+class Driving:
+    """What the ego drives, and where on it it is."""
+
+    plan: ActionPlan
+    lane: Lane
+    motion: Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Outlook:
+    """What the last decision foresaw."""
+
+    time: float  # [s] of it
+    beliefs: Mapping[int, Sequence[Belief]]
+
+
+@dataclass(frozen=True)
+class Around:
+    """What is known of the others."""
+
+    roads: Roads
+    memory: Memory
+    outlook: Outlook | None
+    scene: Scene
+
+    @cached_property
+    def seen(self) -> dict[int, VehicleState]:
+        """Everybody in the scene."""
+        return everybody_in(self.scene)
+
+
+def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping]:
+    """Keep behind what is seen, give way to what is predicted, and obey the lights.
+
+    Returns:
+        Acceleration [m/s2] in the coming step of `dt` [s], and what is in the way.
+    """
+    path, ego, lights = driving.plan.path, around.scene.ego, shown_now(around.scene)
+    seen = _seen(around)
+    plan, walkers = with_walkers(driving.plan, around.roads, seen, ego)
+    meeting = _predicted(driving, around, 0.0) if plan.lines else []
+    crossing = Traffic.of([*meeting, *walkers], lights)
+    foreseen = Traffic.of(_predicted(driving, around, LIKELY))
+    chosen = accelerate(
+        plan,
+        driving.lane,
+        driving.motion,
+        occupancy(path, Traffic.of(seen, lights), ego.width, 0, 2),
+        occupancy(path, crossing, ego.width, 0, GAP_HORIZON),
+        occupancy(path, foreseen, ego.width, 0, FORESIGHT),
+        ego.length,
+        dt,
+    )
+    chosen = _at_the_end(driving, _beside(driving, around, chosen, dt), dt)
+    return _clear(driving, around, _careful(driving, around, chosen, dt), dt)
+
+
+def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
+    """What is seen now, and what is hidden."""
+
+    def rate(edge: str) -> float:
+        return memory.counts.rate(edge, scene.time)
+
+    return View(roads, scene.vehicles, scene.unseen, rate, shown_now(scene))
+
+
+def _careful(
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Come slowly to a line where somebody may come, with priority, from where one sees not."""
+    if not around.scene.unseen:
+        return chosen
+    motion = driving.motion
+    view = view_of(around.roads, around.memory, around.scene)
+    allowed = allowed_speed(view, driving.plan, motion.arc)
+    if allowed >= motion.speed + COMFORT * dt:
+        return chosen
+    braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
+    return (min(chosen[0], braking), chosen[1])
+
+
+def _at_the_end(
+    driving: Driving, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Brake as hard as it takes where the road ends: who comes to it fast comes to rest."""
+    motion = driving.motion
+    needed = motion.speed**2 / (2.0 * max(driving.lane.end - motion.arc, LEAST))
+    if needed <= FOLLOWING:
+        return chosen
+    wanted = max(motion.speed - needed * RELAXATION, 0.0)
+    braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
+    return (min(chosen[0], braking), chosen[1])
+
+
+def _beside(
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Drive slowly past who waits beside at a crossing."""
+    motion = driving.motion
+    others = [s for v, s in around.scene.vehicles.items() if v != EGO]
+    allowed = passing_speed(driving.plan, motion, others) if driving.plan.crossings else math.inf
+    if allowed >= motion.speed + COMFORT * dt:
+        return chosen
+    braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
+    return (min(chosen[0], braking), chosen[1])
+
+
+def _clear(
+    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
+) -> tuple[float, Keeping]:
+    """Stop before a vehicle that stands so near the path that turning would touch it.
+
+    Inside a junction, do not even set off: between the two of them nobody could go on.
+    """
+    motion, now = driving.motion, around.memory.now
+    standing = {v: s for v, s in now.items() if v != EGO and s.speed <= CRAWL}
+    reach = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + SPARE
+    halted = motion.speed <= CRAWL
+    if halted:
+        reach = max([reach, *(line.clear - motion.arc for line in _crossing(driving))])
+    found = first_touch(driving.plan.path, motion.arc, reach, around.scene.ego, standing)
+    if found is None:
+        return chosen
+    free, vehicle = found
+    held = halted and any(line.clear > free for line in _crossing(driving))
+    wanted = 0.0 if held else safe_speed(free - motion.arc, 0.0, FOLLOWING)
+    braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
+    if braking >= chosen[0]:
+        return chosen
+    return braking, Keeping(Hindrance(vehicle, "blocked", standing[vehicle].speed), None)
+
+
+def _seen(around: Around) -> list[Obstacle]:
+    """The others where they are, going on as they do."""
+    found, ego = [], around.scene.ego
+    for vehicle, state in around.memory.now.items():
+        near = state.kind not in ON_FOOT or math.dist(state.position, ego.position) < AROUND
+        if vehicle != EGO and near:
+            track = observed(vehicle, around.memory.track(vehicle, around.scene.time), state)
+            found.append(going_on(around.roads, track, 2))
+    return found
+
+
+def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle]:
+    """The motions that the last decision found likely enough, from now on."""
+    found: list[Obstacle] = []
+    if around.outlook is None:
+        return found
+    elapsed, seen = round((around.scene.time - around.outlook.time) / DT), around.seen
+    lingering = _kept(driving, around) if driving.plan.crossings else False
+    for vehicle, beliefs in around.outlook.beliefs.items():
+        here = seen.get(vehicle)
+        if here is not None and _waits_for_us(driving, around, vehicle):
+            continue
+        slow = here is None or here.speed < SLOW
+        least = max(likely, CAUTION if slow else 0.0)
+        if here is not None and here.kind in ON_FOOT and lingering:
+            least = max(least, CERTAIN)
+        for belief in beliefs:
+            for line in belief.trajectories:
+                if belief.probability * line.probability >= least:
+                    found.append(aligned(line.motion, -elapsed, GAP_HORIZON + 10))
+    return found
+
+
+def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
+    """Whether a vehicle that may go first lets the ego go on.
+
+    Else the two would wait for one another forever: one that stands while the ego is past its
+    line; or that has stood as long as the ego has at its line, with no light that held them.
+    """
+    if not _crossing(driving):
+        arc = driving.motion.arc
+        at_line = any(-SPARE < line.stop - arc < SPARE for line in driving.plan.lines)
+        if not at_line or not _kept(driving, around):
+            return False
+    return _stands(around, vehicle)
+
+
+def _stands(around: Around, vehicle: int) -> bool:
+    """Whether a vehicle has stood for a while."""
+    speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
+    return len(speeds) == PATIENCE and max(speeds) < STANDING
+
+
+def _kept(driving: Driving, around: Around) -> bool:
+    """Whether the ego has hardly moved for a while, and not for a light."""
+    return _lingers(around) and not _just_green(driving, around)
+
+
+def _lingers(around: Around) -> bool:
+    """Whether the ego has hardly moved for as long; setting off counts as that at first."""
+    places = around.memory.track(EGO, around.scene.time).position[-PATIENCE:]
+    return len(places) == PATIENCE and math.dist(places[0], places[-1]) < SPARE
+
+
+def _just_green(driving: Driving, around: Around) -> bool:
+    """Whether a light that the ego stands at shows what it shows for a short while only."""
+    found = (around.scene.light(ahead.signal) for ahead in driving.plan.obey_lights)
+    since = around.scene.time - PATIENCE * DT
+    return any(light is not None and light.since > since for light in found)
+
+
+def _crossing(driving: Driving) -> list[GiveWay]:
+    """List the lines behind which the ego is in the way of those who may go first."""
+    arc = driving.motion.arc
+    return [line for line in driving.plan.give_ways if line.stop + INSIDE < arc < line.clear]

@@ -1,0 +1,1 @@
+"""Hidden areas: imagined road users, and caution before them."""

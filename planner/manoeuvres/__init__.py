@@ -1,0 +1,1 @@
+"""Macro actions and the manoeuvres that they consist of."""

@@ -1,0 +1,162 @@
+"""Manoeuvres, and the plan of a macro action that is made of them."""
+
+from dataclasses import dataclass
+
+from planner.record.trace import Action
+from planner.roads.trajectory import Path
+from sim.roads.network import Crossing, Direction, Link, Location
+from sim.scene import Point, Signal
+
+
+@dataclass(frozen=True, slots=True)
+class LaneFollow:
+    """Drive along the lane."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+
+
+@dataclass(frozen=True, slots=True)
+class LaneChange:
+    """Move over to the neighbouring lane."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+    side: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class Foe:
+    """A link whose way crosses another one at a junction with lights."""
+
+    key: tuple[str, int]  # (junction, link index)
+    first: bool  # whether it goes first where both may go
+    signal: Signal | None
+    line: tuple[float, float, float, float]  # x, y [m] beyond which it cannot wait; cosine, sine
+
+
+@dataclass(frozen=True, slots=True)
+class GiveWay:
+    """Wait at a line until those who go first on the link's foes leave a gap."""
+
+    stop: float  # [m] arc of the waiting line, for the front bumper; negative once passed
+    clear: float  # [m] arc at which the junction is left
+    link: Link
+    yields_to: frozenset[tuple[str, int]]  # (junction, link index) of those who go first
+    foes: tuple[Foe, ...] = ()  # where a light controls the link
+
+
+@dataclass(frozen=True, slots=True)
+class LetCross:
+    """Wait before a crossing until the people who come over it leave a gap."""
+
+    stop: float  # [m] arc at which to wait, for the front bumper; negative once passed
+    clear: float  # [m] arc at which the crossing is left
+    yields_to: frozenset[tuple[str, int]]  # (junction, index) of the crossing
+    crossing: Crossing | None  # None: wherever somebody walks on the road
+    first: bool  # whether people have priority there
+
+    @property
+    def foes(self) -> tuple[Foe, ...]:
+        """None: how people wait at lights is part of their motion."""
+        return ()
+
+
+@dataclass(frozen=True, slots=True)
+class ObeyLight:
+    """Stop at a light unless it shows green."""
+
+    stop: float  # [m] arc at which to stop, for the front bumper; negative once passed
+    signal: Signal
+
+
+@dataclass(frozen=True, slots=True)
+class KeepClear:
+    """Wait before a junction that others cross until there is room beyond it."""
+
+    stop: float  # [m] arc at which to wait, for the front bumper
+    out: float  # [m] arc at which the junction is left
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """Cross a junction along a link."""
+
+    start: float  # [m] arc
+    end: float  # [m] arc
+    direction: Direction
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Brake to a standstill and stand for STANDING_TIME."""
+
+    start: float  # [m] arc
+    braking: float  # [m/s2]
+
+
+Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | LetCross | ObeyLight | Turn | Stop
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """Where a vehicle is when it chooses an action."""
+
+    time: float  # [s]
+    position: Point  # [m]
+    heading: float  # [rad]
+    speed: float  # [m/s]
+    acceleration: float  # [m/s2]
+    location: Location
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ActionPlan:
+    """One macro action, ready to be driven."""
+
+    action: Action
+    path: Path
+    manoeuvres: tuple[Manoeuvre, ...]
+    end: float  # [m] arc at which the action is over
+    commit: float  # [m] arc from which it can no longer be taken back
+    goal: float | None  # [m] arc at which the goal is reached, if this action reaches it
+
+    @property
+    def give_ways(self) -> tuple[GiveWay, ...]:
+        """The lines at which this action may have to wait."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
+
+    @property
+    def crossings(self) -> tuple[LetCross, ...]:
+        """The crossings for people that this action comes to."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, LetCross))
+
+    @property
+    def lines(self) -> tuple[GiveWay | LetCross, ...]:
+        """Where this action may have to wait for others who go first."""
+        return (*self.give_ways, *self.crossings)
+
+    @property
+    def obey_lights(self) -> tuple[ObeyLight, ...]:
+        """The lights that this action comes to."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, ObeyLight))
+
+    @property
+    def keep_clears(self) -> tuple[KeepClear, ...]:
+        """The junctions that this action must not block."""
+        return tuple(m for m in self.manoeuvres if isinstance(m, KeepClear))
+
+    @property
+    def stops(self) -> bool:
+        """Whether the action ends at a standstill."""
+        return self.action == "stop"
+
+    @property
+    def halting(self) -> float:
+        """The braking [m/s2] with which it comes to a standstill; 0 unless it stops."""
+        return max((m.braking for m in self.manoeuvres if isinstance(m, Stop)), default=0.0)
+
+    @property
+    def changes_lane(self) -> bool:
+        """Whether the action moves to another lane of the same edge."""
+        return any(isinstance(m, LaneChange) for m in self.manoeuvres)

@@ -1,0 +1,1 @@
+"""Motion: others as moving obstacles, tracks, and forward simulation."""

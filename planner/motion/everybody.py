@@ -1,0 +1,34 @@
+"""Everybody in a scene, people on foot among the vehicles, as they go on."""
+
+from planner.motion.obstacles import Obstacle
+from planner.motion.tracks import Observed, coast
+from planner.motion.walking import straight
+from planner.record.trace import ON_FOOT
+from planner.roads.classes import roads_of
+from planner.roads.trajectory import Roads
+from sim.scene import PersonState, Scene, VehicleState
+
+
+def everybody_in(scene: Scene) -> dict[int, VehicleState]:
+    """Vehicles and people by name, in increasing order; people are told by their kind."""
+    people = {name: _as_traffic(state) for name, state in scene.people.items()}
+    return dict(sorted({**scene.vehicles, **people}.items()))
+
+
+def going_on(roads: Roads, track: Observed, steps: int) -> Obstacle:
+    """Somebody who goes on as he does: vehicles along their lanes, people straight ahead."""
+    if track.kind in ON_FOOT:
+        return straight(track, steps + 1)
+    return coast(roads_of(roads, track.kind), track, steps, past=False)
+
+
+def _as_traffic(person: PersonState) -> VehicleState:
+    return VehicleState(
+        position=person.position,
+        heading=person.heading,
+        speed=person.speed,
+        acceleration=0.0,
+        length=person.length,
+        width=person.width,
+        kind=person.kind,
+    )

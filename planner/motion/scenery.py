@@ -1,0 +1,94 @@
+"""What predictions have in common: the roads, the lights as they may go on, and the others."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+
+from planner.kernels.driving import GAP_HORIZON
+from planner.motion.obstacles import Motions, Obstacle, Traffic
+from planner.motion.tracks import Observed, coast
+from planner.roads.classes import roads_of
+from planner.roads.trajectory import Roads
+from planner.traffic_lights.signals import Lights, Outlook
+from sim.roads.network import UNSIGNALLED
+from sim.scene import Signal
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Scenery:
+    """What all vehicles have in common: the roads, and the lights as they may go on."""
+
+    roads: Roads
+    outlook: Outlook
+    steps: int
+    _lights: dict[tuple[int, ...], Lights] = field(default_factory=dict)
+
+    def on(self, kind: str) -> "Scenery":
+        """The same on the roads for a kind of vehicle."""
+        roads = roads_of(self.roads, kind)
+        return self if roads is self.roads else replace(self, roads=roads)
+
+    def lights(self, courses: tuple[int, ...]) -> Lights:
+        """What lights show from now on, where controllers take certain courses."""
+        found = self._lights.get(courses)
+        if found is None:
+            found = self.outlook.lights(courses, self.steps + GAP_HORIZON)
+            self._lights[courses] = found
+        return found
+
+    def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:
+        """The motions of a vehicle under all courses of the controllers that it comes to."""
+        usual = self.outlook.usual
+        motion = make(usual)
+        if len(self.outlook.joint) == 1:
+            return Motions(motion)
+        near = _controllers(self.roads, motion.links)
+        made = {usual: motion}
+        other = {}
+        for courses in self.outlook.joint:
+            alike = self.outlook.with_usual(courses, near)
+            if alike != usual:
+                if alike not in made:
+                    made[alike] = make(alike)
+                other[courses] = made[alike]
+        return Motions(motion, other)
+
+    def coast(self, track: Observed) -> Motions:
+        """How a vehicle goes on if nothing changes but the lights."""
+        return self.motions(
+            lambda courses: coast(
+                self.roads, track, self.steps, past=False, lights=self.lights(courses)
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Others:
+    """The others as they go on, from now, and the lights."""
+
+    scenery: Scenery
+    motions: tuple[Motions, ...]
+    _traffic: dict[tuple[int, ...], Traffic] = field(default_factory=dict)
+
+    def under(self, courses: tuple[int, ...]) -> Traffic:
+        """The traffic where controllers take certain courses."""
+        found = self._traffic.get(courses)
+        if found is None:
+            known = [motion.under(courses) for motion in self.motions]
+            found = self._traffic[courses] = Traffic.of(known, self.scenery.lights(courses))
+        return found
+
+    @property
+    def usual(self) -> Traffic:
+        """The traffic where lights take their likeliest courses."""
+        return self.under(self.scenery.outlook.usual)
+
+
+def _controllers(roads: Roads, ways: Iterable[tuple[str, int]]) -> frozenset[str]:
+    """What controls the lights of some links and crossings, given as (junction, index)."""
+    network = roads.network
+    found = []
+    for junction, index in ways:
+        link = network.junction_links(junction).get(index)
+        way = link or network.junction_others(junction).get(index)
+        found.append(UNSIGNALLED if way is None else way.control)
+    return frozenset(control.controller for control in found if isinstance(control, Signal))

@@ -1,0 +1,1 @@
+"""Prediction: goals of others, recognised by inverse planning."""

@@ -1,0 +1,81 @@
+"""What the indicators of a vehicle say of where it wants to go.
+
+Who turns mostly indicates it, more surely the nearer the turn is; who does not turn hardly ever
+indicates, but before a lane change. Turn signals are used in about three of four turns on the
+road (Ponziani 2012, SAE 2012-01-0261), and nearly always in SUMO; the shares here lie between.
+On roundabouts habits differ too much: there the lights say nothing.
+"""
+
+from collections.abc import Sequence
+
+from planner.manoeuvres.actions import Situation
+from planner.motion.tracks import Observed, Side
+from planner.prediction.goals import BACK, BRANCHES, Goal
+from planner.roads.routes import approach
+from planner.roads.trajectory import Roads
+
+SOON = 4.0  # [s] at the limit to the turn, from which nearly everybody indicates
+SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and earlier
+BRANCHING = 0.4  # ... a road that branches off, which some take without indicating
+WRONG = 0.02  # share of those who indicate the other side
+MEANT = {False: 0.03, True: 0.2}  # ... and to a side to which they do not turn: with a lane there
+
+
+def indicated(
+    roads: Roads, observed: Observed, here: Situation, goals: Sequence[Goal], view: float
+) -> list[float]:
+    """Return how probable the indicators shown are for each goal.
+
+    Args:
+        roads: the road network.
+        observed: the vehicle, with what it indicates now.
+        here: where it is.
+        goals: those that it may have.
+        view: [m] how far ahead junctions are looked for.
+    """
+    if len(observed.indicating) > 1 or any("roundabout" in goal.place for goal in goals):
+        return [1.0] * len(goals)
+    shown = next(iter(observed.indicating), None)
+    lane = roads.network.lanes[here.location.lane]
+    soon = approach(roads, here.location, view).distance <= SOON * lane.speed_limit
+    beside = shown is not None and _lane_beside(roads, here, shown)
+    return [_share(_side(goal), shown, soon=soon, beside=beside) for goal in goals]
+
+
+def _share(
+    side: tuple[Side, bool] | None, shown: Side | None, *, soon: bool, beside: bool
+) -> float:
+    """Return the share of those with such a goal who show this.
+
+    Args:
+        side: to which the goal turns, and whether it only branches off there; None: neither.
+        shown: the side indicated.
+        soon: whether the turn is near.
+        beside: whether there is a lane on the side indicated.
+    """
+    if side is None:
+        return 1.0 - 2.0 * MEANT[False] if shown is None else MEANT[beside]
+    usual = BRANCHING if side[1] else SHOWN[0 if soon else 1]
+    if shown is None:
+        return 1.0 - usual - WRONG
+    if shown == side[0]:
+        return usual
+    return WRONG if soon or not beside else MEANT[True]
+
+
+def _side(goal: Goal) -> tuple[Side, bool] | None:
+    """Return to which side a goal turns off, and whether it only branches off there."""
+    if goal.place == BRANCHES["left"]:
+        return "left", True
+    if goal.place == BRANCHES["right"]:
+        return "right", True
+    if goal.kind == "exit-left" or goal.place == BACK:
+        return "left", False
+    return ("right", False) if goal.kind == "exit-right" else None
+
+
+def _lane_beside(roads: Roads, here: Situation, side: Side) -> bool:
+    """Tell whether there is a lane of the same road on a side of a vehicle."""
+    lane = roads.network.lanes[here.location.lane]
+    lanes = () if lane.internal else roads.network.edge_lanes(lane.edge)
+    return lane.index + (1 if side == "left" else -1) in {one.index for one in lanes}

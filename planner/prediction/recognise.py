@@ -1,0 +1,328 @@
+"""Goal recognition by inverse planning: what the other vehicles may be up to, and how likely.
+
+For every goal in view, the best ways there are planned; how well it explains what was seen so
+far tells `planner.prediction.likelihood`.
+"""
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from planner.kernels.driving import GAP_HORIZON
+from planner.manoeuvres.actions import COMFORT, ActionPlan, Situation, Stop
+from planner.motion.forward import DT, Motion, drive
+from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
+from planner.motion.scenery import Others, Scenery
+from planner.motion.tracks import (
+    Observed,
+    aligned,
+    berth_of,
+    coast,
+    drive_on,
+    links_of,
+    queued,
+    sample_path,
+)
+from planner.prediction.astar import GRIP, SOLUTIONS, Solution, held, ways
+from planner.prediction.beliefs import NEGLIGIBLE, Belief, Trajectory, likeliest
+from planner.prediction.goals import PLACES, Goal, goals_in_view
+from planner.prediction.indication import indicated
+from planner.prediction.likelihood import likelihoods
+from planner.prediction.people import past_of, recognise_people
+from planner.record.light_record import HeldByLight
+from planner.record.trace import ON_FOOT, Action, EgoGoal, HeldUp, Settings
+from planner.roads.routes import onward
+from planner.roads.trajectory import Roads
+from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up
+from planner.traffic_lights.signals import DARK, Outlook
+
+__all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to"]
+
+STOPPING = 100.0  # [m] at least of road on which a vehicle may stop
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Way:
+    """One way on from now."""
+
+    cost: float  # [s]
+    waiting: float  # [s] of it, for others and at lights
+    actions: tuple[Action, ...]
+    motions: Motions
+    held_up: tuple[HeldUp, ...] = ()
+    held_by_lights: tuple[HeldByLight, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Coasting:
+    """How one vehicle goes on if nothing changes, as others reckon with it."""
+
+    elapsed: int  # steps of its track
+    now: Motions  # from now on
+    past: Obstacle  # from the first sample of its track on
+
+
+def recognise(
+    roads: Roads,
+    tracks: Sequence[Observed],
+    settings: Settings,
+    time: float,
+    ego: int,
+    outlook: Outlook = DARK,
+    apart: Collection[int] = (),
+) -> dict[int, tuple[Belief, ...]]:
+    """What everybody but the ego may be up to.
+
+    Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
+    it will most likely move off, so that a queue dissolves from its head on; and so is who will
+    be held at a light.
+
+    Args:
+        roads: the road network.
+        tracks: vehicles in view, the ego among them, and people on foot; each ends now.
+        settings: view radius [m], horizon [s], rationality [1/s].
+        time: [s] now.
+        ego: name of the ego.
+        outlook: the lights.
+        apart: vehicles that are not planned for: they are in the way of others at most.
+    """
+    steps = round(settings.horizon / DT)
+    scenery = Scenery(roads, outlook, steps)
+    usual = scenery.lights(outlook.usual)
+    people = [track for track in tracks if track.kind in ON_FOOT]
+    vehicles = [track for track in tracks if track.kind not in ON_FOOT]
+    coasting = {
+        track.vehicle: _Coasting(
+            track.elapsed,
+            scenery.on(track.kind).coast(track),
+            coast(scenery.on(track.kind).roads, track, steps, past=True, lights=usual),
+        )
+        for track in vehicles
+    }
+    found: dict[int, tuple[Belief, ...]] = {}
+    if people:
+        going_on = [mine.now.usual for mine in coasting.values()]
+        found = recognise_people(scenery, people, vehicles, going_on, settings)
+    for walker in people:
+        now = likeliest(found[walker.vehicle])
+        coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
+    held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
+    for observed in queued(vehicles, held):
+        if observed.vehicle != ego and observed.vehicle not in apart:
+            own = scenery.on(observed.kind)
+            found[observed.vehicle] = _beliefs(own, observed, coasting, settings, time)
+            if observed.standing or observed.vehicle in held:
+                mine = coasting[observed.vehicle]
+                moving_off = likeliest(found[observed.vehicle])
+                coasting[observed.vehicle] = replace(mine, now=moving_off)
+    return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle in found}
+
+
+def _beliefs(
+    scenery: Scenery,
+    observed: Observed,
+    coasting: Mapping[int, _Coasting],
+    settings: Settings,
+    time: float,
+) -> tuple[Belief, ...]:
+    steps, roads = scenery.steps, scenery.roads
+    others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
+    starts = observed.situation(roads, -1, time)
+    if not starts:
+        return _unknown(scenery, observed)
+    goals = goals_in_view(roads, starts, settings.view_radius)
+    size = (observed.length, observed.width)
+    nowhere = EgoGoal("", 0.0, None)
+    pace = observed.pace
+    frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True, pace=pace)
+    now = Others(scenery, tuple(other.now for other in others))
+    onwards = _ways_to(frame, starts, goals, observed, now)
+    left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
+    likelihood = (
+        likelihoods(frame, observed, goals, left, _before(scenery, observed, others), settings)
+        if settings.recognition
+        else [0.0 if driving is None else 1.0 for driving in left]
+    )
+    shown = [1.0] * len(goals)
+    if settings.recognition:
+        shown = indicated(roads, observed, starts[0], goals, settings.view_radius)
+        likelihood = [like * share for like, share in zip(likelihood, shown, strict=True)]
+    weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
+    if sum(weights) == 0.0:
+        return _unknown(scenery, observed)
+    weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
+    return tuple(
+        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings), share)
+        for goal, like, weight, onward, share in zip(
+            goals, likelihood, weights, onwards, shown, strict=True
+        )
+        if weight > 0.0
+    )
+
+
+def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
+    """The others from the first sample of a track on."""
+    horizon = scenery.steps + observed.elapsed
+    return Traffic.of(
+        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others],
+        scenery.outlook.before(observed.elapsed, scenery.steps + GAP_HORIZON),
+    )
+
+
+def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
+    """A vehicle for which no goal makes sense: it is taken to go on as it does."""
+    goal = Goal("continue", PLACES["continue"], None, 1.0)
+    return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
+
+
+def _ways_to(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goals: Sequence[Goal],
+    observed: Observed,
+    others: Others,
+) -> list[list[_Way]]:
+    """The ways on to each goal.
+
+    Where none but to stop could be driven as fast as it comes, the bends are drawn too sharp.
+    """
+    found = [_ways_on(frame, starts, goal, observed, others) for goal in goals]
+    if any(ways for goal, ways in zip(goals, found, strict=True) if goal.target is not None):
+        return found
+    return [_ways_on(frame, starts, goal, observed, others, math.inf) for goal in goals]
+
+
+def _ways_on(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goal: Goal,
+    observed: Observed,
+    others: Others,
+    grip: float = GRIP,
+) -> list[_Way]:
+    if goal.target is None:
+        return _stopping(frame, starts[0], observed, others.usual)
+    task = replace(frame, goal=goal.target)
+    solutions = ways(task, starts, others.usual, SOLUTIONS, grip)
+    if not solutions:
+        return _held_up(task, starts, observed, others, grip)
+    return [
+        _Way(
+            solution.cost,
+            len(solution.waits) * DT,
+            solution.actions,
+            _motions(task, starts, solution, observed, others),
+            held_up(solution.legs, task.start),
+            held_by_lights(solution.legs, task.start),
+        )
+        for solution in solutions
+    ]
+
+
+def _held_up(
+    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others, grip: float
+) -> list[_Way]:
+    """The best way to a goal that others or lights keep it from, as far as they let it drive."""
+    found = []
+    for free in ways(task, starts, NOBODY, 1, grip):
+        legs = held(task, starts, free.actions, others.usual) or free.legs
+        motions = _motions(task, starts, Solution(free.cost, legs), observed, others)
+        stretches, stops = held_up(legs, task.start), held_by_lights(legs, task.start)
+        found.append(_Way(free.cost, 0.0, free.actions, motions, stretches, stops))
+    return found
+
+
+def _motions(
+    task: Task,
+    starts: tuple[Situation, ...],
+    solution: Solution,
+    observed: Observed,
+    others: Others,
+) -> Motions:
+    """A solution as it is driven under all courses of the lights."""
+
+    def under(courses: tuple[int, ...]) -> Obstacle:
+        traffic = others.under(courses)
+        if courses == others.scenery.outlook.usual:
+            return _motion(task, solution, observed, traffic)
+        legs = held(task, starts, solution.actions, traffic) or solution.legs
+        return _motion(task, Solution(solution.cost, legs), observed, traffic)
+
+    return others.scenery.motions(under)
+
+
+def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
+    """A solution as an obstacle, driving on beyond its goal."""
+    legs = solution.legs
+    first = legs[-1].first + len(legs[-1].speed) - 1
+    position, heading, speed, lanes = drive_on(
+        task.roads, legs[-1].end, first, others, task.size, task.horizon, task.pace
+    )
+    driven = [leg.position[1:] for leg in legs]
+    return Obstacle(
+        observed.vehicle,
+        observed.length,
+        observed.width,
+        np.vstack((legs[0].position[:1], *driven, position)),
+        np.concatenate((legs[0].heading[:1], *(leg.heading[1:] for leg in legs), heading)),
+        np.concatenate((legs[0].speed[:1], *(leg.speed[1:] for leg in legs), speed)),
+        links_of(task.roads, [lane for leg in legs for lane in leg.lanes] + list(lanes)),
+        berth_of(task.roads, observed),
+    )
+
+
+def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic) -> list[_Way]:
+    """Braking to a standstill and staying there; nobody means to stay inside a junction."""
+    reach = max(STOPPING, here.speed**2 / COMFORT)  # twice what the braking takes
+    row = onward(frame.roads, (here.location.lane,), here.location.offset + reach)
+    path = frame.roads.path(row, here.position, here.heading, 12.0, reach, reach)
+    plan = ActionPlan("stop", path, (Stop(0.0, COMFORT),), path.length, math.inf, None)
+    driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
+    arcs, speed = driven.motion[:, 0], driven.motion[:, 1]
+    if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:
+        return []
+    position, heading = sample_path(path, arcs, observed.length)
+    rest = frame.horizon + 1 - len(arcs)
+    motion = Obstacle(
+        observed.vehicle,
+        observed.length,
+        observed.width,
+        np.vstack((position, np.repeat(position[-1:], rest, axis=0))),
+        np.concatenate((heading, np.repeat(heading[-1:], rest))),
+        np.concatenate((speed, np.zeros(rest))),
+        links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
+        berth_of(frame.roads, observed),
+    )
+    return [_Way(here.speed / COMFORT, 0.0, ("stop",), Motions(motion))]
+
+
+def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:
+    """The ways on with p(way | goal) by softmax over their costs."""
+    best = onwards[0].cost
+    weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
+    weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
+    return tuple(
+        Trajectory(weight / sum(weights), way.actions, way.motions, way.held_up, way.held_by_lights)
+        for way, weight in zip(onwards, weights, strict=True)
+        if weight > 0.0
+    )
+
+
+def trajectories_to(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goal: Goal,
+    observed: Observed,
+    others: Others,
+    settings: Settings,
+) -> tuple[Trajectory, ...]:
+    """The ways on to a goal, however improbable it is; none where no way leads there."""
+    onwards = _ways_on(frame, starts, goal, observed, others)
+    return _trajectories(onwards, settings) if onwards else ()
+
+
+def motion_along(frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic) -> Obstacle:
+    """Legs driven one after the other from now, and the road followed from there."""
+    return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

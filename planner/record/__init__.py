@@ -1,0 +1,1 @@
+"""The record of decisions: traces, events, and their parts."""

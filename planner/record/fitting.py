@@ -1,0 +1,91 @@
+"""Fitting: a trace within its bounds, without the lines that it has no room for."""
+
+import msgspec
+
+from planner.record.places import LightChange
+from planner.record.trace import (
+    MAX_BYTES,
+    SAMPLE_PERIOD,
+    GoalPrediction,
+    PlanTrace,
+    Track,
+    VehiclePrediction,
+    encode,
+)
+from sim.scene import EGO
+
+RECENT = 11  # samples of the history of who is not predicted: what came before is in older traces
+IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
+
+
+def fitted(trace: PlanTrace) -> PlanTrace:
+    """The trace without the lines that it has no room for.
+
+    Where it is larger than MAX_BYTES, the histories of those who are not predicted shrink to
+    RECENT samples; then the less probable predictions lose path, speed and who
+    holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
+    what rollouts came to, and why, always stays.
+    """
+    if len(encode(trace)) <= MAX_BYTES:
+        return trace
+    trace = _without_past(trace)
+    for below in IMPROBABLE:
+        if len(encode(trace)) > MAX_BYTES:
+            trace = _without_lines(trace, below)
+    excess = len(encode(trace)) - MAX_BYTES
+    if excess <= 0:
+        return trace
+    rollouts = list(trace.rollouts)
+    for k in range(len(rollouts) - 1, -1, -1):
+        if excess > 0 and rollouts[k].path is not None:
+            bare = msgspec.structs.replace(rollouts[k], path=None, speed=None)
+            excess -= len(msgspec.json.encode(rollouts[k])) - len(msgspec.json.encode(bare))
+            rollouts[k] = bare
+    trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
+    return trace if excess <= 0 else _without_lines(trace, 1.0)
+
+
+def _without_past(trace: PlanTrace) -> PlanTrace:
+    """The trace with the latest samples alone of those who are not predicted."""
+    kept = {EGO, *(known.vehicle for known in trace.predictions)}
+    history = {
+        name: track if name in kept else _recent(track) for name, track in trace.history.items()
+    }
+    return msgspec.structs.replace(trace, history=history)
+
+
+def _recent(track: Track) -> Track:
+    """The latest samples of a track, with the lights shown since."""
+    left_out = max(len(track.speed) - RECENT, 0)
+    if left_out == 0:
+        return track
+    start = round(track.start + left_out * SAMPLE_PERIOD, 3)
+    before = [change for change in track.lights if change.time <= start + 1e-3]
+    since = tuple(change for change in track.lights if change.time > start + 1e-3)
+    shown = (LightChange(start, before[-1].shown),) if before else ()
+    return Track(
+        start,
+        track.position[-RECENT:],
+        track.heading[-RECENT:],
+        track.speed[-RECENT:],
+        (*shown, *since),
+    )
+
+
+def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
+    """The trace without the predicted lines that are at most as probable as `below`."""
+
+    def stripped(goal: GoalPrediction) -> GoalPrediction:
+        ways = (
+            msgspec.structs.replace(way, path=(), speed=(), held_up=())
+            if goal.probability * way.probability <= below
+            else way
+            for way in goal.trajectories
+        )
+        return msgspec.structs.replace(goal, trajectories=tuple(ways))
+
+    predictions = tuple(
+        VehiclePrediction(known.vehicle, tuple(map(stripped, known.goals)))
+        for known in trace.predictions
+    )
+    return msgspec.structs.replace(trace, predictions=predictions)

@@ -1,0 +1,350 @@
+"""PlanTrace: the record of one decision, and the planner's only product.
+
+Everything that explanations rest on stands here: what was seen, what was predicted, every
+rollout of the search, and the plan that followed. SI units, radians anticlockwise from east,
+seconds of simulation time. An absent component is null, never NaN. The trace holds no wall
+time; `trace_id` is the hash of its canonical JSON, so equal decisions have equal names.
+"""
+
+import hashlib
+from functools import cached_property
+from typing import Literal
+
+import msgspec
+
+from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
+from planner.record.light_record import HeldByLight, LightPrediction, LightSample, LightSupposed
+from planner.record.places import LightChange, RoadFacts
+from sim.scene import Point, VehicleState
+
+SCHEMA = "xavi.plan_trace/2"
+READABLE = ("xavi.plan_trace/1", SCHEMA)  # the older ones lack what was added since
+LARGEST = 1e6  # of a component, in its unit; nothing that a car does is beyond it
+MAX_BYTES = 256 * 1024
+SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
+
+Action = Literal[
+    "continue",
+    "change-left",
+    "change-right",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "stop",
+    "cross",  # of people on foot alone: walk over the road
+]
+Outcome = Literal["done", "collision", "termination", "dead"]
+Component = Literal[
+    "time",  # [s] to the goal
+    "jerk",  # [m/s3] mean absolute value
+    "angular-acceleration",  # [rad/s2] mean absolute value
+    "curvature",  # [1/m] mean absolute value
+]
+HoldUp = Literal["leader", "right-of-way", "cut-in", "blocked"]
+#: What the reward of a rollout is made of. A collision and leaving the way to the goal (dead) cost
+#: what they cost, and nothing else; out of time costs a penalty (late), and the rest of the way
+#: (left).
+RewardTerm = Literal[Component, "effort", "late", "left", "collision", "dead"]
+
+ACTIONS: tuple[Action, ...] = (
+    "continue",
+    "change-left",
+    "change-right",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "stop",
+)
+#: Kinds of people outside of vehicles.
+ON_FOOT = ("pedestrian", "wheelchair", "scooter")
+OUTCOMES: tuple[Outcome, ...] = ("done", "collision", "termination", "dead")
+COMPONENTS: tuple[Component, ...] = ("time", "jerk", "angular-acceleration", "curvature")
+UNITS: dict[Component, str] = {
+    "time": "s",
+    "jerk": "m/s3",
+    "angular-acceleration": "rad/s2",
+    "curvature": "1/m",
+}
+
+
+class Costs(msgspec.Struct, frozen=True):
+    """What the reward counts, in seconds of travelling time; see planner.rollouts.reward."""
+
+    weights: dict[Component, float]  # per unit of a component's total over the drive
+    penalties: dict[Outcome, float]  # [s] of the outcomes that have one
+    effort: dict[Action, float]  # [s] of the actions that cost something by themselves
+
+
+#: By which traces were reckoned that do not hold their costs.
+FORMER = Costs(
+    {"time": 1.0, "jerk": 0.05, "angular-acceleration": 4.0, "curvature": 20.0},
+    {"collision": 200.0, "dead": 150.0, "termination": 10.0},
+    {"stop": 2.0, "change-left": 1.0, "change-right": 1.0},
+)
+
+
+class Settings(msgspec.Struct, frozen=True):
+    """What the planner was told to do; all budgets are counts."""
+
+    rollouts: int = 100  # drawn by the search
+    min_rollouts: int = 12  # for every applicable first action; the missing ones are forced
+    comparisons: int = 24  # joint samples enumerated at most to compare the first actions in
+    depth: int = 4  # macro actions in a row
+    horizon: float = 30.0  # [s] a rollout that lasts longer terminates
+    period: float = 1.0  # [s] between decisions
+    recognition: bool = True  # False: goals keep their prior
+    rationality: float = 1.5  # beta in p(track | goal) = exp(beta * reward difference)
+    view_radius: float = 100.0  # [m]
+    #: whether the others of a rollout brake for the ego; unset in older traces: they do not
+    reacting: bool | msgspec.UnsetType = msgspec.UNSET
+
+
+class EgoGoal(msgspec.Struct, frozen=True):
+    """Where the passenger wants to go."""
+
+    edge: str
+    position: float  # [m] along the edge
+    lane: int | None  # None: any lane counts
+
+
+class Track(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One vehicle as observed, at 5 Hz; the lists of samples have the same length N >= 1."""
+
+    start: float  # [s] time of the first sample
+    position: tuple[Point, ...]  # [m] [N]
+    heading: tuple[float, ...]  # [rad] [N]
+    speed: tuple[float, ...]  # [m/s] [N]
+    lights: tuple[LightChange, ...] = ()  # at its start, and every change since; () unknown
+
+
+class HeldUp(msgspec.Struct, frozen=True):
+    """A stretch of a drive, imagined or predicted, in which another vehicle held one up."""
+
+    vehicle: int
+    since: float = msgspec.field(name="from")  # [s] simulation time
+    until: float = msgspec.field(name="to")  # [s]
+    how: HoldUp
+    speed_from: float  # [m/s] that vehicle's speed at the start of the stretch
+    speed_to: float  # [m/s] and its lowest speed within it
+
+
+class TrajectoryPrediction(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One way in which a vehicle may reach one goal, from the scene on, at 5 Hz."""
+
+    probability: float  # given the goal
+    actions: tuple[Action, ...]
+    path: tuple[Point, ...]  # [m] [N]
+    speed: tuple[float, ...]  # [m/s] [N]
+    held_up: tuple[HeldUp, ...] = ()  # by whom, the ego among them; left out where by nobody
+    held_by_lights: tuple[HeldByLight, ...] = ()  # in their likeliest courses
+
+
+class GoalPrediction(msgspec.Struct, frozen=True):
+    """One goal that a vehicle may have."""
+
+    kind: Action  # the macro action that ends at it: exit-right, continue, stop, ...
+    place: str  # in words: "the exit on the right"
+    edge: str | None  # None for stopping
+    prior: float
+    likelihood: float  # of the observed track, relative to the most rational one
+    probability: float
+    trajectories: tuple[TrajectoryPrediction, ...]
+    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
+
+
+class VehiclePrediction(msgspec.Struct, frozen=True):
+    """What one vehicle may do; goal probabilities sum to 1."""
+
+    vehicle: int
+    goals: tuple[GoalPrediction, ...]
+
+
+class Sample(msgspec.Struct, frozen=True):
+    """The goal and trajectory drawn for one vehicle, as indices into its prediction."""
+
+    vehicle: int
+    goal: int
+    trajectory: int
+
+
+class TimedAction(msgspec.Struct, frozen=True):
+    """One macro action of the ego in a rollout."""
+
+    action: Action
+    start: float  # [s] simulation time
+
+
+class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
+    """One simulation of the search.
+
+    Many rollouts drive the very same line at the same speeds. It is recorded once: the later
+    ones carry `same_as`, the index of the first, and null path and speed. Where a trace would
+    grow beyond MAX_BYTES, further rollouts go without their line (planner.record.fitting).
+    """
+
+    index: int
+    forced: bool  # drawn for a first action that the search visited too rarely
+    samples: tuple[Sample, ...]
+    actions: tuple[TimedAction, ...]
+    path: tuple[Point, ...] | None  # [m] [N] of the ego, at 5 Hz
+    speed: tuple[float, ...] | None  # [m/s] [N]
+    same_as: int | None
+    outcome: Outcome
+    components: dict[Component, float | None]  # all null unless the outcome is done
+    reward: float  # [s] minus the sum of the terms, to the millisecond
+    collided_with: int | None
+    held_up: tuple[HeldUp, ...]
+    terms: dict[RewardTerm, float] = {}  # [s] that are not 0; empty in traces without costs
+    weight: float | None = None  # in the comparison of the first actions; left out of none
+    braking: tuple[int, ...] = ()  # who brakes for the ego, or for one that does
+    lights: tuple[LightSample, ...] = ()  # how the traffic lights were drawn to go on
+    held_by_lights: tuple[HeldByLight, ...] = ()
+    phantoms: tuple[PhantomSample, ...] = ()  # who was drawn to come out of what is hidden
+    held_by_hidden: tuple[HeldByHidden, ...] = ()
+
+
+class NotApplicable(msgspec.Struct, frozen=True):
+    """Why an action could not be taken at a node of the search."""
+
+    node: tuple[Action, ...]  # actions that lead to the node; () is the root
+    action: Action
+    reason: str  # a clause in words: "there is no lane to the left"
+
+
+class PlannedAction(msgspec.Struct, frozen=True):
+    """One macro action of the chosen plan with its value in the search."""
+
+    action: Action
+    value: float  # of the first: expected reward, by the weights of rollouts; else in the search
+    visits: int  # unforced rollouts through it
+
+
+class WhatIf(msgspec.Struct, frozen=True):
+    """What is changed when a decision is planned again; see planner.counterfactuals.whatif."""
+
+    actions: tuple[Action, ...] = ()  # that the ego takes first
+    removed: int | tuple[int, ...] | None = None  # a vehicle that is not there, or several
+    vehicle: int | None = None  # another vehicle that acts as supposed:
+    goal: str | None = None  # where it goes: the kind of a goal, or its edge
+    vehicle_actions: tuple[Action, ...] = ()  # what it does first
+    rollouts: int = 40  # drawn with the ego's forced actions
+    faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
+    lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET
+    seen_past: tuple[int, ...] | msgspec.UnsetType = msgspec.UNSET  # phantoms that are not there
+
+    @property
+    def gone(self) -> frozenset[int]:
+        """The vehicles that are not there."""
+        if self.removed is None:
+            return frozenset()
+        return frozenset((self.removed,) if isinstance(self.removed, int) else self.removed)
+
+
+class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
+    """The record of one decision."""
+
+    schema: str
+    vehicle: str  # the car's id on the bus
+    sim_time: float  # [s]
+    decision: int  # running number
+    seed: int
+    settings: Settings
+    network: str  # hash of the road network
+    goal: EgoGoal
+    under_way: TimedAction | None  # a macro action that must be finished first
+    history: dict[int, Track]
+    scene: dict[int, VehicleState]
+    predictions: tuple[VehiclePrediction, ...]
+    rollouts: tuple[Rollout, ...]
+    not_applicable: tuple[NotApplicable, ...]
+    plan: tuple[PlannedAction, ...]
+    unseen: dict[int, float] = {}  # hidden vehicles in the scene, and when [s] they were seen last
+    waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
+    road: RoadFacts | None = None  # where everybody is on it, and what the ego comes to
+    what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
+    costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
+    lights: tuple[LightPrediction, ...] = ()  # the traffic lights in view, by controller
+    phantoms: tuple[Phantom, ...] = ()  # who might come out of hidden parts of the road
+
+    @property
+    def reckoned(self) -> Costs:
+        """By what its rewards were reckoned."""
+        return self.costs or FORMER
+
+    @cached_property
+    def trace_id(self) -> str:
+        """16 hex digits of the SHA-256 of the canonical JSON."""
+        return hashlib.sha256(encode(self)).hexdigest()[:16]
+
+
+class TraceError(ValueError):
+    """A PlanTrace that cannot be read or written."""
+
+
+def encode(trace: PlanTrace) -> bytes:
+    """The canonical JSON of a trace: the same trace gives the same bytes.
+
+    Vehicles stand in increasing order of their names, as in `Scene`.
+    """
+    return msgspec.json.encode(trace)
+
+
+def decode(data: bytes) -> PlanTrace:
+    """Read a trace from JSON.
+
+    Raises:
+        TraceError: too large, not JSON, not of this schema, or a field is wrong.
+    """
+    if len(data) > MAX_BYTES:
+        raise TraceError(f"trace of {len(data)} bytes; at most {MAX_BYTES} are accepted")
+    try:
+        trace = msgspec.json.decode(data, type=PlanTrace)
+    except (msgspec.ValidationError, msgspec.DecodeError) as error:
+        raise TraceError(f"not a plan trace: {error}") from error
+    if trace.schema not in READABLE:
+        known = " and ".join(repr(name) for name in READABLE)
+        raise TraceError(f"trace schema is {trace.schema!r}; this version reads {known}")
+    fault = fault_of(trace)
+    if fault is not None:
+        raise TraceError(f"not a plan trace: {fault}")
+    return trace
+
+
+def fault_of(trace: PlanTrace) -> str | None:
+    """What in a trace does not fit together, if anything."""
+    for one in trace.rollouts:
+        parts = (value for value in one.components.values() if value is not None)
+        if not all(abs(value) <= LARGEST for value in (*parts, *one.terms.values(), one.reward)):
+            return f"rollout {one.index} has a figure that is none, or beyond {LARGEST:g}"
+    for vehicle, track in trace.history.items():
+        if not len(track.position) == len(track.heading) == len(track.speed) > 0:
+            return f"the history of vehicle {vehicle} has lists of different lengths, or is empty"
+    ways = {
+        known.vehicle: [len(g.trajectories) for g in known.goals] for known in trace.predictions
+    }
+    for vehicle, counts in ways.items():
+        if not counts or min(counts) == 0:
+            return f"vehicle {vehicle} has no goal, or one with no trajectory"
+    for light in trace.lights:
+        if light.fault is not None:
+            return light.fault
+    courses = {light.controller: len(light.courses) for light in trace.lights}
+    known = () if trace.road is None else trace.road.places.keys()
+    told = () if trace.road is None else {fact.vehicle for fact in trace.road.priority}
+    for vehicle in {*known, *told} - trace.scene.keys():
+        return f"vehicle {vehicle} is on the road and not in the scene"
+    hidden = len(trace.phantoms)
+    for rollout in trace.rollouts:
+        for s in rollout.samples:
+            counts = ways.get(s.vehicle, [])
+            if not (0 <= s.goal < len(counts) and 0 <= s.trajectory < counts[s.goal]):
+                return f"rollout {rollout.index} samples what is not predicted"
+        for drawn in rollout.lights:
+            if not 0 <= drawn.course < courses.get(drawn.controller, 0):
+                return f"rollout {rollout.index} samples what is not predicted of a light"
+        imagined = {drawn.phantom for drawn in rollout.phantoms}
+        if not imagined.union(x.phantom for x in rollout.held_by_hidden) <= {*range(hidden)}:
+            return f"rollout {rollout.index} names somebody who is not imagined"
+    return None

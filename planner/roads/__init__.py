@@ -1,0 +1,1 @@
+"""Roads as the planner drives them: paths, ways through junctions, levels."""

@@ -1,0 +1,1 @@
+"""Search: MCTS over macro actions, and one decision."""

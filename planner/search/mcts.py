@@ -1,0 +1,320 @@
+"""MCTS over macro actions: sample the others, roll out the ego, learn.
+
+The same seed gives the same rollouts: the generator is made from arguments alone.
+"""
+
+import random
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from planner.hidden_areas.caution import coming, held_by_hidden, name_of
+from planner.kernels.driving import GAP_HORIZON
+from planner.manoeuvres.actions import ActionPlan, Situation, expand
+from planner.motion.forward import Motion
+from planner.motion.obstacles import Obstacle, Pool, Traffic
+from planner.prediction.recognise import Belief
+from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
+from planner.record.light_record import LightSample
+from planner.record.trace import (
+    ACTIONS,
+    Action,
+    Component,
+    NotApplicable,
+    Outcome,
+    PlannedAction,
+    Sample,
+    Settings,
+)
+from planner.roads.routes import Refusal
+from planner.rollouts.reward import EFFORT, absent, reward, terms
+from planner.rollouts.rollout import (
+    Leg,
+    Task,
+    held_by_lights,
+    held_up,
+    hindered,
+    summarise,
+    take,
+)
+from planner.rollouts.waypoints import cost_by, cost_left
+from planner.search.comparison import Samples, draw, source_of, weighted
+from planner.search.simulated import Simulated
+from planner.search.tree import Edge, Node, Tree
+from planner.traffic_lights.signals import DARK, Lights, Outlook
+from sim.roads.network import Location
+
+Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
+#: What can be done, and in which order it is tried.
+Options: TypeAlias = tuple[Mapping[Action, ActionPlan], tuple[Action, ...]]
+
+LATE = 1e3  # [s] by which a stop is put behind all that leads on
+ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """Where the search begins."""
+
+    here: Situation
+    under_way: tuple[ActionPlan, Motion] | None = None  # must be finished first
+
+
+@dataclass
+class Search:
+    """One search, from which rollouts are drawn until the budget is spent."""
+
+    task: Task
+    root: Root
+    beliefs: Mapping[int, Sequence[Belief]]
+    settings: Settings
+    seed: str  # of all that is drawn
+    lights: Outlook = DARK
+    phantoms: tuple[Phantom, ...] = ()
+    rollouts: list[Simulated] = field(default_factory=list)
+    tree: Tree = field(default_factory=Tree)
+    refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
+    compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
+    _plans: dict[tuple[Samples, Node], Options] = field(default_factory=dict)
+    _expanded: dict[tuple[Situation, Action], ActionPlan | Refusal] = field(default_factory=dict)
+    _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
+    _known: dict[tuple[Samples, Node], Simulated] = field(default_factory=dict)
+    _motions: dict[Samples, Traffic] = field(default_factory=dict)
+    _lit: dict[tuple[int, ...], Lights] = field(default_factory=dict)  # by courses
+    _pool: Pool = field(default_factory=Pool)
+    _imagined: dict[int, Obstacle] = field(default_factory=dict)  # by index
+    # By vehicle, controller and who is imagined: nobody shifts another's.
+    _draws: dict[int | str, random.Random] = field(init=False)
+
+    def __post_init__(self) -> None:
+        names: tuple[int | str, ...] = (
+            *self.beliefs,
+            *(one.controller for one in self.lights.varying),
+            *(source_of(k) for k in range(len(self.phantoms))),
+        )
+        self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
+
+    def run(self) -> None:
+        """Draw the rollouts of the search; then compare the first actions, and force the rest."""
+        for _ in range(self.settings.rollouts):
+            drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
+            self._learn(self.tree, drawn, (), forced=False)
+        self._compare()
+        tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
+        for action in self._first_actions():
+            self.force((action,), self.settings.min_rollouts - tried[action])
+
+    def force(self, actions: Node, count: int) -> None:
+        """Draw rollouts that begin with given actions, without teaching the search.
+
+        Where one of the actions does not apply, the rollout is dropped and the reason kept.
+        """
+        apart = self.tree.copy()
+        for _ in range(max(count, 0)):
+            drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
+            self._learn(apart, drawn, actions, forced=True)
+
+    def _compare(self) -> None:
+        """Drive the best continuation of every first action through the same samples.
+
+        Values in the tree carry its exploration, and every action met other samples there. What
+        is chosen is what does best in expectation, where all are tried alike.
+        """
+        rivals = self._first_actions()
+        if len(rivals) < 2:
+            return
+        drawn = [rollout.drawn for rollout in self.rollouts]
+        most = self.settings.comparisons
+        common = weighted(self.beliefs, drawn, most, self.lights, self.phantoms)
+        for action in rivals:
+            self.compared[action] = 0.0
+            for samples, weight in common:
+                one = self._roll(samples, self._greedily(action), forced=True, weight=weight)
+                assert one is not None  # what was tried first applies whatever the others do
+                self.compared[action] += weight * one.reward
+
+    def _greedily(self, first: Action) -> Choose:
+        return lambda node, options: self.tree.greedy(node, options) if node else first
+
+    def _first_actions(self) -> list[Action]:
+        """The first actions that were tried, in a fixed order."""
+        known = self.tree.edges.get((), {})
+        return [action for action in ACTIONS if action in known]
+
+    def plan(self) -> tuple[PlannedAction, ...]:
+        """The chosen macro actions."""
+        enough = max(1, int(ENOUGH * self.settings.rollouts))
+        if not self.compared:
+            return _planned(self.tree.best(enough))
+        first = max(self.compared, key=lambda action: self.compared[action])
+        visits = self.tree.edges[()][first].visits
+        rest = self.tree.best(1, (first,))
+        return (
+            PlannedAction(first, round(self.compared[first], 3), visits),
+            *_planned(rest),
+        )
+
+    def not_applicable(self) -> tuple[NotApplicable, ...]:
+        """Why actions did not apply, by node in the order of first visit."""
+        return tuple(
+            NotApplicable(node, action, reason) for (node, action), reason in self.refusals.items()
+        )
+
+    def _learn(self, tree: Tree, samples: Samples, begin: Node, *, forced: bool) -> None:
+        """One rollout that begins with given actions, then follows and teaches a tree."""
+
+        def choose(node: Node, options: Sequence[Action]) -> Action:
+            if len(node) < len(begin):
+                return begin[len(node)]
+            return tree.select(node, options)
+
+        one = self._roll(samples, choose, forced=forced)
+        if one is not None:
+            tree.back_up(one.actions[: self.settings.depth], one.reward)
+
+    def _roll(
+        self, samples: Samples, choose: Choose, *, forced: bool, weight: float | None = None
+    ) -> Simulated | None:
+        """One rollout; None, and nothing recorded, where the action chosen does not apply."""
+        legs: list[Leg] = []
+        outcome: Outcome | None = None
+        while outcome is None:
+            node = tuple(leg.action for leg in legs)
+            options, inviting = self._options(samples, node, legs)
+            if not inviting:
+                outcome = "dead"
+                break
+            searched = len(legs) < self.settings.depth
+            action = choose(node, inviting) if searched else inviting[0]
+            if action not in options:
+                return None
+            legs.append(self._leg(samples, (*node, action), options[action], legs))
+            outcome = legs[-1].outcome
+        one = replace(self._simulated(samples, legs, outcome), forced=forced, weight=weight)
+        self.rollouts.append(one)
+        return one
+
+    def _simulated(self, samples: Samples, legs: Sequence[Leg], outcome: Outcome) -> Simulated:
+        """What came of a rollout; the same actions under the same samples come to the same."""
+        key = (samples, tuple(leg.action for leg in legs))
+        found = self._known.get(key)
+        if found is None:
+            parts = summarise(self.task, legs)
+            effort = sum(EFFORT.get(leg.action, 0.0) for leg in legs)
+            left = self._left(() if outcome == "dead" else legs)
+            spent = terms(outcome, parts, left, effort)
+            gained = round(reward(spent), 3)
+            stretches = held_up(legs, self.task.start)
+            stops = held_by_lights(legs, self.task.start)
+            slow = self._held_by_hidden(legs)
+            shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
+            row = tuple(legs)
+            found = Simulated(samples, row, outcome, shown, gained, spent, stretches, stops, slow)
+            self._known[key] = found
+        return found
+
+    def _invites(self, plan: ActionPlan) -> float:
+        """How soon [s] a plan would lead to the goal if nobody were in the way.
+
+        The search tries actions in this order, and beyond its depth drives on by it.
+        """
+        effort = EFFORT.get(plan.action, 0.0)
+        if plan.stops:
+            return effort + LATE
+        lane, begin = plan.path.lane_at(plan.end)
+        pace = self.task.roads.network.lanes[lane].speed_limit
+        if plan.goal is not None:
+            return effort + plan.goal / pace
+        end = Location(lane, plan.end - begin, 0.0)
+        return effort + plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
+
+    def _left(self, legs: Sequence[Leg]) -> float:
+        """What is left to the goal [s] after these legs, where nobody is in the way.
+
+        Out of time within an action, that is the rest of it and the way from its end.
+        """
+        end, ahead = (legs[-1].end, legs[-1].ahead) if legs else (self.root.here, ())
+        return cost_by(self.task.roads, end.location, ahead, self.task.goal)
+
+    def _options(self, samples: Samples, node: Node, legs: Sequence[Leg]) -> Options:
+        """What can be done at a node that was reached under these samples."""
+        key = (samples, node) if legs else ((), node)
+        found = self._plans.get(key)
+        if found is None:
+            options = {}
+            for action in ACTIONS:
+                plan = self._expand((*node, action), legs)
+                if isinstance(plan, Refusal):
+                    self.refusals.setdefault((node, action), plan.reason)
+                else:
+                    options[action] = plan
+            inviting = sorted(options, key=lambda action: self._invites(options[action]))
+            found = self._plans[key] = (options, tuple(inviting))
+        return found
+
+    def _expand(self, branch: Node, legs: Sequence[Leg]) -> ActionPlan | Refusal:
+        action = branch[-1]
+        if not legs and self.root.under_way is not None:
+            plan = self.root.under_way[0]
+            return plan if plan.action == action else Refusal("another manoeuvre is under way")
+        if branch[-2:] == ("stop", "stop"):
+            return Refusal("it is standing already")
+        here = legs[-1].end if legs else self.root.here
+        found = self._expanded.get((here, action))
+        if found is None:
+            found = expand(self.task.roads, here, action, self.task.goal, self.task.view)
+            self._expanded[here, action] = found
+        return found
+
+    def _leg(self, samples: Samples, branch: Node, plan: ActionPlan, legs: Sequence[Leg]) -> Leg:
+        """The last action of a branch, driven; the same samples give the same leg."""
+        found = self._legs.get((samples, branch))
+        if found is None:
+            here, first, traffic = self.root.here, 0, self._traffic(samples)
+            if legs:
+                last = legs[-1]
+                here, first, traffic = last.end, last.first + len(last.speed) - 1, last.traffic
+            motion = Motion(0.0, here.speed, here.acceleration)
+            if not legs and self.root.under_way is not None:
+                motion = self.root.under_way[1]
+            found = self._legs[samples, branch] = take(self.task, plan, motion, first, traffic)
+        return found
+
+    def _traffic(self, samples: Samples) -> Traffic:
+        """The others' motions as sampled."""
+        found = self._motions.get(samples)
+        if found is None:
+            courses = self.lights.courses(s for s in samples if isinstance(s, LightSample))
+            motions = [
+                self.beliefs[s.vehicle][s.goal].trajectories[s.trajectory].motions.under(courses)
+                for s in samples
+                if isinstance(s, Sample)
+            ]
+            motions += [
+                self._comes(s.phantom) for s in samples if isinstance(s, PhantomSample) and s.comes
+            ]
+            if courses not in self._lit:
+                self._lit[courses] = self.lights.lights(courses, self.task.horizon + GAP_HORIZON)
+            found = self._motions[samples] = Traffic.of(motions, self._lit[courses], self._pool)
+        return found
+
+    def _held_by_hidden(self, legs: Sequence[Leg]) -> tuple[HeldByHidden, ...]:
+        if not self.phantoms:
+            return ()
+        careful = tuple(pair for leg in legs for pair in leg.careful)
+        start = self.task.start
+        return held_by_hidden(self.phantoms, hindered(legs, start), careful, start)
+
+    def _comes(self, phantom: int) -> Obstacle:
+        """How somebody who is imagined would come."""
+        found = self._imagined.get(phantom)
+        if found is None:
+            steps = self.task.horizon + GAP_HORIZON
+            one, roads = self.phantoms[phantom], self.task.roads
+            found = self._imagined[phantom] = coming(roads, one, name_of(phantom), steps)
+        return found
+
+
+def _planned(best: Sequence[tuple[Action, Edge]]) -> tuple[PlannedAction, ...]:
+    return tuple(PlannedAction(action, round(edge.value, 3), edge.visits) for action, edge in best)

@@ -1,0 +1,56 @@
+"""What came of one rollout."""
+
+from dataclasses import dataclass
+
+from planner.record.hidden_record import HeldByHidden, PhantomSample
+from planner.record.light_record import HeldByLight, LightSample
+from planner.record.trace import Component, HeldUp, Outcome, RewardTerm, Sample
+from planner.rollouts.rollout import Leg
+from planner.search.comparison import Samples
+from planner.search.tree import Node
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Simulated:
+    """One rollout."""
+
+    drawn: Samples
+    legs: tuple[Leg, ...]
+    outcome: Outcome
+    components: dict[Component, float | None]
+    reward: float
+    terms: dict[RewardTerm, float]  # [s] that the reward is made of
+    held_up: tuple[HeldUp, ...]
+    held_by_lights: tuple[HeldByLight, ...]
+    held_by_hidden: tuple[HeldByHidden, ...]
+    forced: bool = False
+    weight: float | None = None  # in the comparison of the first actions
+
+    @property
+    def samples(self) -> tuple[Sample, ...]:
+        """The goals and trajectories drawn for the others."""
+        return tuple(one for one in self.drawn if isinstance(one, Sample))
+
+    @property
+    def lights(self) -> tuple[LightSample, ...]:
+        """The courses drawn for the lights."""
+        return tuple(one for one in self.drawn if isinstance(one, LightSample))
+
+    @property
+    def phantoms(self) -> tuple[PhantomSample, ...]:
+        """Who was drawn to come out of what is hidden."""
+        return tuple(one for one in self.drawn if isinstance(one, PhantomSample))
+
+    @property
+    def braking(self) -> tuple[int, ...]:
+        """Who brakes for the ego, or for one that does, in increasing order."""
+        if not self.legs:
+            return ()
+        traffic = self.legs[-1].traffic
+        pairs = zip(traffic.vehicles, traffic.braking.tolist(), strict=True)
+        return tuple(sorted(vehicle for vehicle, brakes in pairs if brakes and vehicle >= 0))
+
+    @property
+    def actions(self) -> Node:
+        """The macro actions, in order."""
+        return tuple(leg.action for leg in self.legs)

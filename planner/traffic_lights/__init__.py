@@ -1,0 +1,1 @@
+"""Traffic lights: what they mean over time, and how they may go on."""

@@ -1,0 +1,312 @@
+"""How a traffic light may go on: from what was seen of its cycle, else from a stated prior.
+
+`planner.traffic_lights.greens` has the prior of how long a green lasts. Amber lasts as by the
+formula of the Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
+FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face one another
+are taken to be green together, and who has been held longest to come next.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from planner.record.light_record import GREENS, UNSEEN, LightCourse, LightPrediction, Showing
+from planner.roads.trajectory import Roads
+from planner.traffic_lights.greens import residual
+from sim.roads.network import Link, angle_between, point_at
+from sim.scene import LightState, Signal
+
+REACTION, BRAKING = 1.0, 3.05  # [s], [m/s2] of who sees amber
+CLEARANCE = 1.0  # [s] for which all are red
+RED_AMBER = 1.0  # [s] of red and amber
+LEAST = 0.2  # [s] that anything lasts
+#: Quantiles of what a green has left, and how probable each of them is taken to be.
+SPREAD: tuple[tuple[float, float], ...] = ((0.15, 0.3), (0.5, 0.4), (0.85, 0.3))
+MIDDLE = ((0.5, 1.0),)
+AGAIN = 0.8  # probability that a light goes on as it was seen to do before
+PARALLEL = math.pi / 4  # [rad] by which arms that are green together may differ in direction
+
+RED, AMBER = LightState.RED.value, LightState.AMBER.value
+ABOUT_TO_GO = LightState.RED_AMBER.value
+DEAD = (LightState.OFF.value, LightState.FLASHING.value, UNSEEN)
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """What was seen of one controller: every change, the last one being what it shows now."""
+
+    controller: str
+    places: tuple[int, ...]
+    seen: tuple[Showing, ...]
+
+
+def foresee(
+    roads: Roads, watched: Watched, time: float, horizon: float, *, closely: bool
+) -> LightPrediction:
+    """How a controller may go on.
+
+    Args:
+        roads: the road network.
+        watched: what was seen of it.
+        time: [s] now.
+        horizon: [s] for which that is needed.
+        closely: whether to tell several ways apart; else the middle one is taken.
+    """
+    cycle = _Cycle(roads, watched, time, time + horizon)
+    spread = SPREAD if closely else MIDDLE
+    if all(letter in DEAD for letter in watched.seen[-1].states):
+        ways: list[tuple[float, tuple[Showing, ...]]] = [(1.0, (cycle.here,))]
+    else:
+        again = cycle.again()
+        ways = [(share, cycle.reckoned(quantile)) for quantile, share in spread]
+        if again is not None and closely:
+            ends = [(share, way) for share, way in (ways[0], ways[-1])]
+            total = sum(share for share, _ in ends)
+            ways = [(AGAIN, again), *(((1.0 - AGAIN) * p / total, way) for p, way in ends)]
+        elif again is not None:
+            ways = [(1.0, again)]
+    shares: dict[tuple[Showing, ...], float] = {}
+    for share, way in ways:
+        within = tuple(showing for showing in way if showing.time < time + horizon)
+        shares[within] = shares.get(within, 0.0) + share
+    courses = tuple(LightCourse(round(share, 6), way) for way, share in shares.items())
+    return LightPrediction(watched.controller, watched.places, watched.seen, courses)
+
+
+def supposed(
+    roads: Roads, known: LightPrediction, place: int, state: str, time: float
+) -> LightPrediction:
+    """A controller of which one place is supposed to show a state for good.
+
+    Where that is green, those whose ways cross its own are red; who was held goes on being held.
+    """
+    at = known.places.index(place)
+    letters = list(known.courses[known.likeliest].showings[0].states)
+    if state in GREENS:
+        mine = roads.network.signalled(Signal(known.controller, place))
+        for k, other in enumerate(known.places):
+            theirs = roads.network.signalled(Signal(known.controller, other))
+            if any(_meet(a, b) and not _parallel(roads, a, b) for a in mine for b in theirs):
+                letters[k] = RED
+    letters[at] = state
+    course = LightCourse(1.0, (Showing(time, "".join(letters)),))
+    return LightPrediction(known.controller, known.places, known.seen, (course,))
+
+
+class _Cycle:
+    """One controller, and how it is worked."""
+
+    def __init__(self, roads: Roads, watched: Watched, time: float, until: float) -> None:
+        self._roads, self._watched = roads, watched
+        self._time, self._until = time, until
+        self.here = Showing(time, watched.seen[-1].states)
+        self._phases = _phases(watched.seen)
+        network = roads.network
+        self._links = [
+            network.signalled(Signal(watched.controller, place)) for place in watched.places
+        ]
+        places = {place: k for k, place in enumerate(watched.places)}
+        self._crossings = {
+            places[crossing.control.index]: crossing
+            for crossing in network.crossings
+            if isinstance(crossing.control, Signal)
+            and crossing.control.controller == watched.controller
+            and crossing.control.index in places
+        }
+
+    def again(self) -> tuple[Showing, ...] | None:
+        """As it went on the last time that it showed what it shows now; None if it never did.
+
+        Nor if it took less time then to change than has gone by now.
+        """
+        seen, last = self._phases, len(self._phases) - 1
+        for j in range(last - 2, 0, -1):
+            if _alike(seen[j].states, seen[-1].states):
+                break
+        else:
+            return None
+        left = seen[j + 1].time - seen[j].time - (self._time - seen[-1].time)
+        if left < LEAST:
+            return None
+        found, at, k = [self.here], self._time + left, j + 1
+        while at < self._until:
+            found.append(Showing(round(at, 3), seen[k].states))
+            at += seen[k + 1].time - seen[k].time
+            k = k + 1 if k + 1 < last else j
+        return tuple(found)
+
+    def reckoned(self, quantile: float) -> tuple[Showing, ...]:
+        """As the prior has it, where greens last as long as a quantile of theirs."""
+        found = [self.here]
+        held = self._held_since()
+        at, letters = self._time, self.here.states
+        spent, begun = self._time - self._phases[-1].time, len(self._phases) > 1
+        while at < self._until:
+            lasting, after = self._next(letters, held, quantile, spent, begun)
+            at += max(lasting, LEAST)
+            for k, letter in enumerate(after):
+                if letter == RED and letters[k] != RED:
+                    held[k] = at
+            letters, spent, begun = after, 0.0, True
+            found.append(Showing(round(at, 3), letters))
+        return tuple(found)
+
+    def _held_since(self) -> dict[int, float]:
+        """Since when [s] each place has been red, by its position."""
+        found: dict[int, float] = {}
+        for showing in self._watched.seen:
+            for k, letter in enumerate(showing.states):
+                if letter in (*GREENS, AMBER):
+                    found.pop(k, None)
+                elif letter != UNSEEN:
+                    found.setdefault(k, showing.time)
+        return {k: found.get(k, self._time) for k in range(len(self._links))}
+
+    def _next(
+        self,
+        letters: str,
+        held: Mapping[int, float],
+        quantile: float,
+        spent: float,
+        begun: bool,
+    ) -> tuple[float, str]:
+        """How long [s] a state lasts on, and what comes after it.
+
+        Args:
+            letters: the state.
+            held: since when [s] each place has been red.
+            quantile: of what a green has left.
+            spent: [s] for which it has been so.
+            begun: whether it was seen to begin.
+        """
+        if AMBER in letters or ABOUT_TO_GO in letters:
+            lasting = self._amber(letters) if AMBER in letters else RED_AMBER
+            after = letters.replace(AMBER, RED)
+            going = {k for k, letter in enumerate(letters) if letter == ABOUT_TO_GO}
+            return lasting - spent, self._with_green(after, going) if going else after
+        if any(letter in letters for letter in GREENS):
+            left = residual(quantile, spent, begun=begun)
+            return left, "".join(AMBER if letter in GREENS else letter for letter in letters)
+        left = CLEARANCE - spent
+        if not begun:  # somebody out of view goes
+            left = residual(quantile, spent, begun=False) + REACTION + CLEARANCE
+        return left, self._with_green(letters, self._stage(letters, held))
+
+    def _amber(self, letters: str) -> float:
+        """How long [s] amber lasts."""
+        lanes = self._roads.network.lanes
+        limits = [
+            lanes[link.from_lane].speed_limit
+            for letter, links in zip(letters, self._links, strict=True)
+            for link in links
+            if letter == AMBER
+        ]
+        return REACTION + max(limits, default=self._roads.fastest) / (2.0 * BRAKING)
+
+    def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
+        """Who goes next: who has been held longest, and the arms beside and opposite.
+
+        Of these, those that were held last only go with it where it was held no longer. Where a
+        crossing has been held longer than any arm, an arm goes with which it can be green; where
+        there is none, nobody goes but the people.
+        """
+        waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
+        order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
+        people = [k for k in self._crossings if letters[k] == RED]
+        longest = min(people, key=lambda k: (round(held[k], 1), k), default=None)
+        if order and longest is not None and held[longest] < held[order[0]] - LEAST:
+            stages = (self._with(first, waiting, held) for first in order)
+            fitting = (x for x in stages if self._with_green(letters, x)[longest] != RED)
+            return next(fitting, set())
+        return self._with(order[0], waiting, held) if order else set()
+
+    def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
+        """An arm that goes, and those beside and opposite that go with it."""
+        latest = max(held[k] for k in waiting)
+        own = self._links[first][0]
+        return {
+            k
+            for k in waiting
+            if _parallel(self._roads, own, self._links[k][0])
+            and (held[k] < latest - LEAST or held[first] >= latest - LEAST)
+        }
+
+    def _with_green(self, letters: str, going: set[int]) -> str:
+        """A state in which some go, giving way to one another as the junction says."""
+        ours = [link for k in sorted(going) for link in self._links[k]]
+        keys = {(link.junction, link.index) for link in ours}
+
+        def shown(k: int) -> str:
+            yields = any((x.junction, i) in keys for x in self._links[k] for i in x.yields_to)
+            return LightState.GREEN_YIELD.value if yields else LightState.GREEN.value
+
+        now = "".join(shown(k) if k in going else letter for k, letter in enumerate(letters))
+        return self._with_people(now, ours)
+
+    def _with_people(self, letters: str, going: Sequence[Link]) -> str:
+        """The same with crossings green, where all that go over them turn and give way."""
+        found = list(letters)
+        for k, crossing in self._crossings.items():
+            met = [x for x in going if x.junction == crossing.junction]
+            over = [x for x in met if crossing.index in x.other_foes]
+            turning = all(x.direction != "straight" for x in over)
+            yielding = all(crossing.index in x.other_yields_to for x in over)
+            if letters[k] == RED and turning and yielding:
+                found[k] = LightState.GREEN.value
+        return "".join(found)
+
+
+def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
+    """The changes since the controller came into view last, but for places that did then."""
+    found: list[Showing] = []
+    for showing in seen:
+        if all(letter == UNSEEN for letter in showing.states):
+            found = []
+        elif not found or not _alike(found[-1].states, showing.states):
+            found.append(showing)
+    return tuple(found)
+
+
+def _alike(one: str, other: str) -> bool:
+    """Whether two states agree wherever both were seen, and that is somewhere."""
+    pairs = [(a, b) for a, b in zip(one, other, strict=True) if UNSEEN not in (a, b)]
+    return bool(pairs) and all(a == b for a, b in pairs)
+
+
+def _meet(one: Link, other: Link) -> bool:
+    return one.junction == other.junction and (other.index in one.foes or one.index in other.foes)
+
+
+def _parallel(roads: Roads, one: Link, other: Link) -> bool:
+    """Whether two links come from the same side of a junction, or from opposite ones."""
+    headings = []
+    for link in (one, other):
+        lane = roads.network.lanes[link.from_lane]
+        headings.append(point_at(lane.centreline, lane.length)[1])
+    apart = abs(angle_between(*headings))
+    return min(apart, math.pi - apart) <= PARALLEL
+
+
+def watch(
+    before: Watched | None, controller: str, shown: Mapping[int, str], time: float, most: int
+) -> Watched:
+    """What is known of a controller once it has been looked at again.
+
+    Args:
+        before: what was known.
+        controller: its name.
+        shown: the letters of the places that are in view.
+        time: [s] of the look.
+        most: changes that are remembered at most.
+    """
+    known: Sequence[int] = () if before is None else before.places
+    places = tuple(sorted({*known, *shown}))
+    seen: list[Showing] = []
+    for showing in () if before is None else before.seen:
+        had = dict(zip(known, showing.states, strict=True))
+        states = "".join(had.get(place, UNSEEN) for place in places)
+        seen.append(Showing(showing.time, states))
+    states = "".join(shown.get(place, UNSEEN) for place in places)
+    if not seen or seen[-1].states != states:
+        seen.append(Showing(round(time, 3), states))
+    return Watched(controller, places, tuple(seen[-most:]))

@@ -1,0 +1,1 @@
+"""What the ego can see, and how it looks."""

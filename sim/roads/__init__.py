@@ -1,0 +1,1 @@
+"""The road network: lanes, links and maps read from files."""

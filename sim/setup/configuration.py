@@ -1,0 +1,305 @@
+"""A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is asked what it holds.
+
+Places to load it from are texts such as `town.sumocfg?ego=car.3` and
+`town.sumocfg?from=north&to=east&begin=60`.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import parse_qsl, urlencode
+
+from sim.engine import Engine, SumoFailed
+from sim.perception import appearance
+from sim.quiet import warnings_in
+from sim.roads.netfile import NetworkError, read_network
+from sim.roads.network import Network
+from sim.setup.checks import edges_of, near
+from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
+from sim.setup.mentioned import mentioned
+from sim.setup.options import ALWAYS, listed
+from sim.setup.source import Added, Departing, Rider
+from sim.setup.tables import TableError
+
+ENDINGS = (".sumocfg", ".sumocfg.xml", ".sumo.cfg")
+STEP = 0.1  # [s] the longest in which the car is driven
+SHOWN = 3  # warnings of SUMO
+CAR = "passenger"
+YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
+BEFORE_END = 5.0  # [m] of the last edge, where the goal lies
+KEYS = ("ego", "from", "to", "begin")
+UNFORESEEN = {"rail": "trains", "ship": "ships"}
+
+
+@dataclass(frozen=True, slots=True)
+class Inspected:
+    """What a configuration holds when its ego departs."""
+
+    network: Path
+    ego: str
+    goal: str  # the last edge of its route
+    goal_position: float  # [m] along the goal's centreline
+    step: float  # [s]
+    duration: float  # [s]
+    seed: int
+    sublane: bool
+    warnings: tuple[str, ...]
+
+
+def is_place(text: str) -> bool:
+    """Whether a text is the place of a configuration."""
+    file = Path(text.partition("?")[0]).expanduser()
+    return file.name.endswith(ENDINGS) or (file.suffix in (".xml", ".cfg") and file.is_file())
+
+
+def split_place(place: str) -> tuple[Path, dict[str, str]]:
+    """The file and the wishes of a place.
+
+    Raises:
+        TableError: a wish is unknown, or not written as key=value.
+    """
+    name, _, query = place.partition("?")
+    file = Path(name).expanduser().resolve()
+    try:
+        wishes = dict(parse_qsl(query, strict_parsing=True)) if query else {}
+    except ValueError as error:
+        raise TableError(file, None, f"{query!r}: {error}", "write ?ego=ID") from error
+    if not file.is_file():
+        raise TableError(file, None, "there is no such file", "mend the path")
+    for key in wishes:
+        if key not in KEYS:
+            raise TableError(file, key, "unknown", f"known are {', '.join(KEYS)}")
+    return file, wishes
+
+
+def place_of(file: Path, rider: Rider) -> str:
+    """The place that `split_place` and `rider_of` read."""
+    match rider:
+        case Departing(name):
+            wishes = {"ego": name}
+        case Added(origin, destination, None):
+            wishes = {"from": origin, "to": destination}
+        case Added(origin, destination, begin):
+            wishes = {"from": origin, "to": destination, "begin": f"{begin:g}"}
+    return f"{file}?{urlencode(wishes)}"
+
+
+def with_wishes(place: str, wishes: dict[str, str]) -> str:
+    """A place with more wishes, which count in the stead of those it has."""
+    file, _, query = place.partition("?")
+    return f"{file}?{urlencode({**dict(parse_qsl(query)), **wishes})}"
+
+
+def with_rider(place: str) -> str:
+    """A place with the first car that departs as the ego, unless it says who that is.
+
+    Raises:
+        TableError: SUMO refuses the configuration, or no car departs.
+    """
+    file, wishes = split_place(place)
+    if wishes:
+        return place
+    departing = _who_departs(file)
+    if not departing:
+        raise TableError(file, None, "no car departs", "give --ego-from EDGE and --ego-to EDGE")
+    return place_of(file, Departing(departing[0]))
+
+
+def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
+    """Who is to be the ego.
+
+    Raises:
+        TableError: nobody is, or two are; the message lists who departs.
+    """
+    names = {"ego", "from", "to", "begin"} & set(wishes)
+    if names == {"ego"}:
+        return Departing(wishes["ego"])
+    if {"from", "to"} <= names <= {"from", "to", "begin"}:
+        return Added(wishes["from"], wishes["to"], _begin(file, wishes.get("begin")))
+    how = "give --ego ID, or --ego-from EDGE and --ego-to EDGE with or without --begin SECONDS"
+    if names:
+        given = " and ".join(sorted(names))
+        raise TableError(file, None, f"{given} without more leaves open who the ego is", how)
+    known = ", ".join(_who_departs(file))
+    first = f"the first cars that depart: {known}" if known else "no car departs by itself"
+    raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")
+
+
+def _begin(file: Path, text: str | None) -> float | None:
+    try:
+        return None if text is None else float(text)
+    except ValueError as error:
+        raise TableError(file, "begin", f"{text!r} is no number", "write seconds") from error
+
+
+def _who_departs(file: Path) -> list[str]:
+    with _refused(file), _started(file) as engine:
+        return first_departures(engine)
+
+
+def inspect(file: Path, rider: Rider) -> Inspected:
+    """Let SUMO load a configuration and run up to the ego's departure.
+
+    Raises:
+        TableError: SUMO refuses the configuration, or the car cannot be driven in it.
+        SimulationError: SUMO is not installed, or runs in this process already.
+    """
+    with _refused(file), _started(file) as engine:
+        return _Inspection(engine, file, rider).result()
+
+
+@contextmanager
+def _refused(file: Path) -> Iterator[None]:
+    """What SUMO says of a configuration as an error of it.
+
+    Raises:
+        TableError: SUMO refuses the configuration.
+    """
+    try:
+        yield
+    except NeverDeparts as error:
+        raise TableError(file, None, error.problem, error.remedy) from error
+    except SumoFailed as error:
+        problem = str(error).removeprefix(f"{file}: ")
+        option = "No option with the name" in problem
+        remedy = "take it out: it is one of sumo-gui" if option else "mend it for sumo, too"
+        raise TableError(file, None, problem, remedy) from error
+
+
+def _started(file: Path) -> Engine:
+    engine = Engine()
+    try:
+        # With SUMO's own warnings, which tell what it leaves out.
+        engine.start(listed({"--configuration-file": str(file), **ALWAYS}), file)
+    except BaseException:
+        engine.close()
+        raise
+    return engine
+
+
+class _Inspection:
+    """Asks SUMO what a configuration holds."""
+
+    def __init__(self, engine: Engine, file: Path, rider: Rider) -> None:
+        self.engine, self.file, self.rider = engine, file, rider
+
+    def result(self) -> Inspected:
+        """Run up to the ego's departure, and look."""
+        if self._option("mesosim").lower() in YES:
+            problem = "its vehicles have no places in SUMO's mesoscopic model"
+            raise TableError(self.file, "mesosim", problem, "remove the option")
+        path = Path(self._option("net-file"))
+        network = self._network(path)
+        if isinstance(self.rider, Added):
+            for edge in (self.rider.origin, self.rider.destination):
+                self._check_edge(edge, network)
+        else:
+            self._check_mentioned(self.rider.id)
+        step = float(self.engine.call(self.engine.api.simulation.getDeltaT))
+        ego = depart(self.engine, self.file, self.rider)
+        self._check_ego(ego, network)
+        goal = self.engine.call(self.engine.api.vehicle.getRoute, ego)[-1]
+        self._check_edge(goal, network, f", where {ego!r} drives to")
+        self._check_way(ego, goal, network)
+        length = min(lane.length for lane in network.edge_lanes(goal))
+        end = float(self.engine.call(self.engine.api.simulation.getEndTime))
+        return Inspected(
+            network=path,
+            ego=ego,
+            goal=goal,
+            goal_position=round(max(0.5 * length, length - BEFORE_END), 2),
+            step=min(STEP, step),
+            duration=max(STEP, (end if end >= 0.0 else LONGEST) - clock(self.engine)),
+            seed=int(self._option("seed")),
+            sublane=float(self._option("lateral-resolution")) > 0.0,
+            warnings=(*self._of_sumo(), *self._unmodelled(ego, network, step)),
+        )
+
+    def _option(self, name: str) -> str:
+        return str(self.engine.call(self.engine.api.simulation.getOption, name))
+
+    def _network(self, path: Path) -> Network:
+        try:
+            return read_network(path)
+        except NetworkError as error:
+            remedy = "build the net again with netconvert"
+            raise TableError(self.file, "net-file", str(error), remedy) from error
+
+    def _check_edge(self, edge: str, network: Network, whose: str = "") -> None:
+        edges = edges_of(network)
+        if edge not in edges:
+            problem = f"there is no edge {edge!r} for cars{whose}"
+            raise TableError(self.file, None, problem, near(edge, edges))
+
+    def _check_mentioned(self, name: str) -> None:
+        """Refuse a vehicle that no file names, rather than wait for it up to the end."""
+        options = ("route-files", "additional-files")
+        values = [self._option(option).split(",") for option in options]
+        files = [Path(text.strip()) for value in values for text in value if text.strip()]
+        if not mentioned(name, files):
+            known = ", ".join(first_departures(self.engine))
+            remedy = f"choose one of those that depart, such as {known}" if known else "nobody does"
+            raise NeverDeparts(self.file, f"no vehicle, trip or flow has the id {name!r}", remedy)
+
+    def _check_ego(self, ego: str, network: Network) -> None:
+        """Whether a car as ours can drive in the ego's place."""
+        api = self.engine.api.vehicle
+        kind = self.engine.call(api.getVehicleClass, ego)
+        lane = self.engine.call(api.getLaneID, ego)
+        remedy = "choose a car, or give --ego-from EDGE and --ego-to EDGE"
+        if appearance.kind_of(kind) != "car":
+            problem = f"{ego!r} is of class {kind!r}, and the planner drives a car"
+            raise TableError(self.file, f"vehicle {ego!r}", problem, remedy)
+        if lane not in network.lanes:
+            problem = f"it departs on lane {lane!r}, which is not for cars"
+            raise TableError(self.file, f"vehicle {ego!r}", problem, remedy)
+
+    def _check_way(self, ego: str, goal: str, network: Network) -> None:
+        start = self.engine.call(self.engine.api.vehicle.getRoadID, ego)
+        if start not in network.distance_to(goal):
+            problem = f"no way for cars leads from {start!r}, where it departs, to {goal!r}"
+            remedy = "choose another vehicle, or other edges"
+            raise TableError(self.file, f"vehicle {ego!r}", problem, remedy)
+
+    def _of_sumo(self) -> Iterator[str]:
+        """What SUMO itself warns of."""
+        found = warnings_in(self.engine.log)
+        yield from (f"{self.file.name}: SUMO warns: {warning}" for warning in found[:SHOWN])
+        if len(found) > SHOWN:
+            yield f"{self.file.name}: SUMO warns of {len(found) - SHOWN} things more"
+
+    def _unmodelled(self, ego: str, network: Network, step: float) -> Iterator[str]:
+        """What of it the planner does not know."""
+        if step > STEP:
+            yield f"its steps of {step:g} s are shortened to {STEP:g} s"
+        if self.engine.call(self.engine.api.vehicle.getStops, ego):
+            yield f"the stops of {ego!r} are not made: the car drives to the end of its route"
+        for what in sorted({UNFORESEEN[x] for x in UNFORESEEN.keys() & self._classes()}):
+            yield f"{what} are seen, and where they go is not foreseen"
+        limits, closed = self._changed(network)
+        if limits:
+            yield f"{_many(limits)} have another limit now; the car keeps to that of the net"
+        if closed:
+            yield f"{_many(closed)} are closed now, which the planner does not know"
+
+    def _classes(self) -> set[str]:
+        """The classes of the vehicle types that the configuration brings."""
+        api = self.engine.api.vehicletype
+        types = self.engine.call(api.getIDList)
+        return {
+            self.engine.call(api.getVehicleClass, x) for x in types if not x.startswith("DEFAULT_")
+        }
+
+    def _changed(self, network: Network) -> tuple[list[str], list[str]]:
+        """The lanes whose limit, and those whose permission for cars, is not the net's now."""
+        api, call = self.engine.api.lane, self.engine.call
+        plain = [lane for lane in network.lanes.values() if not lane.limits]
+        limits = [x.id for x in plain if abs(call(api.getMaxSpeed, x.id) - x.speed_limit) > 0.01]
+        closed = [lane for lane in network.lanes if CAR in call(api.getDisallowed, lane)]
+        return limits, closed
+
+
+def _many(lanes: list[str]) -> str:
+    named = ", ".join(map(repr, lanes[:3])) + (", ..." if len(lanes) > 3 else "")
+    return f"{len(lanes)} lanes ({named})"

@@ -1,0 +1,132 @@
+"""Bringing the ego of a SUMO configuration onto the road.
+
+The one error beside those of the engine is NeverDeparts.
+"""
+
+from itertools import chain, count
+from pathlib import Path
+
+from sim.engine import EgoGone, Engine
+from sim.setup.source import EGO_ID, Added, Departing, Rider
+
+PATIENCE = 300.0  # [s] for a gap in which a car that is added can depart
+LONGEST = 86400.0  # [s] of a configuration without an end
+LISTED = 8  # vehicles in a message
+
+
+class NeverDeparts(EgoGone):
+    """The configuration ends without the ego on the road."""
+
+    def __init__(self, file: Path, problem: str, remedy: str) -> None:
+        self.problem, self.remedy = problem, remedy
+        super().__init__(f"{file}: {problem}; {remedy}")
+
+
+def depart(engine: Engine, file: Path, rider: Rider) -> str:
+    """Run a simulation that has started until the ego is on the road.
+
+    Args:
+        engine: which runs it.
+        file: the configuration, as errors tell it.
+        rider: who the ego is.
+
+    Returns:
+        The ego's id.
+
+    Raises:
+        NeverDeparts: it does not get there.
+        SumoFailed: SUMO cannot go on, or finds no way for it.
+    """
+    match rider:
+        case Departing(name):
+            _await(engine, file, name)
+            return name
+        case Added():
+            return _add(engine, file, rider)
+
+
+def forget_stops(engine: Engine, name: str) -> None:
+    """Take a vehicle's stops away: else SUMO holds the ego there against every command.
+
+    Raises:
+        SumoFailed: SUMO cannot do it.
+    """
+    api = engine.api.vehicle
+    while engine.call(api.getStops, name):
+        engine.call(api.replaceStop, name, 0, "")
+
+
+def first_departures(engine: Engine) -> list[str]:
+    """The ids of the cars that depart first; the simulation runs on up to then."""
+    found: list[str] = []
+    while len(found) < LISTED and not _over(engine):
+        step(engine)
+        api = engine.api.vehicle
+        for name in engine.call(engine.api.simulation.getDepartedIDList):
+            if engine.call(api.getVehicleClass, name) == "passenger":
+                found.append(name)
+    return found[:LISTED]
+
+
+def step(engine: Engine) -> None:
+    """Advance by one step.
+
+    Raises:
+        SumoFailed: SUMO cannot go on.
+    """
+    engine.call(engine.api.simulationStep)
+
+
+def clock(engine: Engine) -> float:
+    """SUMO's time [s]."""
+    return float(engine.call(engine.api.simulation.getTime))
+
+
+def _await(engine: Engine, file: Path, name: str) -> None:
+    seen: list[str] = []
+    while not _over(engine):
+        step(engine)
+        departed = engine.call(engine.api.simulation.getDepartedIDList)
+        if name in departed:
+            return
+        seen += departed[: max(0, LISTED - len(seen))]
+    problem = f"no vehicle {name!r} departs before {clock(engine):g} s, when it ends"
+    remedy = f"choose one of those that do, such as {', '.join(seen)}" if seen else "nobody does"
+    raise NeverDeparts(file, problem, remedy)
+
+
+def _over(engine: Engine) -> bool:
+    """Whether nobody departs any more."""
+    api = engine.api.simulation
+    end = float(engine.call(api.getEndTime))
+    late = clock(engine) >= (end if end >= 0.0 else LONGEST)
+    return late or engine.call(api.getMinExpectedNumber) == 0
+
+
+def _add(engine: Engine, file: Path, rider: Added) -> str:
+    api = engine.api
+    begin = clock(engine) if rider.begin is None else rider.begin
+    step(engine)
+    while clock(engine) < begin:
+        step(engine)
+    taken = {*engine.call(api.vehicle.getIDList), *engine.call(api.simulation.getLoadedIDList)}
+    name = _free(taken)
+    kind, when, lane, place, speed = "DEFAULT_VEHTYPE", "now", "best", "base", "max"
+    way = engine.call(api.simulation.findRoute, rider.origin, rider.destination, kind).edges
+    if not way:
+        problem = f"no way for cars leads from {rider.origin!r} to {rider.destination!r}"
+        raise NeverDeparts(file, problem, "choose other edges")
+    engine.call(api.route.add, f"route of {name}", way)
+    engine.call(api.vehicle.add, name, f"route of {name}", kind, when, lane, place, speed)
+    engine.call(api.vehicle.setSpeedFactor, name, 1.0)  # SUMO would draw how it keeps limits
+    for _ in range(round(PATIENCE / engine.call(api.simulation.getDeltaT))):
+        if name in engine.call(api.vehicle.getIDList):
+            return name
+        step(engine)
+    problem = f"there is no gap on {rider.origin!r} within {PATIENCE:g} s of {begin:g} s"
+    raise NeverDeparts(file, problem, "begin earlier, or choose another edge")
+
+
+def _free(taken: set[str]) -> str:
+    """An id that nobody has."""
+    return next(x for x in chain([EGO_ID], (f"{EGO_ID}_{k}" for k in count(1))) if x not in taken)

@@ -1,0 +1,73 @@
+"""Where the ego wants to go, and whether it can get there.
+
+The one error is TableError.
+"""
+
+from dataclasses import dataclass
+
+from sim.roads.network import Network
+from sim.setup.checks import edges_of, one_of
+from sim.setup.routes import Departure
+from sim.setup.tables import Table
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """Where the ego wants to go."""
+
+    edge: str
+    position: float  # [m] along the edge
+    lane: int | None  # None: any lane counts
+
+
+def check_goal(goal: Goal, top: Table, network: Network, ego: Departure) -> None:
+    """The goal lies on the roads, and can be reached from where the ego starts.
+
+    Raises:
+        TableError: it does not, or cannot.
+    """
+    edges = _edges(goal, top, network)
+    start = ego.edges[0]
+    if goal.edge != start and start not in network.distance_to(goal.edge):
+        problem = f"{goal.edge!r} cannot be reached from {start!r}, where the ego starts"
+        raise top.wrong("goal.edge", problem, one_of(_reachable(network, edges, start)))
+    behind = goal.edge == start and ego.position is not None and ego.position > goal.position
+    if behind and not _leads_back(network, start):
+        problem = f"{goal.position:g} m lies behind the ego, which starts at {ego.position:g} m"
+        raise top.wrong("goal.position", problem, "set it ahead of the start, or another edge")
+    check_place(goal, top, network)
+
+
+def check_place(goal: Goal, top: Table, network: Network) -> None:
+    """The goal lies on the roads.
+
+    Raises:
+        TableError: it does not.
+    """
+    _edges(goal, top, network)
+    lanes = network.edge_lanes(goal.edge)
+    numbers = [str(lane.index) for lane in lanes]
+    if goal.lane is not None and str(goal.lane) not in numbers:
+        raise top.wrong("goal.lane", f"{goal.edge!r} has no lane {goal.lane}", one_of(numbers))
+    length = min(lane.length for lane in lanes)
+    if goal.position > length:
+        problem = f"{goal.position:g} m is beyond the end of {goal.edge!r}"
+        raise top.wrong("goal.position", problem, f"it must be at most {length:g}")
+
+
+def _edges(goal: Goal, top: Table, network: Network) -> set[str]:
+    """The edges for cars, of which the goal's must be one."""
+    edges = edges_of(network)
+    if goal.edge not in edges:
+        raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
+    return edges
+
+
+def _leads_back(network: Network, edge: str) -> bool:
+    """Whether one can come to an edge again after leaving it."""
+    links = [link for lane in network.edge_lanes(edge) for link in network.links_from(lane.id)]
+    return any(network.lanes[x.to_lane].edge in network.distance_to(edge) for x in links)
+
+
+def _reachable(network: Network, edges: set[str], start: str) -> list[str]:
+    return [edge for edge in sorted(edges) if start in network.distance_to(edge)]

@@ -1,0 +1,188 @@
+"""Starts that vary with the seed: drawn for vehicles that depart at 0 s and move then.
+
+A start stays within its lane, before the vehicle's own first stop and clear of the others; its
+speed is no higher than type and lane allow, and lets it stop where it has to. Who stands keeps
+standing.
+"""
+
+import math
+import random
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from sim.roads.network import Lane, Network
+from sim.setup.routes import Departure, RoutesError, departures, number, vehicles
+
+GAP = 2.5  # [m] between vehicles: SUMO's own least gap at a standstill
+BRAKING = 3.0  # [m/s2] of types that state no decel
+LENGTH = 5.0  # [m] of a car that states none
+#: Lengths [m] of types that state none, by class:
+#: https://sumo.dlr.de/docs/Vehicle_Type_Parameter_Defaults.html
+LENGTHS = {
+    "delivery": 6.5,
+    "emergency": 6.5,
+    "truck": 7.1,
+    "trailer": 16.5,
+    "bus": 12.0,
+    "coach": 14.0,
+    "tram": 22.0,
+    "motorcycle": 2.2,
+    "moped": 2.1,
+    "bicycle": 1.6,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Spawn:
+    """How starts vary with the seed, for vehicles that depart at 0 s."""
+
+    longitudinal: float  # [m] length of the interval, centred on departPos
+    speed: tuple[float, float]  # [m/s] least and greatest
+
+
+@dataclass(frozen=True, slots=True)
+class _Kind:
+    """What matters of a vehicle type."""
+
+    length: float  # [m]
+    top_speed: float  # [m/s]
+    braking: float  # [m/s2]
+    name: str  # of its class
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """Where a vehicle is at 0 s."""
+
+    lanes: tuple[str, ...]  # on which it may be
+    front: float  # [m] along the lane
+    length: float  # [m]
+
+
+def with_spawn(root: ET.Element, spawn: Spawn, seed: int, network: Network) -> bytes:
+    """A route file in which the starts at 0 s vary: the same seed gives the same file.
+
+    Place and speed are drawn uniformly, vehicle by vehicle in file order. SUMO's insertion
+    checks are off for these vehicles, since they would delay or slow a start.
+
+    Raises:
+        RoutesError: a vehicle that departs at 0 s has no departPos as a number.
+    """
+    copy = ET.fromstring(ET.tostring(root))
+    known = departures(copy)
+    kinds = {x.get("id", ""): _kind(x) for x in copy.iter("vType")}
+    starting = [
+        (element, departure)
+        for element, departure in zip(vehicles(copy), known, strict=True)
+        if departure.at_start
+    ]
+    places = [_start(x, departure, kinds, network) for x, departure in starting]
+    draw = random.Random(seed)
+    for k, (element, departure) in enumerate(starting):
+        if not _moves(element, departure, places[k], network):
+            continue
+        half = spawn.longitudinal / 2.0
+        shifted = places[k].front + draw.uniform(-half, half)
+        speed = draw.uniform(*spawn.speed)
+        others = [place for j, place in enumerate(places) if j != k]
+        lanes = [network.lanes[x] for x in places[k].lanes if x in network.lanes]
+        stop = _first_stop(element, departure, network)
+        front = _within(shifted, places[k], others, lanes, stop)
+        kind = kinds.get(departure.kind or "", CAR)
+        places[k] = _Start(places[k].lanes, front, places[k].length)
+        element.set("departPos", repr(front))
+        element.set("departSpeed", repr(min(speed, *_caps(kind, lanes, stop - front))))
+        element.set("insertionChecks", "none")
+    varied: bytes = ET.tostring(copy, encoding="utf-8", xml_declaration=True)
+    return varied
+
+
+CAR = _Kind(LENGTH, math.inf, BRAKING, "passenger")
+
+
+def _kind(element: ET.Element) -> _Kind:
+    name = element.get("vClass", CAR.name)
+    return _Kind(
+        length=number(element.get("length")) or LENGTHS.get(name, LENGTH),
+        top_speed=number(element.get("maxSpeed")) or math.inf,
+        braking=number(element.get("decel")) or BRAKING,
+        name=name,
+    )
+
+
+def _start(
+    element: ET.Element, departure: Departure, kinds: Mapping[str, _Kind], network: Network
+) -> _Start:
+    """Where the file puts a vehicle."""
+    index = number(element.get("departLane"))
+    every = _lanes(departure, network)
+    lanes = tuple(x for x in every if index is None or x.index == index)
+    if departure.position is None:
+        raise RoutesError(f"vehicle {departure.id!r} has no departPos in metres")
+    stated = min((lane.stated_length for lane in lanes), default=0.0)
+    front = departure.position + (stated if departure.position < 0.0 else 0.0)
+    kind = kinds.get(departure.kind or "", CAR)
+    return _Start(tuple(lane.id for lane in lanes), front, kind.length)
+
+
+def _lanes(departure: Departure, network: Network) -> tuple[Lane, ...]:
+    """The lanes of the edge where a vehicle departs."""
+    both = (*network.lanes.values(), *network.other_lanes.values())
+    return tuple(lane for lane in both if lane.edge == departure.edges[0] and not lane.internal)
+
+
+def _moves(element: ET.Element, departure: Departure, start: _Start, network: Network) -> bool:
+    """Whether a vehicle neither departs at no speed nor where it stops."""
+    if number(element.get("departSpeed")) == 0.0:
+        return False
+    return not any(low <= start.front <= high for low, high in _stops(element, departure, network))
+
+
+def _first_stop(element: ET.Element, departure: Departure, network: Network) -> float:
+    """How far [m] a vehicle may come on its first edge: to its first stop there."""
+    return min((high for _, high in _stops(element, departure, network)), default=math.inf)
+
+
+def _stops(
+    element: ET.Element, departure: Departure, network: Network
+) -> list[tuple[float, float]]:
+    """From where to where [m] the stops on the first edge reach."""
+    lengths = {lane.id: lane.stated_length for lane in _lanes(departure, network)}
+    found = []
+    for stop in element.iter("stop"):
+        lane = stop.get("lane", f"{stop.get('edge')}_0")
+        if lane in lengths:
+            high = _along(stop.get("endPos"), lengths[lane], lengths[lane])
+            low = _along(stop.get("startPos"), lengths[lane], max(0.0, high - GAP))
+            found.append((low, high))
+    return found
+
+
+def _along(text: str | None, length: float, default: float) -> float:
+    """A place [m] along a lane, which is written from its end where negative."""
+    value = number(text)
+    if value is None:
+        return default
+    return value + length if value < 0.0 else value
+
+
+def _within(
+    front: float, start: _Start, others: Sequence[_Start], lanes: Sequence[Lane], stop: float
+) -> float:
+    """The place [m] nearest to the one drawn that is on the lane and clear of the others."""
+    low, high = 0.0, min([stop, *(lane.stated_length for lane in lanes)])
+    for other in others:
+        if not set(other.lanes) & set(start.lanes):
+            continue
+        if other.front > start.front:
+            high = min(high, other.front - other.length - GAP)
+        else:
+            low = max(low, other.front + start.length + GAP)
+    return min(max(front, low), high) if low <= high else start.front
+
+
+def _caps(kind: _Kind, lanes: Sequence[Lane], room: float) -> tuple[float, ...]:
+    """The speeds [m/s] not to be exceeded: of the type, of the lanes, and to stop in time."""
+    limits = (lane.limit_for(kind.name) for lane in lanes)
+    return (kind.top_speed, math.sqrt(2.0 * kind.braking * max(0.0, room)), *limits)

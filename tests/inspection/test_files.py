@@ -1,0 +1,44 @@
+"""Files that are too much: refused before they are taken in."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from xavi_dialogue.cli.errors import failure
+from xavi_dialogue.inspection import trace_files as files
+from xavi_dialogue.inspection.trace_files import TraceFileError, content, read
+
+
+def test_a_file_is_read_up_to_the_limit_only(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(files, "MAX_RIDE_BYTES", 100)
+    path = tmp_path / "large"
+    path.write_bytes(b"x" * 100)
+    assert content(str(path)) == b"x" * 100
+    path.write_bytes(b"x" * 101)
+    with pytest.raises(TraceFileError, match="larger than 100 bytes"):
+        content(str(path))
+    with pytest.raises(TraceFileError, match="larger than 100 bytes"):
+        content("/dev/zero")
+
+
+def test_a_ride_of_endless_lines_is_refused() -> None:
+    with pytest.raises(TraceFileError, match="more than 20000 lines"):
+        read(b'{"scenario": "s1"}\n' + b"{}\n" * 20_001)
+
+
+def test_a_closed_standard_input_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdin", None)
+    with pytest.raises(TraceFileError, match="standard input is closed"):
+        content("-")
+
+
+def test_nothing_in_a_file_name_can_steer_a_terminal() -> None:
+    with pytest.raises(TraceFileError) as caught:
+        content("no\x1b[31mwhere")
+    told = failure(caught.value)
+    assert told is not None
+    assert "nowhere" in told.message
+    assert "\x1b" not in told.message

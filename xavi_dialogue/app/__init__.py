@@ -1,1 +1,0 @@
-"""The composition root: the only package that knows the world, the planner and the bus."""

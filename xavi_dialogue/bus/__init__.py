@@ -1,0 +1,1 @@
+"""The bus: messages, who may send them, and what carries them."""

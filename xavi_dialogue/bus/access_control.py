@@ -1,0 +1,262 @@
+"""Who may do what on the bus: the roles as a table, and the access control made of it.
+
+A hub tells its clients apart by the common names of their certificates: `passenger`, or
+`passenger.NAME`. What is not in the table is denied, and so is who is not in it.
+"""
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from xavi_dialogue.bus.catalogue import CAR_MESSAGES, MESSAGES
+from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME, Keys
+
+Deed: TypeAlias = Literal[
+    "publish",
+    "publish-kept",  # with what is kept for late joiners
+    "subscribe",
+    "subscribe-kept",
+    "serve",
+    "ask",
+    "appear",
+    "watch",
+]
+Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
+
+DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel", "@rpc/evidence")
+TURNS = "dialogue/*/turn"
+ROADS = "@blob/network"
+LONGEST = 64  # characters of a common name (RFC 5280, A.1)
+
+
+class BadName(ValueError):
+    """A name that nobody on the bus can have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grant:
+    """One thing that a role may do."""
+
+    deed: Deed
+    tails: tuple[str, ...]  # ends of keys
+    own: bool = False  # only under the keys of its own car
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """What kind of component it is, and all that it may do."""
+
+    name: str
+    grants: tuple[Grant, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """Who has a certificate: a role, and a name where there are several of it."""
+
+    role: str
+    name: str | None = None
+
+    @property
+    def common_name(self) -> str:
+        """As the certificate has it."""
+        return self.role if self.name is None else f"{self.role}.{self.name}"
+
+    @property
+    def vehicle(self) -> str:
+        """The car that it is, if it is one."""
+        return self.name or DEFAULT_VEHICLE
+
+
+_LOOKS = (Grant("watch", ("alive/*",)), Grant("ask", ("alive/*", "@schema/*")))
+_SEES = (Grant("subscribe", ("scene",)), Grant("subscribe-kept", ("event",)))
+_READS = (*_SEES, Grant("subscribe-kept", ("trace",)))
+
+ROLES: Mapping[str, Role] = {
+    role.name: role
+    for role in (
+        Role(
+            "car",
+            (
+                Grant("publish", ("scene",), own=True),
+                Grant("publish-kept", ("trace", "event"), own=True),
+                Grant(
+                    "serve",
+                    (
+                        *("@rpc/whatif", ROADS, "alive/car"),
+                        *(f"@schema/{name}" for name in (*CAR_MESSAGES, "plan_trace")),
+                    ),
+                    own=True,
+                ),
+                Grant("appear", ("alive/car",), own=True),
+                *_LOOKS,
+            ),
+        ),
+        Role(
+            "service",
+            (
+                *_READS,
+                Grant("publish", (TURNS,)),
+                Grant(
+                    "serve",
+                    (
+                        *DIALOGUE,
+                        "alive/service",
+                        *(f"@schema/{name}" for name in MESSAGES if name not in CAR_MESSAGES),
+                    ),
+                ),
+                Grant("ask", ("@rpc/whatif",)),
+                Grant("appear", ("alive/service",)),
+                *_LOOKS,
+            ),
+        ),
+        Role("passenger", (*_SEES, Grant("ask", DIALOGUE), *_LOOKS)),
+        Role(
+            "dashboard",
+            (
+                *_READS,
+                Grant("subscribe", (TURNS,)),
+                Grant("ask", (*DIALOGUE, ROADS)),
+                Grant("serve", ("alive/dashboard", "alive/recorder")),
+                Grant("appear", ("alive/dashboard", "alive/recorder")),
+                *_LOOKS,
+            ),
+        ),
+        Role(
+            "observer",
+            (
+                *_READS,
+                Grant("ask", (ROADS,)),
+                Grant("serve", ("alive/recorder",)),
+                Grant("appear", ("alive/recorder",)),
+                *_LOOKS,
+            ),
+        ),
+    )
+}
+
+# What each deed is made of at the hub: the kinds of messages that come in from the member, those
+# that go out to it, and the end of the key. A history of what is kept is asked for under the
+# publisher's own key, and answered under the key of what is kept.
+_HISTORY = "/@adv/pub/**"
+PARTS: Mapping[Deed, tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...]] = {
+    "publish": (("", ("put",), ("declare_subscriber",)),),
+    "publish-kept": (
+        ("", ("put", "reply"), ("declare_subscriber",)),
+        (
+            _HISTORY,
+            ("put", "declare_queryable", "liveliness_token"),
+            ("query", "declare_subscriber"),
+        ),
+    ),
+    "subscribe": (("", ("declare_subscriber",), ("put",)),),
+    "subscribe-kept": (
+        ("", ("declare_subscriber",), ("put", "reply")),
+        (
+            _HISTORY,
+            ("query", "declare_subscriber", "declare_liveliness_subscriber"),
+            ("put", "liveliness_token"),
+        ),
+    ),
+    "serve": (("", ("declare_queryable", "reply"), ("query",)),),
+    "ask": (("", ("query",), ("reply",)),),
+    "appear": (("", ("liveliness_token",), ()),),
+    "watch": (("", ("declare_liveliness_subscriber", "liveliness_query"), ("liveliness_token",)),),
+}
+
+
+def member(role: str, name: str | None = None) -> Member:
+    """A member of the bus.
+
+    Raises:
+        BadName: there is no such role, or nobody can be called so.
+    """
+    if role not in ROLES:
+        raise BadName(f"{role!r} is no role; there are {', '.join(ROLES)}")
+    found = Member(role, name)
+    if name is not None and not re.fullmatch(VEHICLE_NAME, name):
+        raise BadName(
+            f"{name!r} cannot be a name: it has 1 to 64 letters, digits, dots, dashes, underscores"
+        )
+    if len(found.common_name) > LONGEST:
+        raise BadName(
+            f"{name!r} is too long: a certificate names at most {LONGEST} characters,"
+            f" {found.common_name!r} has {len(found.common_name)}"
+        )
+    return found
+
+
+def access_control(members: Iterable[Member]) -> dict[str, Json]:
+    """The part of a hub's Zenoh configuration that grants its members what the table says."""
+    everybody = sorted(set(members), key=lambda one: one.common_name)
+    rules: dict[str, Json] = {}
+    policies: list[Json] = []
+    for one in everybody:
+        granted = [_rules(grant, one) for grant in ROLES[one.role].grants]
+        rules.update({str(rule["id"]): rule for group in granted for rule in group})
+        policies.append(
+            {
+                "rules": [rule["id"] for group in granted for rule in group],
+                "subjects": [one.common_name],
+            }
+        )
+    subjects: list[Json] = [
+        {"id": one.common_name, "cert_common_names": [one.common_name]} for one in everybody
+    ]
+    return {
+        "enabled": True,
+        "default_permission": "deny",
+        "rules": list(rules.values()),
+        "subjects": subjects,
+        "policies": policies,
+    }
+
+
+def _rules(grant: Grant, one: Member) -> list[dict[str, Json]]:
+    # What goes out is asked for by others, who may mean every car with one pattern.
+    own = Keys(one.vehicle) if grant.own else EVERY_CAR
+    found: list[dict[str, Json]] = []
+    for ending, incoming, outgoing in PARTS[grant.deed]:
+        for flow, kinds, keys in (("ingress", incoming, own), ("egress", outgoing, EVERY_CAR)):
+            places: list[Json] = [keys.of(tail + ending) for tail in grant.tails]
+            if kinds:
+                what = f"{grant.deed}{ending} {' '.join(map(str, places))}: {flow}"
+                found.append(
+                    {
+                        "id": what,
+                        "permission": "allow",
+                        "flows": [flow],
+                        "messages": list(kinds),
+                        "key_exprs": places,
+                    }
+                )
+    return found
+
+
+def table() -> str:
+    """The roles as a table in Markdown."""
+    titles: dict[str, tuple[Deed, ...]] = {
+        "publishes": ("publish", "publish-kept"),
+        "subscribes to": ("subscribe", "subscribe-kept"),
+        "serves": ("serve",),
+        "asks": ("ask",),
+        "shows": ("appear",),
+        "sees": ("watch",),
+    }
+    lines = [f"| role | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
+    for role in ROLES.values():
+        cells = [
+            [tail for grant in role.grants if grant.deed in deeds for tail in grant.tails]
+            for deeds in titles.values()
+        ]
+        lines.append(f"| {role.name} | {' | '.join(map(_cell, cells))} |")
+    return "\n".join(lines)
+
+
+def _cell(tails: list[str]) -> str:
+    schemas = [tail for tail in tails if tail.startswith("@schema/") and tail != "@schema/*"]
+    shown = [f"`{tail}`" for tail in tails if tail not in schemas]
+    if schemas:
+        shown.append("`@schema/` of its messages")
+    return ", ".join(shown) or "-"

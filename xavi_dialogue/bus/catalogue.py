@@ -1,0 +1,34 @@
+"""Every message there is, by its name."""
+
+from xavi_dialogue.bus.messages import (
+    AliveReport,
+    AnyMessage,
+    AskReply,
+    AskRequest,
+    CancelReply,
+    CancelRequest,
+    EventReport,
+    EvidenceRequest,
+    Failure,
+    ForgetReply,
+    ForgetRequest,
+    HistoryReply,
+    HistoryRequest,
+    SceneReport,
+    TraceReport,
+    TurnReport,
+    WhatIfRequest,
+    schema_name,
+)
+
+#: Of these, the car tells the schemas; of all others, the service.
+CAR_MESSAGES = ("scene", "trace", "event_report")
+#: Every message by its name under `@schema/`.
+MESSAGES: dict[str, type[AnyMessage]] = {
+    schema_name(kind).removeprefix("xavi.").partition("/")[0]: kind
+    for kind in (
+        *(SceneReport, TraceReport, EventReport, AskRequest, AskReply, HistoryRequest),
+        *(HistoryReply, TurnReport, ForgetRequest, ForgetReply, CancelRequest, CancelReply),
+        *(EvidenceRequest, WhatIfRequest, AliveReport, Failure),
+    )
+}

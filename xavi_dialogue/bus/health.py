@@ -1,0 +1,97 @@
+"""Signs of life: a component shows that it is there, and tells how it fares when asked."""
+
+import os
+import threading
+import time
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from pathlib import Path
+
+from xavi_dialogue import __version__
+from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Presence
+from xavi_dialogue.bus.messages import AliveReport, pack
+
+MEMORY = "resident_bytes"  # counter that every component has, where the system tells it
+STATM = Path("/proc/self/statm")  # in pages; see proc(5)
+
+
+class Alive:
+    """Counts what a component does, and reports it; any thread may call any method."""
+
+    def __init__(
+        self,
+        component: str,
+        counters: Iterable[str] = (),
+        *,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Begin to count.
+
+        Args:
+            component: car, service, dashboard or recorder.
+            counters: that are told from the beginning, at 0.
+            clock: [s] that never goes back.
+        """
+        self._component, self._clock, self._began = component, clock, clock()
+        self._counters = dict.fromkeys(counters, 0.0)
+        self._gauges: dict[str, Callable[[], float]] = {}
+        self._lock = threading.Lock()
+        self._reports = 0
+        self._sim_time = 0.0
+
+    def count(self, name: str, by: float = 1) -> None:
+        """Add to a counter."""
+        with self._lock:
+            self._counters[name] = self._counters.get(name, 0.0) + by
+
+    def counted(self, name: str) -> float:
+        """How far a counter is; 0 where nothing was counted."""
+        with self._lock:
+            return self._counters.get(name, 0.0)
+
+    def gauge(self, name: str, read: Callable[[], float]) -> None:
+        """Tell among the counters what `read` returns; it is called on a thread of the bus."""
+        with self._lock:
+            self._gauges[name] = read
+
+    def at(self, sim_time: float) -> None:
+        """Know a simulation time [s]."""
+        self._sim_time = max(self._sim_time, sim_time)
+
+    def report(self) -> AliveReport:
+        """How the component fares now."""
+        with self._lock:
+            counters, gauges = dict(self._counters), dict(self._gauges)
+            number, self._reports = self._reports, self._reports + 1
+        counters.update({name: float(read()) for name, read in gauges.items()})
+        with suppress(OSError):
+            counters[MEMORY] = float(resident_bytes())
+        return AliveReport(
+            component=self._component,
+            version=__version__,
+            seq=number,
+            sim_time=self._sim_time,
+            wall_time=time.time(),
+            uptime_s=round(self._clock() - self._began, 3),
+            counters=dict(sorted(counters.items())),
+        )
+
+    def serve(self, bus: Bus, keys: Keys) -> Presence:
+        """Answer at `alive/<component>`, and show there that the component is alive."""
+        key = keys.of(f"alive/{self._component}")
+        bus.serve(key, self.answer)
+        return bus.appear(key)
+
+    def answer(self, call: Call) -> None:
+        """Answer one request."""
+        with suppress(BusError):  # who asked is gone
+            call.reply(pack(self.report()))
+
+
+def resident_bytes() -> int:
+    """The memory of this process that is in use [bytes].
+
+    Raises:
+        OSError: the system does not tell.
+    """
+    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -1,0 +1,133 @@
+"""The chat without a terminal: one line in, one answer out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TypeAlias
+
+from xavi_dialogue.bus.messages import MAX_TEXT, SceneReport
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.chat.backend import Behind
+from xavi_dialogue.chat.client import Client, ServiceLost
+from xavi_dialogue.chat.controller import plan_told, vehicles_in_words
+from xavi_dialogue.chat.history import Minutes
+from xavi_dialogue.dialogue.reply import Reply, encode
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.terminal.slash_commands import Command, CommandError
+from xavi_dialogue.transcripts.transcript import moment
+
+Write: TypeAlias = Callable[[str], None]
+SHOWN = 40  # characters of a line that is none
+WIDTH = 100  # columns of what /help lists
+HELP = (
+    "A line is a question, a moment that moves time such as @ 8.0s, or one of these commands.\n"
+    "Answers go to the standard output; with --json nothing else does."
+)
+
+
+def reached(scene: SceneReport, wanted: float) -> float:
+    """The moment [s] that can be asked about in a recording that has gone there.
+
+    That is the moment that is wanted, unless the recording stops before it in mid-ride: what
+    comes then is known to nobody.
+    """
+    return min(wanted, scene.sim_time) if scene.state == "paused" else wanted
+
+
+@dataclass
+class Piped:
+    """A conversation line by line, about a ride that halts between questions unless it is live."""
+
+    behind: Behind
+    client: Client
+    minutes: Minutes
+    write: Write  # takes answers
+    note: Write  # takes what is none
+    as_json: bool  # write replies as JSON
+    scene: SceneReport  # where the ride has halted
+    at: float | None  # [s] what questions are about; None: the moment at which they are asked
+    live: bool = False  # the ride goes on by itself, whatever is asked
+    seeks: bool = False  # it is a recording, which can go to any moment
+
+    def take(self, raw: str) -> bool:
+        """Take a line; whether to go on.
+
+        Raises:
+            ChildFailed: car or service ended.
+            ServiceLost: a question was not answered.
+        """
+        self.behind.check()
+        try:
+            return self._take(one_line(raw))
+        except CommandError as error:
+            self.note(str(error))
+        return True
+
+    def _take(self, line: str) -> bool:
+        moved = moment(line)
+        if moved is not None:
+            self._move(moved)
+        elif line.startswith("/"):
+            return self._obey(commands.read(line, "pipe"))
+        elif line.startswith("@"):
+            self.note(f"a moment is written @ 8.0s, not {line[:SHOWN]!r}")
+        elif line:
+            self._ask(line)
+        return True
+
+    def _move(self, at: float) -> None:
+        if self.seeks:
+            self.scene = self.behind.drive(self.client, control.Seek(at), halt=True)
+            at = reached(self.scene, at)
+        elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
+            self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
+        self.at = at  # not where the ride cannot go there: nothing could be said about it
+
+    def _ask(self, text: str) -> None:
+        if len(text) > MAX_TEXT:
+            self.note(f"only the first {MAX_TEXT} characters of a question are asked")
+        reply = self._reply(text[:MAX_TEXT])
+        self.write(encode(reply) if self.as_json else reply.text)
+
+    def _reply(self, text: str) -> Reply:
+        at = self.behind.now(self.client) if self.at is None else self.at
+        try:
+            return self.client.ask(text, at)
+        except ServiceLost:
+            if not self.behind.recover(self.client):
+                raise
+        return self.client.ask(text, at)
+
+    def _obey(self, command: Command) -> bool:
+        match command.name:
+            case "quit":
+                return False
+            case "help":
+                self._tell(f"{HELP}\n{commands.listed('pipe', WIDTH)}")
+            case "why":
+                self._ask(self.minutes.why())
+            case "more":
+                self._ask(commands.MORE)
+            case "vehicles":
+                self._tell_now(vehicles_in_words)
+            case "plan":
+                self._tell_now(plan_told)
+            case "history":
+                self._tell(self.minutes.told())
+            case "save":
+                self.note(self.minutes.save(command.argument, datetime.now().astimezone()))
+            case "forget":
+                self.note(self.minutes.forget())
+        return True
+
+    def _tell_now(self, told: Callable[[SceneReport], str]) -> None:
+        """Tell what is known of the latest moment alone."""
+        scene = self.client.scene if self.live and self.client.scene else self.scene
+        if self.at is not None and self.at < scene.sim_time:
+            self.note(f"this is how it is at {scene.sim_time:.1f} s")
+        self._tell(told(scene))
+
+    def _tell(self, text: str) -> None:
+        """What was asked for and is no answer: JSON lines hold answers alone."""
+        (self.note if self.as_json else self.write)(text)

@@ -1,0 +1,270 @@
+"""Car and service for one chat: started in order, stopped in order, none left behind."""
+
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import TypeAlias
+
+from xavi_dialogue.bus.interface import HubUnreachable, Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import SceneReport
+from xavi_dialogue.bus.zenoh_bus import ZenohBus, join
+from xavi_dialogue.chat.client import Client, ServiceLost
+from xavi_dialogue.chat.vehicle_supervisor import SteadyCar
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process.subprocesses import Child, ChildFailed, Expendable, Steady
+from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.terminal.slash_commands import CommandError
+
+ATTEMPTS = 3  # to find a port that stays free until the service listens at it
+RETRY = 0.2  # [s] between looks at whether the service is still coming up
+START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
+SPARE = 5  # times that a service which has died is started anew
+BACK = 15.0  # [s] until it must answer then
+CLOSING = 1.5  # [s] that it may take to leave the bus
+LIVE = "Only a recorded ride can be taken to any moment: xavi replay FILE."
+SILENCE = 20.0  # [s] without a scene after which the car counts as lost
+
+Tell: TypeAlias = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Convoy:
+    """The processes behind a chat, and its own connection to them; see Behind."""
+
+    car: SteadyCar
+    service: Steady
+    bus: ZenohBus
+    recorder: Expendable | None = None
+    over: threading.Event = field(default_factory=threading.Event)
+    seeks: bool = False  # the car is a recording, which can go to any moment
+    endpoint: str = ""  # of the hub: others may join
+
+    def check(self) -> None:
+        """Make sure that there are processes; start the service anew if it is not there.
+
+        Raises:
+            ChildFailed: the car has not come up, or the service ended once too often.
+        """
+        self.service.check()
+        self.car.check()
+        if self.recorder is not None:
+            self.recorder.check()
+
+    def recover(self, client: Client) -> bool:
+        """See Behind."""
+        give_up = time.monotonic() + BACK
+        while time.monotonic() < give_up and not self.over.wait(RETRY):
+            self.service.check()
+            with suppress(ServiceLost):
+                client.probe()
+                return True
+        return False
+
+    def order(self, order: control.Order) -> None:
+        """See Behind."""
+        if isinstance(order, control.Seek) and not self.seeks:
+            raise CommandError(LIVE)
+        self.car.order(order)
+
+    def set_off(self) -> None:
+        """See Behind."""
+        with suppress(CommandError):  # there is no car any more, which has been told
+            self.car.order(control.Resume())
+
+    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+        """See Behind."""
+        self.car.order(order)
+
+        def done(scene: SceneReport) -> bool:
+            return self.car.obeyed(scene) and not (halt and scene.state == "driving")
+
+        while True:
+            scene = client.wait_for(done, self.wait, SILENCE)
+            if scene is not None:
+                return scene
+            if not self.car.catching_up:
+                raise ChildFailed("the car is not heard of any more")
+
+    def wait(self) -> None:
+        """To be called while something of the car is waited for.
+
+        Raises:
+            ChildFailed: see `check`; or the chat is over.
+            CommandError: there is no car any more.
+        """
+        if self.over.is_set():
+            raise ChildFailed("the chat is over")
+        self.check()
+        self.car.hope()
+
+    def now(self, client: Client) -> float | None:
+        """See Behind."""
+        return self.car.now(client.now())
+
+    def trouble(self) -> str:
+        """See Behind."""
+        return self.car.trouble()
+
+
+@dataclass(frozen=True)
+class Company:
+    """What else there is to a convoy besides its car."""
+
+    record: Path | None = None  # file that the ride is recorded in
+    overwrite: bool = False  # where that is there already
+    warn: Tell = lambda _: None  # gets the service's warnings, on a thread
+    tell: Tell = lambda _: None  # gets what the passenger should know, on a thread
+
+
+@contextmanager
+def convoy(
+    scenario: str,
+    seed: int,
+    speed: float,
+    keeping: Keeping | None = None,
+    company: Company | None = None,
+) -> Iterator[Convoy]:
+    """Start service and car, the car waiting for the service; stop them in reverse.
+
+    Args:
+        scenario: name or folder.
+        seed: of the ride.
+        speed: simulated seconds per second; 0 is as fast as possible.
+        keeping: where and how long the service keeps what is said; None: not at all.
+        company: what else there is.
+
+    Raises:
+        ChildFailed: one does not come up.
+    """
+    ride = ["drive", "--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
+    with convoy_of(ride, speed, keeping, company) as behind:
+        yield behind
+
+
+@contextmanager
+def convoy_of(
+    car: Sequence[str],
+    speed: float,
+    keeping: Keeping | None,
+    company: Company | None = None,
+    *,
+    seeks: bool = False,
+) -> Iterator[Convoy]:
+    """The same with any command that reports and obeys like a car.
+
+    Args:
+        car: arguments of `xavi`; where to connect to is added.
+        speed: at which it begins.
+        keeping: see `convoy`.
+        company: see `convoy`.
+        seeks: it is a recording, which can go to any moment.
+
+    Raises:
+        ChildFailed: one does not come up.
+    """
+    with ExitStack() as stack:
+        behind = _start(stack, car, speed, _kept(keeping), company or Company())
+        yield replace(behind, seeks=seeks)
+
+
+def first_scene(behind: Convoy, client: Client) -> SceneReport:
+    """Wait for the car to be on the road; from then on it is started anew where it ends.
+
+    Raises:
+        ChildFailed: it does not come up.
+    """
+    scene = client.wait_for(lambda _: True, behind.wait, START_PATIENCE)
+    if scene is None:
+        raise ChildFailed("the car does not start")
+    behind.car.follow(client)
+    return scene
+
+
+def _kept(keeping: Keeping | None) -> list[str]:
+    if keeping is None:
+        return ["--keep-days", "0"]
+    return ["--keep-days", str(keeping.days), "--store", str(keeping.path.absolute())]
+
+
+def _start(
+    stack: ExitStack, car: Sequence[str], speed: float, kept: list[str], company: Company
+) -> Convoy:
+    """The processes and a connection to them, on a port that another process may snatch."""
+    for attempt in range(1, ATTEMPTS + 1):
+        endpoint = f"tcp/127.0.0.1:{_free_port()}"
+        serve = ["serve", "--listen", endpoint, *kept]
+        begin = partial(Child, "the dialogue service", serve, company.warn)
+        service = stack.enter_context(Steady(begin))
+        recorder = _recorder(stack, company, endpoint)
+        drive = partial(Child, "the car", [*car, "--connect", endpoint], company.warn)
+        driven = stack.enter_context(SteadyCar(drive, speed, company.tell))
+        try:
+            bus = stack.enter_context(_join(service, endpoint))
+        except ChildFailed:
+            if attempt == ATTEMPTS:
+                raise
+            stack.close()
+        else:
+            service.spare = SPARE
+            stack.callback(_let_go, bus, service)
+            if recorder is not None:
+                _await(recorder.child, bus)
+            return Convoy(driven, service, bus, recorder, endpoint=endpoint)
+    raise AssertionError("the last attempt returns or raises")
+
+
+def _recorder(stack: ExitStack, company: Company, endpoint: str) -> Expendable | None:
+    if company.record is None:
+        return None
+    record = ["record", str(company.record.absolute()), "--connect", endpoint]
+    record += ["--force"] if company.overwrite else []
+    child = stack.enter_context(Child("the recorder", record, company.warn))
+    return Expendable(child, company.tell)
+
+
+def _await(recorder: Child, bus: ZenohBus) -> None:
+    """Wait until the recorder is there, so that it misses nothing of the ride.
+
+    Raises:
+        ChildFailed: it does not come up.
+    """
+    there = threading.Event()
+    bus.watch(Keys().of("alive/recorder"), lambda _, alive: there.set() if alive else None)
+    give_up = time.monotonic() + START_PATIENCE
+    while not there.wait(RETRY):
+        recorder.check()
+        if time.monotonic() > give_up:
+            raise ChildFailed("the recorder does not come up")
+
+
+def _let_go(bus: ZenohBus, service: Steady) -> None:
+    """Close the connection; to a service that hangs that would take long, so it is killed."""
+    closing = threading.Thread(target=bus.close, daemon=True)
+    closing.start()
+    closing.join(CLOSING)
+    if closing.is_alive():
+        service.kill()
+        closing.join(BACK)
+
+
+def _join(service: Steady, endpoint: str) -> ZenohBus:
+    give_up = time.monotonic() + START_PATIENCE
+    while True:
+        try:
+            return join(Link.to_hub(endpoint), patience=RETRY)
+        except HubUnreachable:
+            service.check()
+            if time.monotonic() > give_up:
+                raise ChildFailed("the dialogue service does not come up") from None
+
+
+def _free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])

@@ -1,0 +1,1 @@
+"""The command line: commands, their errors, and checks of machine and bus."""

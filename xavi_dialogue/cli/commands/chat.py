@@ -1,0 +1,254 @@
+"""The commands `xavi chat` and `xavi ask`: riding along, and asking."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from xavi_dialogue.cli.commands.common import (
+    KEEP_DAYS,
+    AsJson,
+    Begin,
+    Connect,
+    EgoFrom,
+    EgoId,
+    EgoTo,
+    KeepDays,
+    Seed,
+    SessionName,
+    Shell,
+    SpeedFactor,
+    StoreFile,
+    Vehicle,
+    ZenohFile,
+    place,
+)
+from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
+
+if TYPE_CHECKING:
+    from xavi_dialogue.chat.remote_backend import There
+    from xavi_dialogue.dialogue.reply import Reply
+    from xavi_dialogue.security.client_token import Passenger
+    from xavi_dialogue.storage.turn_log import Keeping
+
+DEFAULT_SCENARIO = "s1"
+
+AnyScenario = Annotated[
+    str | None,
+    typer.Option("--scenario", help="A name, a folder, or a .sumocfg. Default: s1."),
+]
+Share = Annotated[
+    bool, typer.Option("--share", help="Let others on the bus read what is asked and answered.")
+]
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("chat")(_chat(shell))
+    app.command("ask")(_ask(shell))
+
+
+def _chat(shell: Shell) -> Callable[..., None]:
+    def chat(
+        scenario: AnyScenario = None,
+        seed: Seed = None,
+        speed: SpeedFactor = None,
+        session: SessionName = None,
+        as_json: AsJson = False,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        share: Share = False,
+        record: Annotated[
+            Path | None,
+            typer.Option(dir_okay=False, metavar="FILE", help="Record the ride (MCAP)."),
+        ] = None,
+        force: Annotated[
+            bool, typer.Option("--force", help="Of --record: overwrite a file that is there.")
+        ] = False,
+        store: StoreFile = None,
+        keep_days: KeepDays = KEEP_DAYS,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
+    ) -> None:
+        """Ride and talk; with --connect or --zenoh, in a car that is under way."""
+        with shell.errors():
+            scenario = place(scenario, ego, ego_from, ego_to, begin)
+            keeping = keeping_in(store, keep_days)
+            there = there_of(connect, zenoh, vehicle)
+            if there is None:
+                taped = None if record is None else _Tape(record, force)
+                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, taped)
+                return
+            alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
+            _ride_along(shell, there, session, as_json, keeping, share)
+
+    return chat
+
+
+class _Tape:
+    """Where a ride is recorded."""
+
+    def __init__(self, path: Path, overwrite: bool) -> None:
+        """Make sure that nothing is lost.
+
+        Raises:
+            BadParameter: the file is there already, and is not to be overwritten.
+        """
+        if path.exists() and not overwrite:
+            raise typer.BadParameter(f"{path} is there already; --force overwrites it")
+        self.path, self.overwrite = path, overwrite
+
+
+def _drive(
+    shell: Shell,
+    scenario: str | None,
+    seed: int | None,
+    speed: float | None,
+    session: str | None,
+    as_json: bool,
+    keeping: "Keeping | None",
+    share: bool,
+    tape: _Tape | None,
+) -> None:
+    """Talk in a car of one's own."""
+    from xavi_dialogue.chat.main import Ride, at_terminal, through_pipe
+    from xavi_dialogue.storage import resume as going_on
+
+    going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+    if session is not None:
+        going = going_on.find(keeping, session)
+    loaded = shell.load(going.place(scenario))
+    seed = going.seed(seed, loaded)
+    at = going.moment(loaded, seed)
+    if session is None or keeping is None or going.before is not None:
+        shell.note(going.note(at, keeping))
+    passenger = passenger_of(going.session, share, kept=keeping is not None)
+    ride = Ride(loaded.place, loaded.name, seed, passenger, keeping, at)
+    if tape is not None:
+        ride = replace(ride, record=tape.path, overwrite=tape.overwrite)
+    if _terminal(as_json):
+        pace = 1.0 if speed is None else speed
+        at_terminal(ride, typed_file(), shell.note, speed=pace)
+    else:
+        lines, pace = shell.lines(), speed or 0.0
+        through_pipe(ride, lines, shell.write, shell.note, speed=pace, as_json=as_json)
+
+
+def _ride_along(
+    shell: Shell,
+    there: "There",
+    session: str | None,
+    as_json: bool,
+    keeping: "Keeping | None",
+    share: bool,
+) -> None:
+    """Talk in a car that others drive."""
+    from xavi_dialogue.chat import remote_backend as remote
+    from xavi_dialogue.chat.interactive import Typed
+    from xavi_dialogue.storage import resume as going_on
+
+    if session is None:
+        session = going_on.fresh(datetime.now().astimezone(), token_hex(2)).session
+        shell.note(f"this conversation is {session}: --session {session} goes on with it")
+    passenger = passenger_of(session, share)
+    if _terminal(as_json):
+        typed = Typed(typed_file(), None if keeping is None else keeping.days)
+        remote.at_terminal(there, passenger, typed, shell.note)
+    else:
+        lines = shell.lines()
+        remote.through_pipe(there, passenger, lines, shell.write, shell.note, as_json=as_json)
+
+
+def _ask(shell: Shell) -> Callable[..., None]:
+    def ask(
+        text: str,
+        scenario: AnyScenario = None,
+        seed: Seed = None,
+        at: Annotated[float | None, typer.Option(min=0.0, help="Simulation time [s].")] = None,
+        style: Annotated[Literal["passenger", "paper"], typer.Option()] = "passenger",
+        as_json: AsJson = False,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        session: SessionName = None,
+        share: Share = False,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
+    ) -> None:
+        """Drive up to a moment, answer one question, and exit; or ask a car that is under way."""
+        from xavi_dialogue.dialogue.reply import encode
+        from xavi_dialogue.process.exit_status import status_of
+
+        def driven() -> "Reply":
+            from xavi_dialogue.cli.ask import ask_once
+
+            asked = place(scenario, ego, ego_from, ego_to, begin)
+            loaded = shell.load(asked or DEFAULT_SCENARIO)
+            return ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
+
+        def under_way(there: "There") -> "Reply":
+            from xavi_dialogue.chat.remote_backend import ask_there
+            from xavi_dialogue.storage import resume as going_on
+
+            alone(scenario=place(scenario, ego, ego_from, ego_to, begin), seed=seed)
+            fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            passenger = passenger_of(session or fresh.session, share)
+            return ask_there(there, passenger, text, at, style)
+
+        with shell.errors():
+            there = there_of(connect, zenoh, vehicle)
+            reply = driven() if there is None else under_way(there)
+        shell.write(encode(reply) if as_json else reply.text)
+        raise typer.Exit(status_of(reply))
+
+    return ask
+
+
+def there_of(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | None":
+    """Whom to talk with; None: nobody is named."""
+    if connect is None and zenoh is None:
+        return None
+    from xavi_dialogue.bus.link import Link
+    from xavi_dialogue.chat.remote_backend import There
+    from xavi_dialogue.security.preflight import check
+
+    link = Link.to_hub(connect, zenoh)
+    check(link, "ask")
+    return There(link, vehicle)
+
+
+def alone(**given: object) -> None:
+    """Refuse what is about a car of one's own."""
+    for name, value in given.items():
+        if value is not None:
+            raise typer.BadParameter(
+                f"--{name} is for a car of your own, and --connect or --zenoh for one under way"
+            )
+
+
+def passenger_of(session: str, share: bool, *, kept: bool = True) -> "Passenger":
+    """As whom to talk: with the token that this user has for a conversation.
+
+    Args:
+        session: name of the conversation.
+        share: others may read it.
+        kept: whether the user's secret is, where there is none yet.
+    """
+    from xavi_dialogue.security.client_token import Passenger, default_path, own_secret, token_of
+
+    secret = own_secret(default_path(), make=kept)
+    return Passenger(session, token_of(secret, session), share)
+
+
+def _terminal(as_json: bool) -> bool:
+    return sys.stdin.isatty() and sys.stdout.isatty() and not as_json

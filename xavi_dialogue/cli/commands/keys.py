@@ -1,0 +1,90 @@
+"""The command `xavi keys`: certificates for a bus that asks everybody who they are."""
+
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from xavi_dialogue.cli.commands.common import Shell
+
+if TYPE_CHECKING:
+    from datetime import datetime
+
+    from xavi_dialogue.security.provisioning import Wanted
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the command."""
+    app.command("keys")(_keys(shell))
+
+
+def _keys(shell: Shell) -> Callable[..., None]:
+    def keys(
+        folder: Annotated[Path, typer.Argument(help="Where to write them; a folder of their own.")],
+        host: Annotated[
+            list[str] | None,
+            typer.Option(
+                metavar="NAME_OR_ADDRESS",
+                help="Under which the hub is connected to, beside this machine; repeatable.",
+            ),
+        ] = None,
+        listen: Annotated[
+            str | None,
+            typer.Option(
+                metavar="ENDPOINT", help="Where the hub listens. Default: tls/127.0.0.1:7447."
+            ),
+        ] = None,
+        connect: Annotated[
+            str | None,
+            typer.Option(metavar="ENDPOINT", help="Where the others find it. Default: there."),
+        ] = None,
+        passenger: Annotated[
+            list[str] | None,
+            typer.Option(metavar="NAME", help="Has a certificate of their own; repeatable."),
+        ] = None,
+        vehicle: Annotated[
+            list[str] | None,
+            typer.Option(metavar="NAME", help="Has a certificate of its own; repeatable."),
+        ] = None,
+        days: Annotated[int, typer.Option(min=1, max=3650, help="For so long.")] = 365,
+        force: Annotated[
+            bool, typer.Option("--force", help="Replace all the keys that are there.")
+        ] = False,
+    ) -> None:
+        """Make keys for a bus on which everybody may do only what their role allows."""
+        from xavi_dialogue.bus.certificates import utc_now
+        from xavi_dialogue.security.provisioning import keep, material, wanted
+
+        with shell.errors():
+            order = wanted(host or (), listen, connect, passenger or (), vehicle or (), days)
+            now, place = utc_now(), folder.resolve()
+            keep(material(order, place, now), place, force=force)
+        shell.write(_told(order, place, now, vehicle[0] if vehicle else None))
+
+    return keys
+
+
+def _told(order: "Wanted", folder: Path, now: "datetime", vehicle: str | None) -> str:
+    """What was written, and what to run next."""
+    ends = (now + order.valid).date().isoformat()
+    width = max(len(one.common_name) for one in order.members)
+    lines = [f"Keys in {folder}, valid until {ends}; the hub is at {order.connect}."]
+    for one in order.members:
+        name = one.common_name
+        lines.append(f"  {name:{width}}  {name}.json5 (with {name}.pem, {name}.key)")
+    lines += [
+        "Give each machine ca.pem and the three files of its role, under the same path.",
+        "Keep ca.key to yourself: who has it can be anybody on the bus.",
+        "Then:",
+    ]
+    car = "car" if vehicle is None else f"car.{vehicle}"
+    called = () if vehicle is None else ("--vehicle", vehicle)
+    for words in (
+        ("xavi", "serve", "--zenoh", str(folder / "service.json5")),
+        ("xavi", "drive", "--speed", "1", "--zenoh", str(folder / f"{car}.json5"), *called),
+        ("xavi", "chat", "--zenoh", str(folder / "passenger.json5"), *called),
+    ):
+        lines.append(f"  {shlex.join(words)}")
+    return "\n".join(lines)

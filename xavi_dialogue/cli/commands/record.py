@@ -1,0 +1,136 @@
+"""The commands `xavi record` and `xavi replay`: rides into files, and back."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from secrets import token_hex
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from xavi_dialogue.cli.commands.common import (
+    KEEP_DAYS,
+    AsJson,
+    Connect,
+    Control,
+    KeepDays,
+    PlayedVehicle,
+    SessionName,
+    Shell,
+    SpeedFactor,
+    StoreFile,
+    Vehicle,
+    ZenohFile,
+)
+from xavi_dialogue.cli.commands.log_options import logged, own_name
+from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
+
+if TYPE_CHECKING:
+    from xavi_dialogue.storage.turn_log import Keeping
+
+Recording = Annotated[
+    Path, typer.Argument(exists=True, dir_okay=False, metavar="FILE", help="A recording (MCAP).")
+]
+Car = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="Which car of the recording. Default: the only one."),
+]
+From = Annotated[
+    float | None, typer.Option("--from", min=0.0, metavar="T", help="Begin there [s of the ride].")
+]
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("record")(logged("recorder")(_record(shell)))
+    app.command("replay")(logged("car", own_name(shell))(_replay(shell)))
+
+
+def _record(shell: Shell) -> Callable[..., None]:
+    def record(
+        file: Annotated[Path, typer.Argument(metavar="FILE", help="To be written (MCAP).")],
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: Vehicle = "car",
+        force: Annotated[
+            bool, typer.Option("--force", help="Overwrite a file that is there.")
+        ] = False,
+        control: Control = False,
+    ) -> None:
+        """Record what a car reports, and what passengers share; --vehicle all: every car."""
+        from xavi_dialogue.bus.link import Link
+        from xavi_dialogue.recording.recorder import Task, record
+        from xavi_dialogue.security.preflight import check
+
+        with shell.errors():
+            link = Link.to_hub(connect, zenoh)
+            check(link, "record")
+            record(Task(file, link, vehicle, force, control), shell.note)
+
+    return record
+
+
+def _replay(shell: Shell) -> Callable[..., None]:
+    def replay(
+        file: Recording,
+        speed: SpeedFactor = None,
+        start: From = None,
+        car: Car = None,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: PlayedVehicle = None,
+        session: SessionName = None,
+        as_json: AsJson = False,
+        store: StoreFile = None,
+        keep_days: KeepDays = KEEP_DAYS,
+        control: Control = False,
+    ) -> None:
+        """Talk about a recorded ride; with --connect or --zenoh, play it for others."""
+        with shell.errors():
+            if connect is not None or zenoh is not None:
+                from xavi_dialogue.bus.link import Link
+                from xavi_dialogue.recording.player import Show, replay
+
+                pace = 1.0 if speed is None else speed
+                link = Link.to_hub(connect, zenoh)
+                show = Show(file, link, pace, start or 0.0, car, vehicle, control)
+                replay(show, shell.note)
+            else:
+                own = _Own(file, car, start, session, keeping_in(store, keep_days))
+                _talk(shell, own, speed, as_json)
+
+    return replay
+
+
+@dataclass(frozen=True)
+class _Own:
+    """A conversation about a recording that nobody else hears."""
+
+    file: Path
+    car: str | None
+    start: float | None  # [s]
+    session: str | None
+    keeping: "Keeping | None"
+
+
+def _talk(shell: Shell, own: _Own, speed: float | None, as_json: bool) -> None:
+    from xavi_dialogue.chat.main import Ride, at_terminal, through_pipe
+    from xavi_dialogue.security.client_token import Passenger, default_path, own_secret, token_of
+    from xavi_dialogue.storage.mcap_file import read
+    from xavi_dialogue.storage.resume import fresh
+
+    next(read(own.file), None)  # raises at once where it is no recording
+    session = own.session or fresh(datetime.now().astimezone(), token_hex(2)).session
+    secret = own_secret(default_path(), make=own.keeping is not None)
+    passenger = Passenger(session, token_of(secret, session), False)
+    which = () if own.car is None else ("--car", own.car)
+    played = ("replay", str(own.file.absolute()), "--vehicle", "car", *which)
+    name = own.file.name
+    ride = Ride(name, name, 0, passenger, own.keeping, own.start, played=played)
+    if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
+        at_terminal(ride, typed_file(), shell.note, speed=1.0 if speed is None else speed)
+    else:
+        lines, pace = shell.lines(), speed or 0.0
+        through_pipe(ride, lines, shell.write, shell.note, speed=pace, as_json=as_json)

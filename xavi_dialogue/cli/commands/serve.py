@@ -1,0 +1,130 @@
+"""The commands `xavi drive` and `xavi serve`: the processes behind a conversation."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from xavi_dialogue.cli.commands.common import (
+    KEEP_DAYS,
+    AsJson,
+    Begin,
+    Connect,
+    Control,
+    EgoFrom,
+    EgoId,
+    EgoTo,
+    KeepDays,
+    OwnVehicle,
+    ScenarioName,
+    Seed,
+    Shell,
+    SpeedFactor,
+    StoreFile,
+    ZenohFile,
+    place,
+    to_json,
+)
+from xavi_dialogue.cli.commands.log_options import logged, own_name
+from xavi_dialogue.cli.commands.sessions import keeping_in
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("drive")(_drive(shell))
+    app.command("serve")(_serve(shell))
+
+
+def _drive(shell: Shell) -> Callable[..., None]:
+    @logged("car", own_name(shell))
+    def drive(
+        scenario: ScenarioName = "s1",
+        seed: Seed = None,
+        duration: Annotated[
+            float | None, typer.Option(min=0.1, help="At most so long [s].")
+        ] = None,
+        speed: SpeedFactor = 0.0,
+        connect: Connect = None,
+        zenoh: ZenohFile = None,
+        vehicle: OwnVehicle = None,
+        save: Annotated[
+            Path | None,
+            typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
+        ] = None,
+        workers: Annotated[
+            int, typer.Option(min=1, max=64, help="Processes that plan what-ifs for others.")
+        ] = 1,
+        waiting: Annotated[
+            int, typer.Option(min=1, max=1000, help="What-ifs that may wait for one of them.")
+        ] = 8,
+        as_json: AsJson = False,
+        control: Control = False,
+        ego: EgoId = None,
+        ego_from: EgoFrom = None,
+        ego_to: EgoTo = None,
+        begin: Begin = None,
+    ) -> None:
+        """Drive a scenario; with --connect or --zenoh, reported on the bus."""
+        from xavi_dialogue.bus.interface import DEFAULT_VEHICLE
+        from xavi_dialogue.bus.link import Link
+        from xavi_dialogue.nlg.narration import story
+        from xavi_dialogue.process.child_commands import Signals
+        from xavi_dialogue.vehicle.bus_session import Staff
+        from xavi_dialogue.vehicle.main import Manner, drive
+
+        with shell.errors():
+            asked = place(scenario, ego, ego_from, ego_to, begin) or scenario
+            loaded = shell.load(asked, told=control)
+            link = Link.to_hub(connect, zenoh) if connect or zenoh else None
+            staff, signals = Staff(workers, waiting), Signals()
+            name = vehicle or DEFAULT_VEHICLE
+            manner = Manner(speed or 0.0, duration, link, name, control, save, staff)
+            summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
+        if not control:
+            shell.write(to_json(summary) if as_json else story(summary.events))
+        if signals.told:
+            raise typer.Exit(signals.status)
+
+    return drive
+
+
+def _serve(shell: Shell) -> Callable[..., None]:
+    @logged("service")
+    def serve(
+        listen: Annotated[
+            str | None,
+            typer.Option(
+                envvar="XAVI_LISTEN",
+                metavar="ENDPOINT",
+                help="Where others find the hub. Default: tcp/127.0.0.1:7447.",
+            ),
+        ] = None,
+        connect: Annotated[
+            list[str] | None,
+            typer.Option(metavar="ENDPOINT", help="Routers of a fleet to join; repeatable."),
+        ] = None,
+        mode: Annotated[
+            Literal["peer", "router"] | None,
+            typer.Option(help="As what. Default: peer; router to pass on what other hubs say."),
+        ] = None,
+        zenoh: ZenohFile = None,
+        store: StoreFile = None,
+        keep_days: KeepDays = KEEP_DAYS,
+        control: Control = False,
+    ) -> None:
+        """Run the dialogue service, and the hub that the others join."""
+        from xavi_dialogue.bus.link import Link
+        from xavi_dialogue.security.preflight import check
+        from xavi_dialogue.service.main import serve
+        from xavi_dialogue.storage.turn_log import Memory
+
+        with shell.errors():
+            link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
+            check(link, "answer passengers")
+            memory = Memory(
+                keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
+            )
+            serve(link, memory, shell.note, controlled=control)
+
+    return serve

@@ -1,0 +1,131 @@
+"""The commands `xavi sessions` and `xavi forget`; what they need is imported when they run."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias
+
+import typer
+
+from xavi_dialogue.cli.commands.common import AsJson, Shell, StoreFile
+
+if TYPE_CHECKING:
+    from xavi_dialogue.storage.turn_log import Keeping
+
+Command: TypeAlias = Callable[..., None]
+
+
+def add(app: typer.Typer, shell: Shell) -> None:
+    """Add the commands."""
+    app.command("sessions")(_sessions(shell))
+    app.command("forget")(_forget(shell))
+
+
+def keeping_in(store: Path | None, days: int) -> "Keeping | None":
+    """Where and how long what is said is kept, if at all."""
+    from xavi_dialogue.storage.turn_log import Keeping
+
+    return Keeping(store_file(store), days) if days else None
+
+
+def store_file(given: Path | None) -> Path:
+    """The file that is given, else the user's."""
+    from xavi_dialogue.storage.turn_log import default_path
+
+    return default_path() if given is None else given
+
+
+def _sessions(shell: Shell) -> Command:
+    def sessions(
+        session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
+        export: Annotated[
+            bool, typer.Option("--export", help="Print all that is kept, as lines of JSON.")
+        ] = False,
+        as_json: AsJson = False,
+        store: StoreFile = None,
+    ) -> None:
+        """List the conversations that are kept, or print them."""
+        from datetime import datetime
+
+        import msgspec
+
+        from xavi_dialogue.cli import session_admin as kept
+
+        with shell.errors():
+            if export:
+                for line in kept.export(store_file(store), session):
+                    shell.write(line)
+                return
+            found = kept.kept(store_file(store), session)
+            if as_json:
+                shell.write(msgspec.json.encode(found).decode())
+            else:
+                shell.write(kept.table(found, lambda at: datetime.fromtimestamp(at).astimezone()))
+
+    return sessions
+
+
+def _forget(shell: Shell) -> Command:
+    def forget(
+        session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
+        everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
+        older_than: Annotated[
+            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only what is older.")
+        ] = None,
+        yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
+        store: StoreFile = None,
+    ) -> None:
+        """Erase conversations from the disk."""
+        import time
+
+        from xavi_dialogue.cli import session_admin as kept
+
+        with shell.errors():
+            wanted = kept.Wanted(session, everything, older_than)
+            agreed = _agreed if not yes else lambda _: True
+            shell.write(kept.forget(store_file(store), wanted, time.time(), agreed, _Typed()))
+
+    return forget
+
+
+def typed_file() -> Path:
+    """The file of what was typed at the terminal, for the arrow keys."""
+    from platformdirs import user_state_path
+
+    return user_state_path("xavi-dialogue") / "history"
+
+
+class _Typed:
+    """The file of what was typed; a quarter of a second goes to reading it where there is any."""
+
+    def sessions(self) -> frozenset[str]:
+        """See Typed."""
+        if not typed_file().exists():
+            return frozenset()
+        from xavi_dialogue.storage import input_history as typed
+
+        return typed.sessions(typed_file())
+
+    def erase(self, session: str | None, before: float | None) -> None:
+        """See Typed."""
+        if not typed_file().exists():
+            return
+        from datetime import datetime
+
+        from xavi_dialogue.storage import input_history as typed
+
+        moment = None if before is None else datetime.fromtimestamp(max(before, 0.0))
+        typed.erase(typed_file(), session, moment)
+
+
+def _agreed(question: str) -> bool:
+    """What is typed at the terminal.
+
+    Raises:
+        SessionUsageError: there is none.
+    """
+    from xavi_dialogue.cli.session_admin import SessionUsageError
+
+    if not sys.stdin.isatty():
+        raise SessionUsageError("without a terminal, --yes says that nobody is to be asked")
+    return typer.prompt(f"{question} y/n", err=True).strip().lower() in {"y", "yes"}

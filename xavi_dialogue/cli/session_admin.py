@@ -1,0 +1,186 @@
+"""The commands `xavi sessions` and `xavi forget`: what is kept of conversations, and erasing it."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from textwrap import shorten
+from typing import Protocol
+
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.nlg.narration import clock
+from xavi_dialogue.storage.conversations import DAY, Store
+from xavi_dialogue.storage.database import Unwritable
+from xavi_dialogue.storage.rows import Summary
+
+WIDEST = 48  # characters of a question in the table
+HEAD = ("session", "turns", "last spoken in", "ride", "the last question")
+
+
+class SessionUsageError(ValueError):
+    """What is asked of the kept conversations makes no sense."""
+
+
+class Typed(Protocol):
+    """What was typed at the terminal."""
+
+    def sessions(self) -> frozenset[str]:
+        """In which something was typed."""
+
+    def erase(self, session: str | None, before: float | None) -> None:
+        """Erase what was typed in a session, or all, before a wall time [s], or ever."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is to be forgotten."""
+
+    session: str | None
+    everything: bool = False
+    older_than: float | None = None  # [days]
+
+    def check(self) -> None:
+        """Make sure that it is clear what goes.
+
+        Raises:
+            SessionUsageError: it is not.
+        """
+        if self.everything and (self.session is not None or self.older_than is not None):
+            raise SessionUsageError("--all goes with neither a session nor --older-than")
+        if not self.everything and self.session is None and self.older_than is None:
+            raise SessionUsageError("name a session, or give --all, or --older-than DAYS")
+
+    def words(self) -> str:
+        """What goes, in words."""
+        whose = "all conversations" if self.session is None else f"conversation {self.session}"
+        if self.older_than is None:
+            return whose
+        return f"what was said in {whose} more than {self.older_than:g} days ago"
+
+
+def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
+    """The session of that name, or all; none where there is no file.
+
+    Raises:
+        StoreError: the file cannot be read.
+        SessionUsageError: there is none of that name; with the list of those there are.
+    """
+    if path.exists():
+        with Store(path) as store:
+            _check(name, store)
+            return store.sessions(name)
+    if name is not None:
+        raise _unknown(name, ())
+    return ()
+
+
+def export(path: Path, name: str | None) -> Iterator[str]:
+    """One session, or all, as lines of JSON.
+
+    Raises:
+        StoreError: the file cannot be read.
+        SessionUsageError: there is none of that name.
+    """
+    if path.exists():
+        with Store(path) as store:
+            _check(name, store)
+            yield from store.export(name)
+    elif name is not None:
+        raise _unknown(name, ())
+
+
+def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str:
+    """The sessions, a line each under a head.
+
+    Args:
+        sessions: to list.
+        zone: wall time [s] as local time.
+    """
+    if not sessions:
+        return "No conversation is kept."
+    rows = [HEAD, *(_row(one, zone) for one in sessions)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEAD))]
+    lines = ("  ".join(map(str.ljust, row, widths)).rstrip() for row in rows)
+    return "\n".join(lines)
+
+
+def forget(
+    path: Path,
+    wanted: Wanted,
+    now: float,
+    agreed: Callable[[str], bool],
+    typed: Typed,
+) -> str:
+    """Erase, and say how much; nothing where that is not agreed to.
+
+    Args:
+        path: the file.
+        wanted: what goes.
+        now: wall time [s].
+        agreed: asks whether to erase what is described in words.
+        typed: what was typed, of which the same goes.
+
+    Raises:
+        StoreError: it cannot be erased.
+        SessionUsageError: it is not clear what goes, or there is no such session.
+    """
+    wanted.check()
+    with Store(path) if path.exists() else nullcontext() as store:
+        if wanted.session is not None:
+            _know(wanted.session, store, typed)
+        if not agreed(f"erase {wanted.words()}?"):
+            return "Nothing was erased."
+        before = None if wanted.older_than is None else now - wanted.older_than * DAY
+        _erase(typed, wanted.session, before)
+        if store is None:
+            return "Nothing was kept."
+        erased = store.forget(wanted.session, before)
+    return f"{erased} turn{' was' if erased == 1 else 's were'} erased."
+
+
+def _know(session: str, store: Store | None, typed: Typed) -> None:
+    """Make sure that there is something of a session, or that nothing of it is left.
+
+    Raises:
+        SessionUsageError: there is nothing; with the list of those there are.
+        StoreError: the file cannot be read, or what was erased is still in it.
+    """
+    if session in typed.sessions():
+        return
+    if store is None:
+        raise _unknown(session, ())
+    if not store.holds(session):
+        store.purge()
+    _check(session, store)
+
+
+def _check(name: str | None, store: Store) -> None:
+    """Make sure that there is a session of that name, if any.
+
+    Raises:
+        SessionUsageError: there is none; with the list of those there are.
+        StoreError: the file cannot be read.
+    """
+    if name is not None and not store.holds(name):
+        raise _unknown(name, store.names())
+
+
+def _erase(typed: Typed, session: str | None, before: float | None) -> None:
+    try:
+        typed.erase(session, before)
+    except OSError as error:
+        raise Unwritable(f"what was typed cannot be erased: {error.strerror}") from error
+
+
+def _unknown(name: str, others: Sequence[str]) -> SessionUsageError:
+    known = ", ".join(others) or "none at all"
+    return SessionUsageError(f"there is no conversation {name}; there are: {known}")
+
+
+def _row(one: Summary, zone: Callable[[float], datetime]) -> tuple[str, ...]:
+    ride = ""
+    if one.scenario is not None and one.sim_time is not None:
+        ride = f"{one_line(Path(one.scenario).name)} {one.seed} at {clock(one.sim_time)}"
+    question = shorten(one_line(one.question), WIDEST, placeholder=" ...")
+    return (one.name, str(one.turns), f"{zone(one.last):%Y-%m-%d %H:%M}", ride, question)

@@ -1,0 +1,145 @@
+"""What browsers fetch: roads, decisions and evidence, made when wanted, and kept a while."""
+
+import asyncio
+import logging
+import time
+from collections import OrderedDict
+from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+
+import msgspec
+
+from planner.record.trace import PlanTrace
+from sim.roads.netfile import NetworkError
+from sim.roads.network import Network
+from xavi_dialogue.dashboard.bus_client import Asking, Unanswered
+from xavi_dialogue.dashboard.conversation import Conversation
+from xavi_dialogue.dashboard.ride_state import Record
+from xavi_dialogue.dashboard.views import map as roads
+from xavi_dialogue.dashboard.views.decision import whole
+from xavi_dialogue.dashboard.views.evidence import has_evidence, of_turn, traces_of
+from xavi_dialogue.vehicle.map_server import NETWORK
+
+_LOG = logging.getLogger(__name__)
+PATIENCE = 10.0  # [s] for a car to tell its roads
+AGAIN = 5.0  # [s] after which it is asked again
+MAX_KEPT = 64  # documents
+
+
+class Archive:
+    """Documents about the present ride."""
+
+    def __init__(
+        self,
+        record: Record,
+        conversation: Conversation,
+        roads_known: Callable[[], None],
+    ) -> None:
+        """An empty archive.
+
+        Args:
+            record: of the ride.
+            conversation: whose turns have evidence.
+            roads_known: called when the roads have been told.
+        """
+        self._record, self._conversation = record, conversation
+        self._roads_known = roads_known
+        self._asking: Asking | None = None
+        self._network: Network | None = None
+        self._roads: dict[str, bytes] = {}
+        self._made: OrderedDict[tuple[str, str | int], bytes] = OrderedDict()
+        self._asked: float | None = None  # [s] on the monotonic clock, for the roads
+        self._reading: asyncio.Task[None] | None = None  # of the roads
+
+    def join(self, asking: Asking) -> None:
+        """Ask others from now on."""
+        self._asking = asking
+
+    def begin_anew(self) -> None:
+        """Another ride."""
+        self._made.clear()
+        self._roads.clear()
+        self._network = self._asked = None
+
+    def look(self) -> None:
+        """Ask for the roads of the ride, as long as they are not known."""
+        ride, now = self._record.ride, time.monotonic()
+        due = self._asked is None or now > self._asked + AGAIN
+        if self._asking is None or ride is None or self._network is not None or not due:
+            return
+        self._asked = now
+        self._reading = asyncio.get_running_loop().create_task(self._learn(ride.ride))
+
+    def roads(self, name: str) -> bytes | None:
+        """The roads of a hash."""
+        return self._roads.get(name)
+
+    def decision(self, name: str) -> bytes | None:
+        """A decision, whole; None where it is not in the record."""
+        trace = self._record.shelf.get(name)
+        if trace is None:
+            return None
+        return self._kept(("decision", name), lambda: whole(trace, self._network))
+
+    async def evidence(self, n: int) -> bytes | None:
+        """What a turn rests on; None where there is no such turn, or nothing behind it."""
+        turn = self._conversation.turn(n)
+        if turn is None or not has_evidence(turn.reply):
+            return None
+        found = {name: await self._trace(name) for name in traces_of(turn.reply)}
+        known = {name: trace for name, trace in found.items() if trace is not None}
+        taken = (self._record.up_to(trace.sim_time) for trace in known.values())
+        decided = {trace.trace_id: trace for trace in taken if trace is not None}
+        make = partial(of_turn, n, turn.reply, decided | known)
+        if len(known) == len(found):
+            return self._kept(("evidence", n), make)
+        shown = make()  # what is missing may still come
+        return None if shown is None else msgspec.json.encode(shown)
+
+    async def _trace(self, name: str) -> PlanTrace | None:
+        """A decision of the record, or a plan made again, which the service knows."""
+        trace = self._record.shelf.get(name)
+        if trace is not None or self._asking is None:
+            return trace
+        with suppress(Unanswered):
+            return await self._asking.evidence(name)
+        return None
+
+    async def _learn(self, ride: str) -> None:
+        assert self._asking is not None
+        try:
+            packed = await self._asking.request(NETWORK, b"", PATIENCE)
+        except Unanswered:
+            return
+        found = await asyncio.to_thread(_read, packed)
+        current = self._record.ride
+        if found is None or current is None or current.ride != ride:
+            return
+        network, document = found
+        self._network = network
+        self._roads[network.hash] = document
+        self._record.roads = network.hash
+        self._made.clear()  # what was made without knowing the roads
+        self._roads_known()
+
+    def _kept(self, key: tuple[str, str | int], make: Callable[[], object | None]) -> bytes | None:
+        if key not in self._made:
+            shown = make()
+            if shown is None:
+                return None
+            self._made[key] = msgspec.json.encode(shown)
+        self._made.move_to_end(key)
+        while len(self._made) > MAX_KEPT:
+            self._made.popitem(last=False)
+        return self._made[key]
+
+
+def _read(packed: bytes) -> tuple[Network, bytes] | None:
+    """The roads that a car tells, and as browsers get them; None where they cannot be read."""
+    try:
+        network, outlines = roads.read(packed)
+    except NetworkError as error:
+        _LOG.warning("roads that cannot be read", extra={"problem": str(error)})
+        return None
+    return network, msgspec.json.encode(roads.shown(network, outlines))

@@ -1,0 +1,1 @@
+"""What browsers draw: map, decision, search tree, evidence."""

@@ -1,0 +1,291 @@
+"""The web application: the page, its documents, and the browsers that look on. See `board`."""
+
+import asyncio
+import logging
+import re
+import time
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from typing import TypeAlias
+
+try:
+    from starlette.applications import Starlette
+    from starlette.exceptions import HTTPException
+    from starlette.requests import Request
+    from starlette.responses import Response
+    from starlette.routing import Route, WebSocketRoute
+    from starlette.websockets import WebSocket, WebSocketDisconnect
+except ImportError as error:
+    from xavi_dialogue.dashboard.web import MISSING
+
+    raise ImportError(MISSING) from error
+
+from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web.auth import Guard
+from xavi_dialogue.dashboard.web.client_session import (
+    AGAIN_LATER,
+    BROKEN,
+    GOING_AWAY,
+    UNREADABLE,
+    Packed,
+    Viewer,
+    Wanted,
+    pack,
+)
+from xavi_dialogue.dashboard.web.interfaces import Board
+from xavi_dialogue.dashboard.web.middleware import FAULT, App, Gate
+from xavi_dialogue.dashboard.web.responses import JSON, Body
+from xavi_dialogue.dashboard.web.websocket_messages import Ask, Cancel, Outgoing, Suggest, Trouble
+
+MAX_BROWSERS = 32
+EVIDENCE_WAIT = 30.0  # [s]
+CLOSING = 1.0  # [s] that a browser may take to be told that it has to leave
+ASIDE = 64 * 1024  # bytes, from which on a body is packed on another thread
+
+FULL = "There are too many browsers already. Close one of them, then try again."
+ENDING = "The dashboard is being stopped."
+TEXT_ALONE = "Only text is read here."
+UNKNOWN = "There is nothing here."
+NO_DECISION = "The record of this decision is not here any more."
+NO_ROADS = "These roads are not known here."
+NO_EVIDENCE = "There is no evidence of this answer here."
+TOO_LATE = "The evidence of this answer did not come in time. Try again."
+
+_LOG = logging.getLogger(__name__)
+_NAME = re.compile(r"[A-Za-z0-9_.:-]{1,128}")
+_NUMBER = re.compile(r"[0-9]{1,9}")
+_Endpoint: TypeAlias = Callable[[Request], Awaitable[Response]]
+
+
+class Site:
+    """The application, and the browsers that are connected to it."""
+
+    app: App
+
+    def __init__(
+        self, board: Board, guard: Guard, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """An application.
+
+        Args:
+            board: knows what there is to see.
+            guard: judges who comes.
+            clock: [s], monotonic.
+        """
+        self._board, self._clock = board, clock
+        self._viewers: dict[int, Viewer] = {}
+        self._came = 0
+        self._ending = False
+        self.empty = asyncio.Event()  # nobody is there
+        self.empty.set()
+        routes = [
+            Route("/", _page),
+            Route("/static/{path:path}", _static),
+            Route("/api/roads/{name}", self._roads),
+            Route("/api/past", self._past),
+            Route("/api/decisions/{name}", self._decision),
+            Route("/api/turns/{number}/evidence", self._evidence),
+            Route("/healthz", _health),
+            WebSocketRoute("/ws", self._meet),
+        ]
+        inner = Starlette(
+            routes=routes, exception_handlers={HTTPException: _in_words, Exception: _fault}
+        )
+        inner.router.redirect_slashes = False
+        self.app = Gate(inner, guard, clock)
+
+    @property
+    def browsers(self) -> int:
+        """How many are connected."""
+        return len(self._viewers)
+
+    def tell(self, message: Outgoing) -> None:
+        """Tell all browsers."""
+        packed: Packed | None = None
+        for viewer in list(self._viewers.values()):
+            packed = packed or pack(message)
+            viewer.put(packed)
+
+    def close(self) -> None:
+        """Send all browsers away, and let no more in."""
+        self._ending = True
+        for viewer in list(self._viewers.values()):
+            viewer.send_away(GOING_AWAY, ENDING)
+
+    # Documents:
+
+    async def _roads(self, request: Request) -> Response:
+        name = _named(request, _NAME, NO_ROADS)
+        return await _json(request, self._board.roads(name), NO_ROADS)
+
+    async def _past(self, request: Request) -> Response:
+        return await _json(request, self._board.past(), UNKNOWN)
+
+    async def _decision(self, request: Request) -> Response:
+        name = _named(request, _NAME, NO_DECISION)
+        return await _json(request, self._board.decision(name), NO_DECISION)
+
+    async def _evidence(self, request: Request) -> Response:
+        number = int(_named(request, _NUMBER, NO_EVIDENCE, "number"))
+        try:
+            async with asyncio.timeout(EVIDENCE_WAIT):
+                found = await self._board.evidence(number)
+        except TimeoutError:
+            raise HTTPException(504, TOO_LATE) from None
+        return await _json(request, found, NO_EVIDENCE)
+
+    # Browsers:
+
+    async def _meet(self, socket: WebSocket) -> None:
+        """Talk with a browser until it leaves, or has to."""
+        await socket.accept()
+        if self._ending or self.browsers >= MAX_BROWSERS:
+            code, why = (GOING_AWAY, ENDING) if self._ending else (AGAIN_LATER, FULL)
+            await socket.close(code, why)
+            return
+        viewer = Viewer(self._came, self._clock(), lambda: self.browsers)
+        self._came += 1
+        self._viewers[viewer.number] = viewer
+        self.empty.clear()
+        try:
+            self._look_up()
+            viewer.greet(self._board.greet(viewer))
+            await self._talk(socket, viewer)
+        except Exception:
+            _LOG.exception("the dashboard failed to talk with a browser")
+            viewer.send_away(BROKEN, FAULT)
+            await _dismiss(socket, viewer)
+        finally:
+            del self._viewers[viewer.number]
+            self._look_up()
+            if not self._viewers:
+                self.empty.set()
+            self._board.left(viewer)
+
+    def _look_up(self) -> None:
+        """There are more or fewer browsers, of which all are told in their status."""
+        for viewer in self._viewers.values():
+            viewer.changed()
+
+    async def _talk(self, socket: WebSocket, viewer: Viewer) -> None:
+        more, leave = asyncio.Event(), asyncio.Event()
+
+        def changed() -> None:
+            more.set()
+            if viewer.leave is not None:
+                leave.set()
+
+        viewer.changed = changed
+        changed()
+        tasks = [
+            asyncio.create_task(part)
+            for part in (self._send(socket, viewer, more), self._hear(socket, viewer), leave.wait())
+        ]
+        try:
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.wait(tasks)
+        for task in tasks:
+            if not task.cancelled() and not isinstance(task.exception(), WebSocketDisconnect):
+                task.result()
+        await _dismiss(socket, viewer)
+
+    async def _send(self, socket: WebSocket, viewer: Viewer, more: asyncio.Event) -> None:
+        while True:
+            more.clear()
+            text = viewer.take(self._clock())
+            if text is not None:
+                await socket.send_text(text)
+                await asyncio.sleep(0)  # a long row must not hold up the others
+            else:
+                with suppress(TimeoutError):
+                    async with asyncio.timeout(viewer.due(self._clock())):
+                        await more.wait()
+
+    async def _hear(self, socket: WebSocket, viewer: Viewer) -> None:
+        while (event := await socket.receive())["type"] == "websocket.receive":
+            text = event.get("text")
+            if text is None:
+                viewer.send_away(UNREADABLE, TEXT_ALONE)
+                return
+            wanted = viewer.hear(text, self._clock())
+            if wanted is not None:
+                self._pass_on(viewer, wanted)
+
+    def _pass_on(self, viewer: Viewer, wanted: Wanted) -> None:
+        try:
+            match wanted:
+                case Ask():
+                    self._board.ask(viewer, wanted)
+                case Cancel():
+                    self._board.cancel(viewer, wanted)
+                case Suggest():
+                    self._board.suggest(viewer, wanted)
+        except Exception:
+            _LOG.exception("the board failed")
+            request = None if isinstance(wanted, Suggest) else wanted.request
+            viewer.tell(Trouble(request=request, text=FAULT))
+
+
+async def _dismiss(socket: WebSocket, viewer: Viewer) -> None:
+    """Close the connection where a browser is to leave; one that reads nothing is not told."""
+    if viewer.leave is not None:
+        with suppress(TimeoutError, RuntimeError, WebSocketDisconnect):
+            async with asyncio.timeout(CLOSING):
+                await socket.close(viewer.leave.code, viewer.leave.reason)
+
+
+async def _page(request: Request) -> Response:
+    return _response(request, await asyncio.to_thread(bodies.asset, "index.html"), UNKNOWN)
+
+
+async def _static(request: Request) -> Response:
+    path = request.path_params["path"]
+    return _response(request, await asyncio.to_thread(bodies.asset, path), UNKNOWN)
+
+
+async def _health(_: Request) -> Response:
+    return Response(b'{"ok":true}', media_type=JSON)
+
+
+def _named(request: Request, form: re.Pattern[str], words: str, part: str = "name") -> str:
+    """A part of the address; what does not look like a name cannot be one that is known."""
+    name: str = request.path_params[part]
+    if not form.fullmatch(name):
+        raise HTTPException(404, words)
+    return name
+
+
+async def _json(request: Request, data: bytes | None, words: str) -> Response:
+    if data is None:
+        raise HTTPException(404, words)
+    if len(data) < ASIDE:
+        return _response(request, bodies.body(data, JSON), words)
+    return _response(request, await asyncio.to_thread(bodies.body, data, JSON), words)
+
+
+def _response(request: Request, body: Body | None, words: str) -> Response:
+    """A response to be kept by browsers, which ask whether it is still the same."""
+    if body is None:
+        raise HTTPException(404, words)
+    headers = {"etag": body.etag, "cache-control": "no-cache", "vary": "accept-encoding"}
+    known = request.headers.get("if-none-match", "")
+    if body.etag.removeprefix("W/") in [one.strip().removeprefix("W/") for one in known.split(",")]:
+        return Response(status_code=304, headers=headers)
+    headers["content-type"] = body.type
+    packs = re.search(r"(^|,)\s*gzip\s*(,|$)", request.headers.get("accept-encoding", ""))
+    if body.packed is not None and packs:
+        return Response(body.packed, headers=headers | {"content-encoding": "gzip"})
+    return Response(body.data, headers=headers)
+
+
+async def _in_words(_: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    words = UNKNOWN if error.detail == "Not Found" else error.detail
+    return Response(bodies.said(words), error.status_code, media_type=JSON)
+
+
+async def _fault(_: Request, __: Exception) -> Response:
+    return Response(bodies.said(FAULT), 500, media_type=JSON)

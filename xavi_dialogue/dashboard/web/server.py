@@ -1,0 +1,300 @@
+"""The dashboard's web server: uvicorn around the web application of `site`. HTTP/1.1, no TLS.
+
+A client that says nothing, reads nothing or does not end its request is cut off in time, so that
+it takes up a connection for a while and no more.
+"""
+
+import asyncio
+import errno
+import logging
+import socket
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Any
+
+try:
+    import uvicorn
+    from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
+    from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+    from websockets.frames import Frame
+    from websockets.http11 import Request, Response
+    from websockets.server import ServerProtocol
+except ImportError as error:
+    from xavi_dialogue.dashboard.web import MISSING
+
+    raise ImportError(MISSING) from error
+
+from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web.auth import CACHE, SECURITY, Guard, Listen, ListenError
+from xavi_dialogue.dashboard.web.interfaces import Board
+from xavi_dialogue.dashboard.web.rate_limit import Bucket, Rate
+from xavi_dialogue.dashboard.web.routes import Site
+from xavi_dialogue.dashboard.web.websocket_messages import MAX_INCOMING, Outgoing
+
+__all__ = ["Listen", "ListenError", "Server"]
+
+MAX_CONNECTIONS = 256  # a browser has up to seven
+MAX_HEAD = 16 * 1024  # bytes of a request's first line and headers
+PATIENCE = 15.0  # [s] for a request to come whole
+LAST = 60.0  # [s] for a response to be read, once it is all there is left to do
+PARTING = 5.0  # [s] for a browser to close a WebSocket that we have closed
+PING = 15.0  # [s] between signs of life that are asked for, and for one to come
+FRAMES = Rate(100.0, 400)  # parts of messages, and signs of life
+ENDING = 1.0  # [s] for browsers to leave, and then for requests to end
+STATUS = {400: "Bad Request", 503: "Service Unavailable"}
+
+_LOG = logging.getLogger(__name__)
+
+
+class Server:
+    """Serves a board to browsers."""
+
+    def __init__(self, board: Board, listen: Listen) -> None:
+        """Take the place to listen at; browsers that come wait until `serve`.
+
+        Args:
+            board: what there is to see.
+            listen: where.
+
+        Raises:
+            ListenError: it cannot be listened there.
+        """
+        self._socket = bind(listen)
+        self.port: int = self._socket.getsockname()[1]
+        self.address = listen.address(self.port)  # what to open in a browser
+        #: The same with the token, if there is one: whoever has this may come in.
+        self.link = self.address + (f"?token={listen.token}" if listen.token else "")
+        self._site = Site(board, Guard(listen, self.port))
+        self._lock = threading.Lock()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._early: deque[tuple[Callable[..., None], tuple[Any, ...]]] = deque()
+        self._over = False
+
+    @property
+    def browsers(self) -> int:
+        """How many are there."""
+        return self._site.browsers
+
+    def tell(self, message: Outgoing) -> None:
+        """Tell all browsers; on the event loop only."""
+        self._site.tell(message)
+
+    def soon(self, function: Callable[..., None], *arguments: Any) -> None:
+        """Have something called on the event loop; see `board.Audience`. Any thread may."""
+        with self._lock:
+            if self._loop is not None:
+                self._loop.call_soon_threadsafe(_call, function, arguments)
+            elif not self._over:
+                self._early.append((function, arguments))
+
+    async def serve(self, stopped: asyncio.Event) -> None:
+        """Serve until told to stop, or cancelled; then end within 3 s. Once only."""
+        server = _Uvicorn(self._config())
+        with self._lock:
+            self._loop = asyncio.get_running_loop()
+            while self._early:
+                self._loop.call_soon(_call, *self._early.popleft())
+        serving = asyncio.create_task(server.serve(sockets=[self._socket]))
+        stopping = asyncio.create_task(stopped.wait())
+        try:
+            await asyncio.wait({serving, stopping}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            stopping.cancel()
+            self._site.close()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(ENDING):
+                    await self._site.empty.wait()
+            with self._lock:
+                self._loop, self._over = None, True
+            server.should_exit = True
+            await serving
+            for connection in list(server.server_state.connections):
+                connection.transport.abort()  # of who reads nothing
+            await asyncio.sleep(0)  # they are lost in the loop's next round
+
+    def close(self) -> None:
+        """Give the place up; harmless after `serve`."""
+        self._socket.close()
+
+    def _config(self) -> uvicorn.Config:
+        return uvicorn.Config(
+            self._site.app,
+            http=_Http,
+            ws=_WebSocket,
+            loop="asyncio",
+            lifespan="off",
+            log_config=None,
+            log_level="critical",  # what strangers send is no news, and our own faults are logged
+            access_log=False,
+            server_header=False,
+            proxy_headers=False,  # a client's word for where it comes from is worth nothing
+            ws_max_size=MAX_INCOMING,
+            ws_ping_interval=PING,
+            ws_ping_timeout=PING,
+            ws_per_message_deflate=False,  # would be done anew for each browser
+            h11_max_incomplete_event_size=MAX_HEAD,
+            timeout_graceful_shutdown=1,
+        )
+
+
+def bind(listen: Listen) -> socket.socket:
+    """A socket that listens.
+
+    Raises:
+        ListenError: it cannot be listened there.
+    """
+    place = listen.place
+    try:
+        found = socket.getaddrinfo(listen.host, listen.port, type=socket.SOCK_STREAM)
+    except OSError:
+        raise ListenError(f"{listen.host} is not known; choose another with --listen") from None
+    family, *_, address = min(found, key=lambda one: one[0] != socket.AF_INET)
+    ours = socket.socket(family, socket.SOCK_STREAM)
+    try:
+        ours.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        ours.bind(address)
+        ours.listen(128)
+    except OSError as error:
+        ours.close()
+        reasons = {
+            errno.EADDRINUSE: "is in use",
+            errno.EACCES: "is not for everybody (ports from 1024 on are)",
+            errno.EADDRNOTAVAIL: "is no address of this machine",
+        }
+        reason = reasons.get(error.errno or 0, "cannot be listened at")
+        other = "port 0 is any that is free"
+        raise ListenError(f"{place} {reason}; choose another with --listen: {other}") from error
+    ours.setblocking(False)
+    return ours
+
+
+def _call(function: Callable[..., None], arguments: tuple[Any, ...]) -> None:
+    try:
+        function(*arguments)
+    except Exception:
+        _LOG.exception("the dashboard failed to take something in")
+
+
+class _Uvicorn(uvicorn.Server):
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Leave the signals to the process, which has more than this server to end."""
+        yield
+
+
+class _Http(H11Protocol):
+    """Cuts off who does not ask, or does not read, in time; has the headers of all responses."""
+
+    _late: asyncio.TimerHandle | None = None
+    _cut: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        if len(self.connections) > MAX_CONNECTIONS:
+            self._send_off(503, "There are too many connections already. Try again later.")
+        else:
+            self._wait()
+
+    def on_response_complete(self) -> None:
+        super().on_response_complete()
+        self._wait()
+
+    def handle_websocket_upgrade(self, event: Any) -> None:
+        self._wait_no_longer()
+        super().handle_websocket_upgrade(event)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._wait_no_longer()
+        if self._cut is not None:
+            self._cut.cancel()
+        super().connection_lost(exc)
+
+    def send_400_response(self, msg: str) -> None:
+        del msg
+        self._send_off(400, "This is no request that can be understood.")
+
+    def _wait(self) -> None:
+        """Wait for the next request, for a while."""
+        self._wait_no_longer()
+        self._late = self.loop.call_later(PATIENCE, self._give_up, self.cycle)
+
+    def _wait_no_longer(self) -> None:
+        if self._late is not None:
+            self._late.cancel()
+
+    def _give_up(self, last: RequestResponseCycle | None) -> None:
+        if self.cycle is last:
+            self._part()
+
+    def _part(self) -> None:
+        self.transport.close()
+        if self._cut is None:
+            self._cut = self.loop.call_later(LAST, self.transport.abort)
+
+    def _send_off(self, status: int, words: str) -> None:
+        data = bodies.said(words)
+        headers = {"content-type": bodies.JSON, CACHE[0]: CACHE[1], "connection": "close"}
+        headers |= {"content-length": str(len(data))} | SECURITY
+        lines = [f"HTTP/1.1 {status} {STATUS[status]}", *(f"{k}: {v}" for k, v in headers.items())]
+        self.transport.write("\r\n".join([*lines, "", ""]).encode() + data)
+        self._part()
+
+
+class _Handshake(ServerProtocol):
+    def accept(self, request: Request) -> Response:
+        """As it is, with the headers of all responses where it is refused."""
+        response = super().accept(request)
+        if response.status_code != 101:
+            response.headers.update({**SECURITY, CACHE[0]: CACHE[1]})
+        return response
+
+
+class _WebSocket(WebSocketsSansIOProtocol):
+    """Cuts off who does not read, and who sends endless parts of messages or signs of life."""
+
+    _cut: asyncio.TimerHandle | None = None
+
+    def __init__(self, *arguments: Any, **named: Any) -> None:
+        super().__init__(*arguments, **named)
+        self.close_timeout = PARTING
+        self.conn = _Handshake(max_size=self.config.ws_max_size, logger=self.logger)
+        self._frames = Bucket(FRAMES, time.monotonic())
+
+    async def run_asgi(self) -> None:
+        await super().run_asgi()
+        # What was not read until now keeps a connection open that is closed otherwise.
+        if self in self.connections:
+            self._cut = self.loop.call_later(PARTING, self.transport.abort)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if self._cut is not None:
+            self._cut.cancel()
+        super().connection_lost(exc)
+
+    def keepalive_timeout(self) -> None:
+        super().keepalive_timeout()
+        self.transport.abort()
+
+    def handle_ping(self) -> None:
+        if self._bears() and self.writable.is_set():
+            super().handle_ping()
+        else:
+            self.conn.data_to_send()  # the answers, which would pile up unread
+
+    def handle_pong(self, event: Frame) -> None:
+        if self._bears():
+            super().handle_pong(event)
+
+    def handle_cont(self, event: Frame) -> None:
+        if self._bears():
+            super().handle_cont(event)
+
+    def _bears(self) -> bool:
+        """Whether one more part is borne with; where it is not, that was the last one."""
+        if self._frames.take(time.monotonic()):
+            return True
+        self.transport.abort()
+        return False

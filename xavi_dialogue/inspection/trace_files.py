@@ -1,0 +1,108 @@
+"""Files that hold plan traces: one trace, or a recorded ride."""
+
+import gzip
+import io
+import sys
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from planner.record.trace import PlanTrace, TraceError, decode
+from xavi_dialogue.storage.ride_file import RideFileError, load
+
+MAX_RIDE_BYTES = 64 * 1024 * 1024
+MAX_RIDE_LINES = 20_000
+GZIP = b"\x1f\x8b"
+EPSILON = 1e-6  # [s]
+
+
+class TraceFileError(ValueError):
+    """A file that holds no trace that can be shown, or not the one asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Traces:
+    """What a file holds."""
+
+    traces: tuple[PlanTrace, ...]
+    ride: bool  # a recorded ride: one of its decisions is to be chosen
+
+
+def content(name: str) -> bytes:
+    """The bytes of a file; `-` is standard input.
+
+    Raises:
+        TraceFileError: it cannot be opened, or is too large.
+    """
+    if name == "-" and sys.stdin is None:
+        raise TraceFileError("cannot read -: standard input is closed")
+    try:
+        with sys.stdin.buffer if name == "-" else Path(name).open("rb") as source:
+            data = source.read(MAX_RIDE_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise TraceFileError(f"cannot read {name}: {error}") from error
+    if len(data) > MAX_RIDE_BYTES:
+        raise TraceFileError(f"{name} is larger than {MAX_RIDE_BYTES} bytes")
+    return data
+
+
+def read(data: bytes) -> Traces:
+    """Read a trace or a ride, gzipped or not.
+
+    Raises:
+        TraceFileError: it is neither.
+    """
+    text = _unpacked(data)
+    if text.count(b"\n") > MAX_RIDE_LINES:
+        raise TraceFileError(f"has more than {MAX_RIDE_LINES} lines")
+    if b'"scenario"' in text.partition(b"\n")[0][:4096] and text.count(b"\n") > 1:
+        return _ride(text)
+    try:
+        return Traces((decode(text.strip()),), ride=False)
+    except TraceError as error:
+        raise TraceFileError(str(error)) from error
+
+
+def choose(held: Traces, decision: int | None, at: float | None) -> PlanTrace | None:
+    """The decision asked for; None where one of several is still to be chosen.
+
+    Args:
+        held: what the file holds.
+        decision: running number of the decision.
+        at: [s] the latest decision up to then.
+
+    Raises:
+        TraceFileError: the file holds no such decision.
+    """
+    found = held.traces
+    if decision is not None:
+        found = tuple(trace for trace in found if trace.decision == decision)
+    if at is not None:
+        found = tuple(trace for trace in found if trace.sim_time <= at + EPSILON)[-1:]
+    if not found:
+        numbers = ", ".join(str(trace.decision) for trace in held.traces) or "none"
+        raise TraceFileError(f"there is no such decision in the file; it holds {numbers}")
+    return found[0] if len(found) == 1 else None
+
+
+def _ride(text: bytes) -> Traces:
+    try:
+        ride = load(gzip.compress(text, compresslevel=1, mtime=0))
+    except RideFileError as error:
+        raise TraceFileError(str(error)) from error
+    if not ride.traces:
+        raise TraceFileError("the ride holds no decision")
+    return Traces(tuple(ride.traces), ride=True)
+
+
+def _unpacked(data: bytes) -> bytes:
+    if not data.startswith(GZIP):
+        return data
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as packed:
+            text = packed.read(MAX_RIDE_BYTES + 1)
+    except (OSError, EOFError, zlib.error) as error:
+        raise TraceFileError(f"cannot be unpacked: {error}") from error
+    if len(text) > MAX_RIDE_BYTES:
+        raise TraceFileError(f"unpacks to more than {MAX_RIDE_BYTES} bytes")
+    return text

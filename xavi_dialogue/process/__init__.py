@@ -1,0 +1,1 @@
+"""What processes share: settings, logging, child processes, exit statuses."""

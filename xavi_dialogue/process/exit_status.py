@@ -1,0 +1,43 @@
+"""How a command that asks one question ends."""
+
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:  # the command line needs the numbers at once, and replies later or never
+    from xavi_dialogue.dialogue.reply import Reply
+
+
+class UsageFault(ValueError):
+    """A user gave something that cannot be used; the message says how to mend it."""
+
+
+class RunFault(RuntimeError):
+    """A command could not do its work; the message says why."""
+
+
+class ExitStatus(IntEnum):
+    """Exit statuses of `xavi`."""
+
+    ANSWERED = 0  # small talk and help too
+    FAILED = 1  # an error of ours or of the installation
+    USAGE = 2
+    DECLINED = 3  # or asked back
+    NOT_UNDERSTOOD = 4
+    PLANNER_UNAVAILABLE = 5
+    TIMED_OUT = 6
+    INTERRUPTED = 130
+    TERMINATED = 143
+
+
+def status_of(reply: "Reply") -> ExitStatus:
+    """The exit status for a reply."""
+    if reply.kind == "answer":
+        return ExitStatus.ANSWERED
+    match reply.reason:
+        case "not-understood":
+            return ExitStatus.NOT_UNDERSTOOD
+        case "planner-unavailable":
+            return ExitStatus.PLANNER_UNAVAILABLE
+        case "timed-out":
+            return ExitStatus.TIMED_OUT
+    return ExitStatus.DECLINED

@@ -1,0 +1,229 @@
+"""Child processes that end when their parent does.
+
+Each listens on its standard input, whose other end only the parent holds: it closes with the
+parent, even when the parent is killed, and then the child ends (see control.listen).
+"""
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process.log_setup import is_log
+
+TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or installed
+REMEMBERED = 20  # lines of a child's standard error
+ORDERLY = 3.0  # [s] that a child may take to end by itself
+FORCED = 1.0  # [s] and after SIGTERM
+WARNING = "xavi: warning: "  # how lines begin that concern the passenger
+
+
+class ChildFailed(Exception):
+    """A child process ended when it should not."""
+
+
+class Child:
+    """One process of ours, started with a command of `xavi`."""
+
+    def __init__(
+        self, name: str, arguments: Sequence[str], warn: Callable[[str], None] | None = None
+    ) -> None:
+        """Start the process.
+
+        Args:
+            name: in messages: "the car".
+            arguments: of `xavi`; `--control` is added.
+            warn: gets its warnings, on a thread.
+        """
+        self.name = name
+        self.ordered = 0  # orders given
+        # -P keeps the working directory off the path: it may hold packages of our names.
+        command = [sys.executable, "-P", "-m", "xavi_dialogue", *arguments, "--control"]
+        path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env={**_ours(), "PYTHONPATH": path},
+            text=True,
+            errors="replace",
+            start_new_session=True,  # the terminal's signals are for the parent
+        )
+        self._warn = warn
+        self._said: deque[str] = deque(maxlen=REMEMBERED)
+        self._ear = threading.Thread(target=self._listen, daemon=True)
+        self._ear.start()
+
+    @property
+    def pid(self) -> int:
+        """The process's number."""
+        return self._process.pid
+
+    def order(self, order: control.Order) -> int:
+        """Give an order.
+
+        Returns:
+            The number of orders given so far.
+
+        Raises:
+            ChildFailed: the process is gone.
+        """
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(control.write(order) + "\n")
+            self._process.stdin.flush()
+        except (BrokenPipeError, ValueError):
+            self.check()
+            raise ChildFailed(f"{self.name} takes no orders any more") from None
+        self.ordered += 1
+        return self.ordered
+
+    def check(self) -> None:
+        """Make sure that the process is there.
+
+        Raises:
+            ChildFailed: it has ended; with its last words.
+        """
+        code = self._process.poll()
+        if code is not None:
+            self._ear.join(FORCED)
+            words = last_words(self._said)
+            ended = f"{self.name} has ended ({_manner(code)})"
+            raise ChildFailed(f"{ended}: {words.removeprefix('xavi: ')}" if words else ended)
+
+    def stop(self) -> None:
+        """End the process: by closing its input, else by SIGTERM, else by SIGKILL."""
+        process = self._process
+        assert process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            process.stdin.close()
+        for patience, end in ((ORDERLY, process.terminate), (FORCED, process.kill)):
+            try:
+                process.wait(patience)
+                break
+            except subprocess.TimeoutExpired:
+                end()
+        process.wait()
+        self._ear.join(FORCED)
+        assert process.stderr is not None
+        process.stderr.close()
+
+    def kill(self) -> None:
+        """End the process at once."""
+        self._process.kill()
+
+    def _listen(self) -> None:
+        assert self._process.stderr is not None
+        with contextlib.suppress(ValueError):  # closed meanwhile
+            for line in self._process.stderr:
+                self._said.append(line.rstrip())
+                if self._warn is not None and line.startswith(WARNING):
+                    self._warn(line.removeprefix(WARNING).rstrip())
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.stop()
+
+
+class Steady:
+    """A child that is started anew when it has ended by itself."""
+
+    def __init__(self, start: Callable[[], Child]) -> None:
+        """Start it.
+
+        Args:
+            start: starts it.
+        """
+        self.spare = 0  # times that it may still be started anew
+        self._start, self._child = start, start()
+        self._lock = threading.Lock()
+
+    @property
+    def pid(self) -> int:
+        """The number of the present process."""
+        return self._child.pid
+
+    def check(self) -> None:
+        """Make sure that there is a process.
+
+        Raises:
+            ChildFailed: it has ended too often.
+        """
+        with self._lock:
+            try:
+                self._child.check()
+            except ChildFailed:
+                if self.spare == 0:
+                    raise
+                self.spare -= 1
+                self._child.stop()
+                self._child = self._start()
+
+    def kill(self) -> None:
+        """End the present process at once, and start no other."""
+        self.spare = 0
+        self._child.kill()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.spare = 0
+        self._child.stop()
+
+
+class Expendable:
+    """A child without which one can go on: that it has ended is told once."""
+
+    def __init__(self, child: Child, tell: Callable[[str], None]) -> None:
+        """Watch it.
+
+        Args:
+            child: that is watched.
+            tell: gets its end, with its last words.
+        """
+        self.child = child
+        self._tell: Callable[[str], None] | None = tell
+
+    def check(self) -> None:
+        """Tell if it has ended."""
+        try:
+            self.child.check()
+        except ChildFailed as error:
+            tell, self._tell = self._tell, None
+            if tell is not None:
+                tell(f"{error}; the ride goes on without it")
+
+
+def last_words(said: Sequence[str]) -> str:
+    """The last line that is no log and not empty; its log is written later than all else."""
+    return next((line for line in reversed(said) if line.strip() and not is_log(line)), "")
+
+
+def _ours() -> dict[str, str]:
+    """Our environment without what would lead a child to another bus."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("XAVI_")}
+
+
+def _manner(code: int) -> str:
+    return f"signal {-code}" if code < 0 else f"exit status {code}"

@@ -1,0 +1,1 @@
+"""Recording what the bus carries, and playing it back."""

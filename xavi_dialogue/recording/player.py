@@ -1,0 +1,315 @@
+"""`xavi replay`: a recorded ride on the bus, as if a car drove it; no SUMO is needed.
+
+Traces and events come once each, in their order, those that are skipped at once. Scenes go on
+with rising numbers, also where their time goes back.
+"""
+
+import queue
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from secrets import token_hex
+from typing import TypeAlias
+
+import msgspec
+
+from planner.record.events import Event
+from sim.roads.netfile import NetworkError, read_network
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.messages import (
+    CarState,
+    EventReport,
+    Failure,
+    SceneReport,
+    TraceReport,
+    pack,
+)
+from xavi_dialogue.nlg.narration import clock
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.storage.mcap_file import read
+from xavi_dialogue.storage.recording_format import RecordingError, Tape, tape_of, unpacked
+from xavi_dialogue.vehicle.bus_session import (
+    CHILD_PATIENCE,
+    HUB_PATIENCE,
+    Dismissed,
+    claim,
+    joined,
+)
+from xavi_dialogue.vehicle.episode import Moment
+from xavi_dialogue.vehicle.map_server import serve_roads
+from xavi_dialogue.vehicle.node import COUNTERS, SHOWN_EVERY, Pace, serve
+from xavi_dialogue.vehicle.replanning import Replanner, workers
+from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
+
+NO_ROADS = "the recording holds no roads to plan on"
+
+Note: TypeAlias = Callable[[str], None]
+
+
+@dataclass
+class Player:
+    """Reports a recorded ride like a car, and obeys the same orders, and Seek besides."""
+
+    tape: Tape
+    bus: Bus
+    keys: Keys
+    pace: Pace
+    record: Callable[[Moment], None] = lambda _: None  # gets every decision that is published
+    note: Note = lambda _: None  # takes what whoever gives orders should know
+    alive: Alive = field(default_factory=lambda: Alive("car", COUNTERS))
+    ride: str = field(default_factory=lambda: token_hex(4))
+    index: int = 0  # of the scene that is shown
+    traces: int = 0  # published
+    events: list[Event] = field(default_factory=list)  # published
+    scenes: int = 0  # published
+    told: tuple[int, int] = (0, 0)  # traces and events that the car had reported so far
+    due: float = 0.0  # [s] on the monotonic clock: when the next scene may come
+    shown: float = 0.0  # [s] on the monotonic clock: when the last one came
+
+    def __post_init__(self) -> None:
+        self._scene = self.bus.publisher(self.keys.of("scene"))
+        self._trace = self.bus.publisher(self.keys.of("trace"), keep=KEPT_TRACES)
+        self._event = self.bus.publisher(self.keys.of("event"), keep=KEPT_EVENTS)
+        self._first = self.tape.first
+
+    @property
+    def at_end(self) -> bool:
+        """Whether no scene follows."""
+        return self.index == len(self.tape.scenes) - 1
+
+    def play(self, orders: control.Orders, *, stays: bool) -> None:
+        """Play to the end, or until told to quit.
+
+        Args:
+            orders: about the pace.
+            stays: after the end, until told to quit.
+        """
+        self.go_to(self.index)
+        while not self.pace.quit and (stays or not self.at_end):
+            self._listen(orders, min(self._delay(), SHOWN_EVERY))
+            halted = self.at_end or not self.pace.running
+            if halted:
+                self._show()
+                self.due = time.monotonic()
+            elif self._delay() <= 0.0:
+                self._advance()
+
+    def go_to(self, index: int) -> None:
+        """Show a scene, and all that was known by then."""
+        self.index = index
+        scene = self._publish_record()
+        self.pace.arrive(scene.sim_time, self.events)
+        self._show(always=True)
+        self.due = time.monotonic()
+
+    def _delay(self) -> float:
+        """Time [s] to the next scene."""
+        if self.at_end or not self.pace.running:
+            return SHOWN_EVERY
+        if self.pace.speed == 0.0:
+            return 0.0
+        ahead = self.tape.times[self.index + 1] - self.tape.times[self.index]
+        return self.due + ahead / self.pace.speed - time.monotonic()
+
+    def _advance(self) -> None:
+        times = self.tape.times
+        if self.pace.speed > 0.0:
+            self.due += (times[self.index + 1] - times[self.index]) / self.pace.speed
+        self.index += 1
+        scene = self._publish_record()
+        self.pace.arrive(scene.sim_time, self.events)
+        self._show(always=not self.pace.running or self.at_end)
+
+    def _listen(self, orders: control.Orders, patience: float) -> None:
+        try:
+            order = orders.get(timeout=patience) if patience > 0.0 else orders.get_nowait()
+        except queue.Empty:
+            return
+        self.pace.obey(order)
+        index = self.index
+        match order:
+            case control.Seek(time):
+                self.tell_end(time)
+                index = self.tape.index_at(time)
+            case control.Until(float(time)):
+                self.tell_end(time)
+        self.go_to(index)
+
+    def tell_end(self, wanted: float) -> None:
+        """Tell where the recording ends, if a moment [s] lies beyond."""
+        if self.tape.ends_before(wanted):
+            self.note(f"the recording ends at {clock(self.tape.times[-1])}")
+
+    def _publish_record(self) -> SceneReport:
+        """Publish the decisions and events that were known when the scene was seen."""
+        scene = self.tape.scene(self.index)
+        traces, events = self.tape.known(scene)
+        while self.traces < traces:
+            self._publish_trace(scene)
+        numbers = self.tape.event_numbers
+        for event in self.tape.events[len(self.events) : events]:
+            report = EventReport(
+                ride=self.ride,
+                seq=numbers[len(self.events)],  # what is missing remains so
+                sim_time=event.sim_time,
+                wall_time=time.time(),
+                event=event,
+            )
+            self.alive.count("events")
+            self._event.put(pack(report))
+            self.events.append(event)
+        return scene
+
+    def _publish_trace(self, scene: SceneReport) -> None:
+        trace = self.tape.trace(self.traces)
+        report = TraceReport(
+            ride=self.ride,
+            seq=self.tape.trace_numbers[self.traces],
+            sim_time=trace.sim_time,
+            wall_time=time.time(),
+            trace=trace,
+            first=self._first,
+        )
+        self.alive.count("decisions")
+        self.record(Moment(scene.scene(), scene.plan, trace))
+        self._trace.put(pack(report))
+        self.traces += 1
+
+    def _show(self, *, always: bool = False) -> None:
+        if not always and time.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
+            return
+        scene = self.tape.scene(self.index)
+        # What is known is not unlearnt where the ride goes back; and what is missing, is.
+        self.told = (
+            max(self.told[0], scene.traces),
+            max(self.told[1], scene.events),
+        )
+        report = msgspec.structs.replace(
+            scene,
+            ride=self.ride,
+            seq=self.scenes,
+            wall_time=time.time(),
+            state=self._state(),
+            speed_factor=self.pace.speed,
+            traces=self.told[0],
+            events=self.told[1],
+            orders=self.pace.obeyed,
+        )
+        self.alive.count("scenes")
+        self.alive.at(report.sim_time)
+        self._scene.put(pack(report))
+        self.scenes += 1
+        self.shown = time.monotonic()
+
+    def _state(self) -> CarState:
+        if self.at_end:
+            return "ended" if self.tape.finished else "paused"
+        return "driving" if self.pace.running else "paused"
+
+
+@dataclass(frozen=True)
+class Show:
+    """What to play, and how."""
+
+    path: Path
+    link: Link
+    speed: float = 1.0  # recorded seconds per second; 0 is as fast as possible
+    start: float = 0.0  # [s] of the ride
+    car: str | None = None  # which one of the recording; None: the only one
+    vehicle: str | None = None  # name under which it is played; None: its own
+    controlled: bool = False  # by a parent: halts at first, and stays
+
+
+def load(path: Path, car: str | None, note: Note) -> Tape:
+    """The ride to be played.
+
+    Raises:
+        RecordingError: there is none, or it cannot be read.
+    """
+    try:
+        tape, why = tape_of(read(path), car)
+    except RecordingError as error:
+        told = str(error)
+        raise type(error)(told if str(path) in told else f"{path}: {told}") from error
+    if why is not None:
+        note(f"warning: {path}: {why}; what is whole of it is played")
+    return tape
+
+
+def replay(show: Show, note: Note) -> None:
+    """Play a recording on a bus; orders come on standard input.
+
+    Raises:
+        HubUnreachable: there is no hub at the endpoint.
+        NameTaken: there is a car of this name on the bus.
+        RecordingError: the file cannot be played.
+    """
+    orders: control.Orders = queue.SimpleQueue()
+    signals = control.Signals()
+    signals.listen(orders)
+    tape = load(show.path, show.car, note)
+    keys = Keys(show.vehicle or tape.vehicle)
+    patience = CHILD_PATIENCE if show.controlled else HUB_PATIENCE
+    alive = Alive("car", COUNTERS)
+    with suppress(Dismissed), joined(show.link, signals, patience) as bus:
+        claim(bus, keys, signals)
+        control.listen(sys.stdin, orders, None if show.controlled else note)
+        with planning_for(tape, bus, keys, alive, note) as (planning, record):
+            serve(bus, keys, planning, alive)
+            if not show.controlled:
+                note(f"playing {tape.times[-1]:.1f} s of {tape.vehicle} as {keys.vehicle}")
+            pace = Pace(show.speed, running=not show.controlled)
+            tell = partial(_warn, note) if show.controlled else note
+            player = Player(tape, bus, keys, pace, record, tell, alive)
+            player.tell_end(show.start)
+            player.index = tape.index_at(show.start)
+            player.play(orders, stays=True)
+
+
+def _warn(note: Note, text: str) -> None:
+    """Tell whoever talks about a recording, over the process that plays it."""
+    note(f"warning: {text}")
+
+
+@contextmanager
+def planning_for(
+    tape: Tape, bus: Bus, keys: Keys, alive: Alive, note: Note
+) -> Iterator[tuple[CallHandler, Callable[[Moment], None]]]:
+    """Who plans again from recorded decisions, and what is to be told of them."""
+    with tempfile.TemporaryDirectory(prefix="xavi-") as folder:
+        path = Path(folder) / "network.net.xml"
+        if not _find_network(tape, path):
+            note(f"warning: {NO_ROADS}; what would have been cannot be asked")
+            yield _refuse, lambda _: None
+            return
+        serve_roads(bus, keys, path)
+        with workers(path) as pool:
+            planning = Replanner(pool, max(len(tape.traces), 1), alive)
+            yield planning, planning.record
+
+
+def _find_network(tape: Tape, path: Path) -> bool:
+    """Write the roads that the decisions were taken on to a file; whether there are any."""
+    wanted = tape.trace(0).network if tape.traces else None
+    for packed in tape.networks:
+        text = unpacked(packed)
+        if text is None:
+            continue
+        path.write_bytes(text)
+        try:
+            if wanted in (None, read_network(path).hash):
+                return True
+        except NetworkError:
+            continue
+    return False
+
+
+def _refuse(call: Call) -> None:
+    call.refuse(pack(Failure(reason="planner-unavailable", detail=NO_ROADS)))

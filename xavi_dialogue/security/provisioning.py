@@ -1,0 +1,240 @@
+"""`xavi keys`: certificates and Zenoh configurations for a bus that asks everybody who they are.
+
+KeysError
+├── KeysExist     there are keys in the folder, which are not overwritten
+├── NotOnlyKeys   the folder holds other things, which are not deleted
+├── BadEndpoint   nothing to listen at or to connect to with certificates
+└── KeysNotKept   the folder cannot be written
+"""
+
+import json
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from pathlib import Path
+
+from xavi_dialogue.bus.access_control import ROLES, Json, Member, access_control, member
+from xavi_dialogue.bus.certificates import Authority, Identity
+from xavi_dialogue.bus.zenoh_bus import SAFE
+
+HUB = "service"  # the role whose process is the hub
+LISTEN = "tls/127.0.0.1:7447"
+LOOPBACK = ("localhost", "127.0.0.1", "::1")
+ANYWHERE = ("0.0.0.0", "::")  # to listen at; nobody can connect to it
+PROTOCOLS = ("tls", "quic")  # those that carry certificates
+ENDPOINT = re.compile(rf"({'|'.join(PROTOCOLS)})/(\[[0-9a-fA-F:.]+\]|[A-Za-z0-9.-]+):(\d{{1,5}})")
+AUTHORITY = "ca"
+SECRET, PUBLIC = 0o600, 0o644
+
+
+class KeysError(Exception):
+    """No keys were made."""
+
+
+class KeysExist(KeysError):
+    """There are keys in the folder, which are not overwritten."""
+
+
+class NotOnlyKeys(KeysError):
+    """The folder holds other things, which are not deleted."""
+
+
+class BadEndpoint(KeysError):
+    """Nothing to listen at or to connect to with certificates."""
+
+
+class KeysNotKept(KeysError):
+    """The folder cannot be written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """What keys are made for."""
+
+    members: tuple[Member, ...]
+    hosts: tuple[str, ...]  # under which the hub is connected to
+    listen: str  # endpoint of the hub
+    connect: str  # the same, as the others see it
+    valid: timedelta
+
+
+def wanted(
+    hosts: Iterable[str] = (),
+    listen: str | None = None,
+    connect: str | None = None,
+    passengers: Iterable[str] = (),
+    vehicles: Iterable[str] = (),
+    days: int = 365,
+) -> Wanted:
+    """What keys are made for: every role once, and the named ones.
+
+    Raises:
+        BadName: nobody can be called so.
+        BadEndpoint: one cannot be used.
+    """
+    hosts, listen = tuple(hosts), listen or LISTEN
+    at = _host(listen)
+    if connect is None:
+        connect = listen
+        if at in ANYWHERE:
+            if not hosts:
+                raise BadEndpoint(
+                    f"{listen} is every address of this machine; name with --host or --connect"
+                    " the one that others connect to"
+                )
+            first = f"[{hosts[0]}]" if ":" in hosts[0] else hosts[0]
+            connect = f"{listen.partition('/')[0]}/{first}:{listen.rpartition(':')[2]}"
+    known = (*LOOPBACK, *hosts, *(host for host in (at, _host(connect)) if host not in ANYWHERE))
+    named = (
+        *(member("passenger", name) for name in passengers),
+        *(member("car", name) for name in vehicles),
+    )
+    members = tuple(dict.fromkeys((*(member(role) for role in ROLES), *named)))
+    return Wanted(members, tuple(dict.fromkeys(known)), listen, connect, timedelta(days=days))
+
+
+def _host(endpoint: str) -> str:
+    found = ENDPOINT.fullmatch(endpoint)
+    if found is None or not 0 < int(found[3]) < 2**16:
+        raise BadEndpoint(
+            f"{endpoint!r} is no endpoint for certificates, such as tls/127.0.0.1:7447"
+        )
+    return found[2].strip("[]")
+
+
+def material(order: Wanted, folder: Path, now: datetime) -> dict[str, bytes]:
+    """The files of a folder of keys, by their names.
+
+    Args:
+        order: what they are for.
+        folder: where they will be; absolute.
+        now: from when on they are valid; with a zone.
+
+    Raises:
+        BadHost: one of the hosts is neither a name nor an address.
+    """
+    authority = Authority.new(now, order.valid)
+    files = _files(AUTHORITY, authority.identity)
+    for one in order.members:
+        name, hub = one.common_name, one.role == HUB
+        files |= _files(name, authority.issue(name, order.hosts if hub else (), now))
+        text = json.dumps(configuration(one, order, folder), indent=2)
+        files[f"{name}.json5"] = (
+            f"// Zenoh configuration of {name}, by `xavi keys`.\n{text}\n".encode()
+        )
+    return files
+
+
+def _files(name: str, identity: Identity) -> dict[str, bytes]:
+    return {f"{name}.pem": identity.certificate, f"{name}.key": identity.key}
+
+
+def configuration(one: Member, order: Wanted, folder: Path) -> dict[str, Json]:
+    """The Zenoh configuration of a member: of the hub, or of one of its clients."""
+    name, hub = one.common_name, one.role == HUB
+    link: dict[str, object] = {
+        "root_ca_certificate": str(folder / f"{AUTHORITY}.pem"),
+        "connect_certificate": str(folder / f"{name}.pem"),
+        "connect_private_key": str(folder / f"{name}.key"),
+        "enable_mtls": True,
+        "verify_name_on_connect": True,
+        "close_link_on_expiration": True,
+    }
+    settings: dict[str, object] = {
+        **SAFE,
+        "mode": "peer" if hub else "client",
+        "listen/endpoints": [order.listen] if hub else [],
+        "connect/endpoints": [] if hub else [order.connect],
+        "transport/link/protocols": list(PROTOCOLS),
+        "transport/link/tls": link,
+    }
+    if hub:
+        link["listen_certificate"] = link["connect_certificate"]
+        link["listen_private_key"] = link["connect_private_key"]
+        settings["access_control"] = access_control(order.members)
+    return _nested(settings)
+
+
+def _nested(settings: Mapping[str, object]) -> dict[str, Json]:
+    """Settings by their paths, as the tree that a file holds."""
+    tree: dict[str, Json] = {}
+    for path, value in settings.items():
+        *parents, last = path.split("/")
+        place = tree
+        for parent in parents:
+            inner = place.setdefault(parent, {})
+            assert isinstance(inner, dict)
+            place = inner
+        place[last] = value  # type: ignore[assignment]  # what JSON can hold
+    return tree
+
+
+def keep(files: Mapping[str, bytes], folder: Path, *, force: bool = False) -> None:
+    """Write a folder of keys: all of it, or nothing.
+
+    Args:
+        files: by their names; those that end in `.key` are secret.
+        folder: where to; absolute.
+        force: replaces keys that are there.
+
+    Raises:
+        KeysExist: there are some, and `force` is not set.
+        NotOnlyKeys: the folder holds other things, so that it is not replaced.
+        KeysNotKept: it cannot be written.
+    """
+    try:
+        _check(folder, force)
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        place = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))  # 0700
+        try:
+            for name, data in files.items():
+                mode = SECRET if name.endswith(".key") else PUBLIC
+                flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+                with os.fdopen(os.open(place / name, flags, mode), "wb") as file:
+                    file.write(data)
+            _swap(place, folder)
+        finally:
+            shutil.rmtree(place, ignore_errors=True)
+    except OSError as error:
+        raise KeysNotKept(f"the keys cannot be kept in {folder}: {error.strerror}") from error
+
+
+def _check(folder: Path, force: bool) -> None:
+    if not folder.exists():
+        return
+    there = sorted(path.name for path in folder.iterdir())
+    foreign = [name for name in there if not _is_ours(name)]
+    if foreign:
+        raise NotOnlyKeys(
+            f"{folder} holds other things, such as {foreign[0]}; name a folder for keys alone"
+        )
+    if there and not force:
+        raise KeysExist(
+            f"there are keys in {folder}; with --force all of them are replaced,"
+            " and whoever has one of the old ones is shut out"
+        )
+
+
+def _is_ours(name: str) -> bool:
+    stem, _, ending = name.rpartition(".")
+    role = stem.partition(".")[0]
+    return ending in ("pem", "key", "json5") and (role in ROLES or stem == AUTHORITY)
+
+
+def _swap(place: Path, folder: Path) -> None:
+    """Put a folder in place of another; `place` then holds what was there."""
+    if not folder.exists() or not any(folder.iterdir()):
+        place.replace(folder)  # an empty folder may be replaced
+        return
+    aside = place.with_name(f"{place.name}.old")
+    folder.rename(aside)
+    try:
+        place.rename(folder)
+    except OSError:
+        aside.rename(folder)
+        raise
+    shutil.rmtree(aside, ignore_errors=True)

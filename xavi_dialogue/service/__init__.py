@@ -1,0 +1,1 @@
+"""The dialogue service: requests of passengers, scheduled and answered."""

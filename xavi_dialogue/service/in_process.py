@@ -1,0 +1,126 @@
+"""Talking about a ride within one process: no bus, and planning again when asked to."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+import msgspec
+
+from planner.counterfactuals.whatif import WhatIfError, replan
+from planner.record.trace import PlanTrace, WhatIf
+from sim.roads.network import Network
+from xavi_dialogue.dialogue.events import (
+    Answered,
+    Asked,
+    EventRecorded,
+    Input,
+    Output,
+    RideEnded,
+    RolloutsArrived,
+    RolloutsFailed,
+    RolloutsWanted,
+    SceneSeen,
+    TraceRecorded,
+)
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.recollection import Recollection
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.nlg.say import say
+from xavi_dialogue.nlu.interpret import interpret
+from xavi_dialogue.vehicle.episode import Moment, clock, halts
+
+SESSION = "passenger"
+
+#: May raise WhatIfError or NoPlan.
+Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]
+
+
+class NoPlan(Exception):
+    """A plan cannot be had; the reason is the one the passenger is given."""
+
+    def __init__(self, reason: Reason) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+def make_mind() -> Mind:
+    """Make the mind of our parser, our explanations and our words."""
+    known = Recollection()
+    return Mind(read=interpret, ground=known.ground, explain=known.explain, say=say, see=known.see)
+
+
+def planner_for(network: Network) -> Replan:
+    """Plans again on a network."""
+
+    def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+        return replan(trace, network, msgspec.convert(msgspec.to_builtins(need), WhatIf))
+
+    return again
+
+
+@dataclass
+class Conversation:
+    """One passenger's conversation about a ride that is recorded as far as is asked about."""
+
+    mind: Mind
+    again: Replan
+    dialogue: Dialogue = field(default_factory=Dialogue)
+    asked: int = 0
+
+    def record(self, moment: Moment) -> None:
+        """Take down one moment of the ride."""
+        if moment.trace is not None:
+            self._tell(TraceRecorded(moment.trace))
+        for event in moment.events:
+            self._tell(EventRecorded(event))
+        seen = replace(moment.scene, time=clock(moment))
+        self._tell(SceneSeen(seen))
+        if moment.ending is not None:
+            self._tell(RideEnded(clock(moment)))
+
+    def ask(self, text: str, at: float, style: Style = "passenger") -> Reply:
+        """The reply to a question asked at a moment [s] of the ride."""
+        self.asked += 1
+        request = str(self.asked)
+        output = self._tell(Asked(request, SESSION, text, at, style))
+        while isinstance(output, RolloutsWanted):
+            output = self._tell(self._plan_again(request, output.need))
+        assert isinstance(output, Answered)
+        return output.reply
+
+    def _plan_again(self, request: str, need: NeedRollout) -> RolloutsArrived | RolloutsFailed:
+        known = (trace for trace in self.dialogue.traces if trace.trace_id == need.trace_id)
+        try:
+            return RolloutsArrived(request, SESSION, self.again(next(known), need))
+        except (StopIteration, WhatIfError):
+            return RolloutsFailed(request, SESSION, "planner-failed")
+        except NoPlan as none:
+            return RolloutsFailed(request, SESSION, none.reason)
+
+    def _tell(self, event: Input) -> Output | None:
+        self.dialogue, outputs = advance(self.mind, self.dialogue, event)
+        return outputs[0] if outputs else None
+
+
+def drive_to(ride: Iterable[Moment], conversation: Conversation, until: float | None) -> float:
+    """Drive and record up to a moment.
+
+    Args:
+        ride: the moments to come.
+        conversation: takes down the record.
+        until: [s]; None stands for the end of the first lane change or turn.
+
+    Returns:
+        The time [s] reached: `until`, or where the ride ended before.
+    """
+    time = 0.0
+    for moment in ride:
+        conversation.record(moment)
+        time = clock(moment)
+        if halts(until, time, conversation.dialogue.events):
+            return time if until is None else until
+    return time

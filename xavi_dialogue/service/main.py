@@ -1,0 +1,66 @@
+"""`xavi serve`: the dialogue service as a process, host of the hub."""
+
+import gc
+import queue
+import sys
+from collections.abc import Callable
+from functools import partial
+
+from xavi_dialogue.bus.link import Link
+from xavi_dialogue.bus.zenoh_bus import host
+from xavi_dialogue.dialogue.events import Asked
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.nlg.surface.realiser import grammar
+from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.server import Service
+from xavi_dialogue.storage.turn_log import Memory
+
+
+def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled: bool) -> None:
+    """Serve until told to stop.
+
+    Args:
+        link: of the hub.
+        memory: keeps what is said.
+        note: takes notes on what goes on.
+        controlled: by orders on standard input.
+
+    Raises:
+        EndpointTaken: an endpoint is in use.
+        BadLink: the link's configuration cannot be used.
+    """
+    orders: control.Orders = queue.SimpleQueue()
+    control.quit_on_signals(orders)
+    if controlled:
+        control.listen(sys.stdin, orders)
+    mind = make_mind()
+    _warm(mind)
+    with host(link) as bus:
+        service = Service(bus, mind, memory)
+        service.open()
+        note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
+        service.run(partial(_told_to_quit, orders))
+    memory.close()
+
+
+def _told_to_quit(orders: control.Orders) -> bool:
+    """Whether it was; and then it remains so."""
+    while not orders.empty():
+        if isinstance(orders.get(), control.Quit):
+            orders.put(control.Quit())
+            return True
+    return False
+
+
+def _warm(mind: Mind) -> None:
+    """Have parser and sentences read their grammars, so that the first passenger need not wait.
+
+    What is loaded then stays, and need not be gone through whenever memory is tidied up.
+    """
+    grammar()
+    advance(mind, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))
+    gc.collect()
+    gc.freeze()

@@ -1,0 +1,69 @@
+"""Questions on a desk, and what a desk wants done: values, handed out and carried out elsewhere."""
+
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from xavi_dialogue.bus.interface import Call
+from xavi_dialogue.bus.messages import AskRequest
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.domain.answers import NeedRollout
+
+Name: TypeAlias = tuple[str, str]  # session, request
+
+MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
+
+
+@dataclass(eq=False)
+class Question:
+    """A question that has not been answered."""
+
+    call: Call
+    asked: AskRequest
+    came: float  # [s] on the shell's clock
+    again: list[Call] = field(default_factory=list)  # the same request, come once more
+    begun: bool = False  # the manager has it
+    ready: bool = False  # it waits for its turn alone
+
+    @property
+    def name(self) -> Name:
+        """What it is known by: others may give their requests the same names."""
+        return self.asked.session, self.asked.request
+
+    @property
+    def calls(self) -> tuple[Call, ...]:
+        """All that wait for the reply."""
+        return self.call, *self.again
+
+    def drop(self) -> None:
+        """Leave it without a reply."""
+        for call in self.calls:
+            call.drop()
+
+    @property
+    def deadline(self) -> float:
+        """When it is given up [s] on the shell's clock."""
+        allowed = self.asked.deadline_ms / 1000.0
+        return self.came + max(allowed - MARGIN, 0.5 * allowed)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A reply to be sent, after its turn has been kept."""
+
+    question: Question
+    reply: Reply
+    turn: Turn | None
+
+
+@dataclass(frozen=True)
+class PlanAgain:
+    """A request to be sent to the car."""
+
+    need: NeedRollout
+    deadline: float  # [s] on the shell's clock, of the first question that needs it
+    request: str = "ahead"  # its name; or nobody has asked yet
+    session: str | None = None
+
+
+Errand: TypeAlias = Answer | PlanAgain

@@ -1,0 +1,201 @@
+"""What leaves the service: replies, shared turns, and requests to cars; none is waited for."""
+
+import logging
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+import msgspec
+
+from planner.record import trace as plan_trace
+from planner.record.trace import PlanTrace, TraceError
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import (
+    DEFAULT_VEHICLE,
+    Bus,
+    BusError,
+    Keys,
+    NobodyThere,
+    Outcome,
+    Refused,
+    TooLate,
+    vehicle_in,
+)
+from xavi_dialogue.bus.messages import (
+    AskReply,
+    AskRequest,
+    Failure,
+    MessageError,
+    PastTurn,
+    TurnReport,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.service.ownership import Owners
+from xavi_dialogue.service.requests import Answer, PlanAgain
+from xavi_dialogue.service.vehicle_session import Desk
+from xavi_dialogue.storage.conversations import RideName
+from xavi_dialogue.storage.turn_log import Memory
+
+_LOG = logging.getLogger(__name__)
+MAX_SENT = 500  # replies that can be repeated
+AGAIN = 30.0  # [s] for which a request that comes again is the same one
+#: Reasons that may be gone when the same is asked again.
+PASSING = frozenset[Reason | None](("busy", "planner-failed", "planner-unavailable", "timed-out"))
+
+
+@dataclass
+class Dispatch:
+    """Sends what the desks want sent."""
+
+    bus: Bus
+    owners: Owners
+    memory: Memory
+    alive: Alive
+    replies: int = 0  # so far
+    shared: int = 0  # turns
+    #: What was answered with what, and when [s], by session and request.
+    sent: dict[tuple[str, str], tuple[AskRequest, bytes, float]] = field(default_factory=dict)
+
+    def next(self) -> int:
+        """The sequence number of a reply."""
+        self.replies += 1
+        return self.replies - 1
+
+    def answer(self, desk: Desk, answer: Answer) -> None:
+        """Keep the turn, then send the reply, and share it where the passenger allows."""
+        question, asked = answer.question, answer.question.asked
+        if answer.turn is not None:
+            owner = self.owners.known.get(asked.session)
+            name = named(desk.vehicle, asked.request)
+            self.memory.keep(asked.session, ride_of(desk), time.time(), answer.turn, owner, name)
+        taken = round((time.monotonic() - question.came) * 1000.0, 3)
+        payload = self._packed(asked, answer.reply, taken)
+        if answer.reply.reason not in PASSING:
+            key = (asked.session, named(desk.vehicle, asked.request))
+            self.sent[key] = (asked, payload, time.monotonic())
+        while len(self.sent) > MAX_SENT:
+            del self.sent[next(iter(self.sent))]
+        for call in question.calls:
+            with suppress(BusError):  # who asked is gone
+                call.reply(payload)
+        self._count(answer, taken)
+        if asked.share:
+            self._share(answer)
+
+    def repeat(self, vehicle: str, asked: AskRequest) -> bytes | None:
+        """The reply to a request that was answered not long ago; None where it was not.
+
+        Messages may come twice, and who missed a reply asks again under the same name.
+        """
+        name = named(vehicle, asked.request)
+        before = self.sent.get((asked.session, name))
+        if before is not None:
+            told, payload, at = before
+            fresh = time.monotonic() - at < AGAIN
+            return payload if told == asked and fresh else None
+        turn = self.memory.answered(asked.session, name, time.time() - AGAIN)
+        if turn is None or turn.text != asked.text or turn.reply.reason in PASSING:
+            return None
+        if asked.at is not None and abs(turn.reply.sim_time - asked.at) > EPSILON:
+            return None
+        return self._packed(asked, turn.reply, turn.reply.timing_ms)
+
+    def forget(self, session: str) -> None:
+        """Repeat nothing of a session any more."""
+        for key in [key for key in self.sent if key[0] == session]:
+            del self.sent[key]
+
+    def _packed(self, asked: AskRequest, reply: Reply, taken: float | None) -> bytes:
+        fields = msgspec.structs.asdict(reply) | {"timing_ms": taken}
+        return pack(
+            AskReply(**fields, request=asked.request, seq=self.next(), wall_time=time.time())
+        )
+
+    def _count(self, answer: Answer, taken: float) -> None:
+        reply, asked = answer.reply, answer.question.asked
+        self.alive.count("questions")
+        self.alive.count("answered" if reply.kind == "answer" else "declined")
+        self.alive.count("busy", reply.reason == "busy")
+        known = {
+            "vehicle": vehicle_in(answer.question.call.key),
+            "session": asked.session,
+            "request": asked.request,
+            "trace_id": reply.trace_id,
+            "kind": reply.kind,
+            "reason": reply.reason,
+            "duration_ms": taken,
+        }
+        _LOG.info("a question was answered", extra=known)
+
+    def _share(self, answer: Answer) -> None:
+        """Let others read a turn, as the passenger allows."""
+        asked, reply = answer.question.asked, answer.reply
+        vehicle = vehicle_in(answer.question.call.key)
+        assert vehicle is not None
+        report = TurnReport(
+            session=asked.session,
+            seq=self.shared,
+            sim_time=reply.sim_time,
+            wall_time=time.time(),
+            turn=PastTurn(asked.text, reply),
+        )
+        self.shared += 1
+        key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
+        with suppress(BusError):  # nobody reads it
+            self.bus.send(key, pack(report))
+
+    def plan_again(self, vehicle: str, errand: PlanAgain, done: Callable[[Outcome], None]) -> None:
+        """Have a car plan again; `done` gets what comes of it, on a thread of the bus."""
+        remaining = max(errand.deadline - time.monotonic(), 0.001)
+        fields = msgspec.structs.asdict(errand.need)
+        wanted = WhatIfRequest(
+            **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
+            request=errand.request,
+            deadline_ms=remaining * 1000.0,
+        )
+        self.alive.count("what_ifs")
+        known = {"vehicle": vehicle, "session": errand.session, "request": errand.request}
+        _LOG.info("a what-if is asked for", extra={**known, "trace_id": errand.need.trace_id})
+        self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
+
+
+def named(vehicle: str, name: str) -> str:
+    """A name that is a car's own: others may use the same."""
+    return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"
+
+
+def ride_of(desk: Desk) -> RideName | None:
+    """The ride that is heard of."""
+    ledger = desk.ledger
+    if ledger is None:
+        return None
+    scene, name = ledger.scene, named(desk.vehicle, ledger.ride)
+    if scene is None:
+        return RideName(name)
+    return RideName(name, scene.scenario, scene.seed)
+
+
+def planned(outcome: Outcome) -> PlanTrace | Reason:
+    """What the car sent back, or why there is nothing."""
+    match outcome:
+        case bytes():
+            try:
+                return plan_trace.decode(outcome)
+            except TraceError:
+                return "planner-failed"
+        case Refused(payload=payload):
+            try:
+                return unpack(payload, Failure).reason
+            except MessageError:
+                return "planner-failed"
+        case NobodyThere():
+            return "planner-unavailable"
+        case TooLate():
+            return "timed-out"
+    return "planner-unavailable"

@@ -1,0 +1,77 @@
+"""The questions that are open at a desk: in which order they have their turn, and until when."""
+
+import heapq
+from dataclasses import dataclass, field
+
+from xavi_dialogue.service.fair_queue import FairQueue
+from xavi_dialogue.service.requests import Name, Question
+
+SPENT = 200  # questions that are over and still in the heap, before it is made anew
+
+
+@dataclass
+class Waiting:
+    """Open questions, by the sessions and names of their requests."""
+
+    open: dict[Name, Question] = field(default_factory=dict)  # in the order in which they came
+    _turns: FairQueue[Question] = field(default_factory=FairQueue)  # those that are ready
+    _deadlines: list[tuple[float, int, Question]] = field(default_factory=list)  # a heap
+    _taken: int = 0
+
+    def take(self, question: Question) -> None:
+        """Add a question, which waits for the record."""
+        self.open[question.name] = question
+        if len(self._deadlines) > len(self.open) + SPENT:
+            self._deadlines = [one for one in self._deadlines if self.has(one[2])]
+            heapq.heapify(self._deadlines)
+        self._taken += 1
+        heapq.heappush(self._deadlines, (question.deadline, self._taken, question))
+
+    def has(self, question: Question) -> bool:
+        """Whether it is still open."""
+        return self.open.get(question.name) is question
+
+    def of(self, session: str) -> list[Question]:
+        """The open questions of a session, oldest first."""
+        return [one for one in self.open.values() if one.asked.session == session]
+
+    def let_wait(self, question: Question) -> None:
+        """From now on it waits for its turn alone."""
+        question.ready = True
+        self._turns.put(question.asked.session, question)
+
+    def next_turn(self) -> Question | None:
+        """The question whose turn it is; it waits no longer. None: nobody waits for a turn."""
+        while self._turns:
+            question = self._turns.pop()
+            if self.has(question) and question.ready and not question.begun:
+                return question
+        return None
+
+    @property
+    def ready(self) -> int:
+        """How many questions wait for nothing but their turn."""
+        return len(self._turns)
+
+    def overdue(self, now: float) -> Question | None:
+        """A question whose time is up, each once; None where there is none.
+
+        Args:
+            now: [s] on the shell's clock.
+        """
+        deadline = self.next_deadline()
+        if deadline is None or deadline > now:
+            return None
+        return heapq.heappop(self._deadlines)[2]
+
+    def next_deadline(self) -> float | None:
+        """When the next question is given up [s] on the shell's clock."""
+        while self._deadlines and not self.has(self._deadlines[0][2]):
+            heapq.heappop(self._deadlines)
+        return self._deadlines[0][0] if self._deadlines else None
+
+    def begin_anew(self) -> None:
+        """Have every question wait for the record again."""
+        self._turns.clear()
+        for question in self.open.values():
+            question.begun = question.ready = False

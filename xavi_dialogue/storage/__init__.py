@@ -1,0 +1,1 @@
+"""Files: conversations, typed lines, recordings, rides."""

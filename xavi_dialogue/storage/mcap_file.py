@@ -1,0 +1,335 @@
+"""Recordings as MCAP files (https://mcap.dev/spec): the only place that knows the format.
+
+What has been written is whole at any time: behind the latest chunk stands an end without an
+index, which the next chunk overwrites. So a recorder that is killed leaves a file that can be
+opened. When it is closed the file gets its index.
+"""
+
+import errno
+import os
+import stat
+import struct
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+import msgspec
+import zstandard
+from mcap.data_stream import RecordBuilder
+from mcap.exceptions import EndOfFile, McapError
+from mcap.records import Attachment, Channel, Chunk, DataEnd, Footer, Header, McapRecord, Message
+from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
+
+from xavi_dialogue.bus.messages import schema_name
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.storage.recording_format import (
+    MIB,
+    PROFILE,
+    Attached,
+    Broken,
+    Entry,
+    FileThere,
+    NotARecording,
+    Piece,
+    Unwritable,
+    kind_of,
+    schema_to_view,
+)
+
+CHUNK = MIB  # bytes of messages that are compressed together, at most
+MAX_RECORD = 64 * MIB  # bytes of any part that is read, also when unpacked
+MAX_CHANNELS = 1000
+MAX_KEY = 512  # characters
+MAX_TIME = 2**63 - 1  # [ns] that every reader takes
+MAX_SEQUENCE = 2**32 - 1
+GZIP = "application/gzip"
+
+
+def _ending() -> bytes:
+    """The end of a file without an index."""
+    builder = RecordBuilder()
+    DataEnd(0).write(builder)
+    Footer(0, 0, 0).write(builder)
+    return bytes(builder.end()) + MCAP0_MAGIC  # type: ignore[no-untyped-call]
+
+
+ENDING = _ending()
+
+
+class _Spool(BytesIO):
+    """What the writer wrote and the file has not got yet; places count from the file's start."""
+
+    taken = 0
+
+    def tell(self) -> int:
+        return self.taken + super().tell()
+
+    def take(self) -> bytes:
+        """All of it; it is gone from here."""
+        data = self.getvalue()
+        self.taken += len(data)
+        self.seek(0)
+        self.truncate()
+        return data
+
+
+class McapWriter:
+    """Writes a recording."""
+
+    def __init__(self, path: Path, version: str, *, overwrite: bool = False) -> None:
+        """Create the file; only its owner may read it.
+
+        Args:
+            path: of the file.
+            version: of the program.
+            overwrite: a file that is there.
+
+        Raises:
+            FileThere: there is a file, and it shall not be overwritten.
+            Unwritable: the file cannot be created.
+        """
+        self.size = 0  # bytes of the file, its end aside
+        self.messages = 0
+        self._path = path
+        try:
+            self._file = _made(path, overwrite)
+        except FileExistsError:
+            raise FileThere(f"{path} is there already; --force overwrites it") from None
+        except OSError as error:
+            raise Unwritable(f"cannot write {path}: {error.strerror}") from error
+        self._open = True
+        self._spool = _Spool()
+        self._writer = Writer(self._spool, CHUNK, CompressionType.ZSTD)
+        self._writer.start(PROFILE, f"xavi-dialogue {version}")
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self.flush()
+
+    def add(self, entry: Entry) -> bool:
+        """Take a message; whether there was room for another key.
+
+        Raises:
+            ValueError: messages of this key are not recorded.
+        """
+        channel = self._channels.get(entry.key)
+        if channel is None:
+            if len(self._channels) >= MAX_CHANNELS:
+                return False
+            channel = self._channel(entry.key)
+        self._writer.add_message(
+            channel,
+            _within(entry.logged, MAX_TIME),
+            entry.payload,
+            _within(entry.published, MAX_TIME),
+            _within(entry.seq, MAX_SEQUENCE),
+        )
+        self.messages += 1
+        return True
+
+    def attach(self, name: str, data: bytes, now: int) -> None:
+        """Add a gzipped file; `now` is in nanoseconds since 1970."""
+        self._writer.add_attachment(0, _within(now, MAX_TIME), name, GZIP, data)
+
+    def describe(self, name: str, facts: Mapping[str, str]) -> None:
+        """Add facts under a name."""
+        self._writer.add_metadata(name, dict(facts))
+
+    def flush(self) -> None:
+        """Write what there is; the file can be read then.
+
+        Raises:
+            Unwritable: the disk is full, or fails; what was written before can be read.
+        """
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        data = self._spool.take()
+        if data:
+            self._write(data, ENDING)
+
+    def close(self) -> None:
+        """Write the rest and the index; a second time does nothing.
+
+        Raises:
+            Unwritable: see `flush`.
+        """
+        if self._open:
+            self._writer.finish()  # type: ignore[no-untyped-call]
+            self._write(self._spool.take(), b"")
+            self._shut()
+
+    def _channel(self, key: str) -> int:
+        kind = kind_of(key)
+        if kind is None:
+            raise ValueError(f"{key} is not recorded")
+        name = schema_name(kind)
+        if name not in self._schemas:
+            document = msgspec.json.encode(schema_to_view(kind))
+            self._schemas[name] = self._writer.register_schema(name, "jsonschema", document)
+        self._channels[key] = self._writer.register_channel(key, "json", self._schemas[name])
+        return self._channels[key]
+
+    def _write(self, data: bytes, ending: bytes) -> None:
+        try:
+            _write_at(self._file, self.size, data + ending)
+        except OSError as error:
+            with suppress(OSError):
+                os.ftruncate(self._file, self.size)
+                _write_at(self._file, self.size, ENDING)
+            self._shut()
+            raise Unwritable(
+                f"cannot write {self._path} any further: {error.strerror};"
+                f" what was recorded up to then is in it"
+            ) from error
+        self.size += len(data)
+
+    def _shut(self) -> None:
+        self._open = False
+        os.close(self._file)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _within(number: int, limit: int) -> int:
+    return min(max(number, 0), limit)
+
+
+def _made(path: Path, overwrite: bool) -> int:
+    """An empty file, readable by its owner alone.
+
+    Raises:
+        OSError: there is one already, or it cannot be made.
+    """
+    # What is no file would have to be waited for, for a reader.
+    flags = os.O_CREAT | os.O_WRONLY | os.O_NONBLOCK | (0 if overwrite else os.O_EXCL)
+    file = os.open(path, flags, 0o600)
+    try:
+        if not stat.S_ISREG(os.fstat(file).st_mode):
+            raise OSError(errno.EINVAL, "it is no file")
+        os.fchmod(file, 0o600)
+        os.ftruncate(file, 0)
+    except OSError:
+        os.close(file)
+        raise
+    return file
+
+
+def _write_at(file: int, place: int, data: bytes) -> None:
+    view = memoryview(data)
+    while view:
+        written = os.pwrite(file, view, place)
+        place, view = place + written, view[written:]
+
+
+class _Capped:
+    """A file of which no more is read at once than a record may have."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file = file
+
+    def read(self, size: int) -> bytes:
+        if not 0 <= size <= MAX_RECORD:
+            raise McapError(f"a part of {size} bytes")
+        data = self._file.read(size)
+        if len(data) < size:
+            raise EndOfFile
+        return data
+
+
+def read(path: Path) -> Iterator[Piece]:
+    """What a recording holds, in the order in which it was written; whatever is whole of it.
+
+    Raises:
+        NotARecording: it cannot be opened, or is none of ours.
+    """
+    try:
+        with path.open("rb") as file:
+            if file.read(len(MCAP0_MAGIC)) != MCAP0_MAGIC:
+                raise NotARecording(f"{path} is not an MCAP file")
+            file.seek(0)
+            source: Any = _Capped(file)
+            records = StreamReader(source, emit_chunks=True, record_size_limit=MAX_RECORD).records
+            _check_header(path, records)
+            yield from _pieces(records)
+    except OSError as error:
+        raise NotARecording(f"cannot read {path}: {error.strerror}") from error
+
+
+_DAMAGE = (McapError, struct.error, ValueError, OverflowError, zstandard.ZstdError)
+
+
+def _check_header(path: Path, records: Iterator[McapRecord]) -> None:
+    try:
+        header = next(records)
+    except _DAMAGE as error:
+        raise NotARecording(f"{path} is damaged at its beginning") from error
+    if not isinstance(header, Header):
+        raise NotARecording(f"{path} is damaged: it begins without a header")
+    if header.profile != PROFILE:
+        profile = one_line(header.profile)[:64]
+        raise NotARecording(f"{path} was not recorded by xavi: its profile is {profile!r}")
+
+
+def _pieces(records: Iterator[McapRecord]) -> Iterator[Piece]:
+    keys: dict[int, str] = {}
+    ended = False
+    try:
+        for outer in records:
+            ended = ended or isinstance(outer, DataEnd)
+            if ended:
+                continue  # what comes now are copies, for those who jump
+            for record in _inner(outer):
+                match record:
+                    case Channel(id=number, topic=topic):
+                        keys[number] = topic[:MAX_KEY]
+                    case Message():
+                        yield _entry(record, keys)
+                    case Attachment(name=name, data=data):
+                        yield Attached(name, data)
+    except EndOfFile:
+        yield Broken("it was cut off while it was written")
+    except _DAMAGE as error:
+        yield Broken(f"it is damaged: {one_line(str(error)) or type(error).__name__}")
+
+
+def _inner(record: McapRecord) -> list[McapRecord]:
+    return _unpacked(record) if isinstance(record, Chunk) else [record]
+
+
+def _entry(message: Message, keys: Mapping[int, str]) -> Entry:
+    key = keys.get(message.channel_id)
+    if key is None:
+        raise McapError(f"a message of channel {message.channel_id}, which there is not")
+    return Entry(key, message.data, message.sequence, message.publish_time, message.log_time)
+
+
+def _unpacked(chunk: Chunk) -> list[McapRecord]:
+    """The records in a chunk; it takes no more memory than it says, and that is capped.
+
+    Raises:
+        McapError: it is too large, packed otherwise, or not what it says.
+    """
+    size = chunk.uncompressed_size
+    if size > MAX_RECORD:
+        raise McapError(f"a chunk of {size} bytes")
+    data = chunk.data
+    if chunk.compression == "zstd":
+        inflater = zstandard.ZstdDecompressor(max_window_size=MAX_RECORD)
+        data = inflater.stream_reader(data).read(size + 1)
+    elif chunk.compression:
+        raise McapError(f"a chunk packed by {one_line(chunk.compression)[:64]!r}")
+    if len(data) != size:
+        raise McapError("a chunk of another size than it says")
+    return breakup_chunk(replace(chunk, compression="", data=data), validate_crc=True)

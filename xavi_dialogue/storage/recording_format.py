@@ -1,0 +1,340 @@
+"""What a recording holds: which messages, under which schemas, and the ride that they make up.
+
+RecordingError
+├── NotARecording   no MCAP file, or not one of ours
+├── NothingToPlay   no ride in it that can be played
+├── TooMuch         more than can be held while it is played
+├── FileThere       a file of this name is there already
+└── Unwritable      the file cannot be written, or not any further
+"""
+
+import zlib
+from bisect import bisect_left
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import msgspec
+
+from planner.record import trace as plan_trace
+from planner.record.events import Event
+from sim.scene import EGO
+from xavi_dialogue.bus.interface import matches, vehicle_in
+from xavi_dialogue.bus.messages import (
+    EventReport,
+    MessageError,
+    Report,
+    SceneReport,
+    TraceReport,
+    TurnReport,
+    schema_name,
+    unpack,
+)
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.bus.schema import schema_of
+
+PROFILE = "xavi"
+NETWORK_ENDING = ".net.xml.gz"
+MIB = 1024 * 1024
+MAX_NETWORK = 64 * MIB  # bytes of a road network, unpacked
+MAX_PACKED = 8 * MIB  # and packed
+MAX_TAPE = 512 * MIB  # bytes of one car's messages that are held while they are played
+OVERHEAD = 512  # bytes that holding a message takes besides
+EPSILON = 1e-6  # [s]
+
+#: What is recorded, by the end of its key.
+RECORDED: Mapping[str, type[Report | TurnReport]] = {
+    "scene": SceneReport,
+    "trace": TraceReport,
+    "event": EventReport,
+    "dialogue/*/turn": TurnReport,
+}
+
+
+class RecordingError(Exception):
+    """A recording cannot be written, read or played."""
+
+
+class NotARecording(RecordingError):
+    """No MCAP file, or not one of ours."""
+
+
+class NothingToPlay(RecordingError):
+    """No ride in it that can be played."""
+
+
+class TooMuch(RecordingError):
+    """More than can be held while it is played."""
+
+
+class FileThere(RecordingError):
+    """A file of this name is there already."""
+
+
+class Unwritable(RecordingError):
+    """The file cannot be written, or not any further."""
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One message as it was heard."""
+
+    key: str
+    payload: bytes
+    seq: int
+    published: int  # [ns since 1970] by the clock of who sent it
+    logged: int  # [ns since 1970] when it came
+
+
+@dataclass(frozen=True, slots=True)
+class Attached:
+    """A file within the recording."""
+
+    name: str
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """The recording ends here, before its proper end; everything before this is whole."""
+
+    why: str
+
+
+Piece: TypeAlias = Entry | Attached | Broken
+
+
+def kind_of(key: str) -> type[Report | TurnReport] | None:
+    """The message that is recorded under a key; None: nothing is."""
+    tail = key.split("/", 3)[-1]
+    return next((kind for end, kind in RECORDED.items() if matches(end, tail)), None)
+
+
+def network_name(vehicle: str, ride: str) -> str:
+    """The name of the file with the roads of a ride."""
+    return f"{vehicle}/{ride}{NETWORK_ENDING}"
+
+
+def unpacked(data: bytes) -> bytes | None:
+    """The road network in a packed file; None where there is none, or it is too large."""
+    inflater = zlib.decompressobj(31)
+    try:
+        text = inflater.decompress(data, MAX_NETWORK)
+    except zlib.error:
+        return None
+    return text if inflater.eof else None
+
+
+def schema_to_view(kind: type[msgspec.Struct]) -> dict[str, Any]:
+    """A JSON Schema of a message that viewers of MCAP files can read.
+
+    They read a field's one `type`, and of lists what all items are. So fields that may be null,
+    and lists within lists, are left undeclared: all messages fit the schema, but so do others.
+    What they are exactly says `schema_of`.
+    """
+    schema = schema_of(kind, schema_name(kind))
+    return {"$schema": schema["$schema"], **(_viewable(schema) or {})}
+
+
+def _viewable(node: Mapping[str, Any]) -> dict[str, Any] | None:
+    """A schema with one type, and with `properties` where that is `object`; None: it has not."""
+    if "const" in node or "enum" in node:
+        values = [node["const"]] if "const" in node else node["enum"]
+        texts = all(isinstance(value, str) for value in values)
+        return {"type": "string", **node} if texts else None
+    match node.get("type"):
+        case "object":
+            declared = {name: _viewable(one) for name, one in node.get("properties", {}).items()}
+            properties = {name: one for name, one in declared.items() if one is not None}
+            return {**node, "properties": properties}
+        case "array":
+            return _viewable_array(node)
+        case "string" | "number" | "integer" | "boolean":
+            return dict(node)
+    return None
+
+
+def _viewable_array(node: Mapping[str, Any]) -> dict[str, Any] | None:
+    one = node.get("items")
+    first = node.get("prefixItems", ())
+    if first and all(item == first[0] for item in first):  # a pair of numbers
+        one = first[0]
+    items = _viewable(one) if isinstance(one, dict) else None
+    if items is None or items["type"] == "array":
+        return None
+    kept = {name: value for name, value in node.items() if name != "prefixItems"}
+    return {**kept, "items": items}
+
+
+@dataclass(frozen=True, slots=True)
+class Tape:
+    """One ride of one car as it was recorded, in order of time."""
+
+    vehicle: str
+    ride: str
+    times: tuple[float, ...]  # [s] of the scenes; each later than the one before
+    scenes: tuple[bytes, ...]  # SceneReports
+    traces: tuple[bytes, ...]  # TraceReports
+    events: tuple[Event, ...]
+    trace_numbers: tuple[int, ...]  # under which the car had sent them; rising
+    event_numbers: tuple[int, ...]
+    networks: tuple[bytes, ...] = ()  # packed; see `unpacked`
+
+    def scene(self, index: int) -> SceneReport:
+        """A scene."""
+        return unpack(self.scenes[index], SceneReport)
+
+    def trace(self, index: int) -> plan_trace.PlanTrace:
+        """A decision."""
+        return unpack(self.traces[index], TraceReport).trace
+
+    @property
+    def first(self) -> str | None:
+        """The id of the ride's first decision; None where there is none at all."""
+        if not self.traces:
+            return None
+        report = unpack(self.traces[0], TraceReport)
+        return report.first or report.trace.trace_id
+
+    def known(self, scene: SceneReport) -> tuple[int, int]:
+        """How many of the traces and events had been sent by the time of a scene."""
+        return (
+            bisect_left(self.trace_numbers, scene.traces),
+            bisect_left(self.event_numbers, scene.events),
+        )
+
+    def index_at(self, time: float) -> int:
+        """The first scene from a moment [s] on; the last one where there is none."""
+        return min(bisect_left(self.times, time - EPSILON), len(self.times) - 1)
+
+    def ends_before(self, time: float) -> bool:
+        """Whether a moment [s] lies beyond the last scene."""
+        return self.times[-1] < time - EPSILON
+
+    @property
+    def finished(self) -> bool:
+        """Whether the ride was over when the recording ended."""
+        return self.scene(len(self.scenes) - 1).state == "ended"
+
+
+@dataclass
+class _Track:
+    """One ride while it is read."""
+
+    scenes: dict[float, bytes] = field(default_factory=dict)
+    traces: dict[int, bytes] = field(default_factory=dict)
+    events: dict[int, Event] = field(default_factory=dict)
+
+
+@dataclass
+class _Reading:
+    """Cars and their rides, in the order in which they were first heard of."""
+
+    tracks: dict[str, dict[str, _Track]] = field(default_factory=dict)
+    networks: dict[str, list[bytes]] = field(default_factory=dict)
+    why: str | None = None  # the recording ends too early
+    size: int = 0  # bytes
+
+    def take(self, piece: Piece, only: str | None) -> None:
+        """Take a piece of the recording in.
+
+        Args:
+            piece: of it.
+            only: the car that matters; None: all do.
+        """
+        match piece:
+            case Entry(key=key):
+                vehicle, kind = vehicle_in(key), kind_of(key)
+                if vehicle is not None and kind in (SceneReport, TraceReport, EventReport):
+                    tracks = self.tracks.setdefault(vehicle, {})
+                    if only in (None, vehicle):
+                        self._count(len(piece.payload))
+                        _add(tracks, piece, kind)
+            case Attached(name, data) if name.endswith(NETWORK_ENDING) and len(data) <= MAX_PACKED:
+                vehicle = name.partition("/")[0]
+                if only in (None, vehicle):
+                    self._count(len(data))
+                    self.networks.setdefault(vehicle, []).append(data)
+            case Broken(why):
+                self.why = why
+
+    def _count(self, size: int) -> None:
+        self.size += size + OVERHEAD
+        if self.size > MAX_TAPE:
+            raise TooMuch(
+                f"it holds more than the {MAX_TAPE // MIB} MiB that can be played;"
+                " record less, or name one car with --car"
+            )
+
+
+def _add(tracks: dict[str, _Track], entry: Entry, kind: Any) -> None:
+    try:
+        report = unpack(entry.payload, kind)
+    except MessageError as error:
+        raise NotARecording(f"{one_line(entry.key)}: {error}") from error
+    track = tracks.setdefault(report.ride, _Track())
+    match report:
+        case SceneReport():
+            if EGO not in report.vehicles:
+                raise NotARecording(f"{one_line(entry.key)}: a scene without the car itself")
+            track.scenes[report.sim_time] = entry.payload
+        case TraceReport():
+            if report.trace.schema not in plan_trace.READABLE:
+                other = one_line(report.trace.schema)[:64]
+                raise NotARecording(f"it holds decisions of the unknown schema {other!r}")
+            track.traces[report.seq] = entry.payload
+        case EventReport():
+            track.events[report.seq] = report.event
+
+
+def tape_of(pieces: Iterable[Piece], vehicle: str | None = None) -> tuple[Tape, str | None]:
+    """The latest ride of a car in a recording.
+
+    Args:
+        pieces: of the recording.
+        vehicle: name of the car; None: the only one there is.
+
+    Returns:
+        The ride, and why the recording ends too early, if it does.
+
+    Raises:
+        NothingToPlay: there is no such ride.
+        NotARecording: a message cannot be read.
+        TooMuch: it is too large.
+    """
+    reading = _Reading()
+    for piece in pieces:
+        reading.take(piece, vehicle)
+    name = _chosen(reading, vehicle)
+    rides = {ride: one for ride, one in reading.tracks[name].items() if one.scenes}
+    if not rides:
+        raise NothingToPlay(f"it holds no scene of {name}")
+    ride, track = list(rides.items())[-1]
+    return _tape(name, ride, track, reading.networks.get(name, ())), reading.why
+
+
+def _chosen(reading: _Reading, vehicle: str | None) -> str:
+    names = tuple(reading.tracks)
+    listed = ", ".join(names)
+    if not names:
+        raise NothingToPlay(f"it holds no ride{f': {reading.why}' if reading.why else ''}")
+    if vehicle is None and len(names) > 1:
+        raise NothingToPlay(f"it holds several cars; name one with --car: {listed}")
+    if vehicle is not None and vehicle not in names:
+        raise NothingToPlay(f"it holds no car {vehicle!r}; there is: {listed}")
+    return vehicle or names[0]
+
+
+def _tape(vehicle: str, ride: str, track: _Track, networks: Sequence[bytes]) -> Tape:
+    times, traces, events = sorted(track.scenes), sorted(track.traces), sorted(track.events)
+    return Tape(
+        vehicle,
+        ride,
+        tuple(times),
+        tuple(track.scenes[time] for time in times),
+        tuple(track.traces[number] for number in traces),
+        tuple(track.events[number] for number in events),
+        tuple(traces),
+        tuple(events),
+        tuple(networks),
+    )

@@ -1,0 +1,89 @@
+"""Going on with a conversation of before: which ride it was about, and how far that had got."""
+
+from dataclasses import dataclass
+from datetime import datetime
+from importlib.resources import files
+from pathlib import Path
+
+from sim.setup.scenario import Scenario
+from xavi_dialogue.nlg.narration import clock
+from xavi_dialogue.storage.conversations import Store
+from xavi_dialogue.storage.rows import Summary
+from xavi_dialogue.storage.turn_log import Keeping
+
+DEFAULT_SCENARIO = "s1"
+
+
+@dataclass(frozen=True)
+class Going:
+    """A conversation, and what is known of it from before."""
+
+    session: str
+    before: Summary | None = None  # None: it begins
+
+    def place(self, asked: str | None) -> str:
+        """The scenario to drive: as asked, else that of before."""
+        known = None if self.before is None else self.before.scenario
+        return asked or known or DEFAULT_SCENARIO
+
+    def seed(self, asked: int | None, scenario: Scenario) -> int:
+        """The seed: as asked, else that of before in the same scenario, else the scenario's."""
+        if asked is not None:
+            return asked
+        before = self.before
+        if before is None or before.seed is None or before.scenario != place_of(scenario):
+            return scenario.seed
+        return before.seed
+
+    def moment(self, scenario: Scenario, seed: int) -> float | None:
+        """How far [s] the ride was when the last question was asked; None of another ride."""
+        before = self.before
+        same = before is not None and (before.scenario, before.seed) == (place_of(scenario), seed)
+        return before.sim_time if before is not None and same else None
+
+    def note(self, at: float | None, keeping: Keeping | None) -> str:
+        """What to tell the passenger.
+
+        Args:
+            at: see `moment`.
+            keeping: what is said.
+        """
+        if keeping is None:
+            return "nothing of this conversation is kept"
+        if self.before is None:
+            return f"this conversation is {self.session}: --session {self.session} goes on with it"
+        turns = f"{self.before.turns} turn{'' if self.before.turns == 1 else 's'}"
+        when = "of another ride" if at is None else f"at {clock(at)}"
+        return f"going on with {self.session}: {turns}, {when}"
+
+
+def find(keeping: Keeping | None, session: str) -> Going:
+    """What is known of a conversation.
+
+    Raises:
+        StoreError: the file cannot be read.
+    """
+    if keeping is None or not keeping.path.exists():
+        return Going(session)
+    with Store(keeping.path) as store:
+        return Going(session, next(iter(store.sessions(session)), None))
+
+
+def fresh(now: datetime, salt: str) -> Going:
+    """A conversation that nobody named, under a name such as 20261121-164210-3f9c.
+
+    Args:
+        now: the time.
+        salt: tells two apart that begin in the same second.
+    """
+    return Going(f"{now:%Y%m%d-%H%M%S}-{salt}")
+
+
+def place_of(scenario: Scenario) -> str | None:
+    """By what a scenario is loaded another time: its name if it is ours, else its place."""
+    ours = Path(str(files("sim"))) / "scenarios" / scenario.name
+    if ours.resolve() == scenario.folder.resolve():
+        return scenario.name
+    place = scenario.place
+    # The name of a folder may be bytes that are no text, which cannot be told to others.
+    return place if place.encode(errors="replace").decode() == place else None

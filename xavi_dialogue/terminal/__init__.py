@@ -1,0 +1,1 @@
+"""The terminal: input line, screen and slash commands."""

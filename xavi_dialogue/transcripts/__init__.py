@@ -1,0 +1,1 @@
+"""Golden conversations: read, replayed, compared and counted."""

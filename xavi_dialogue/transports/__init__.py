@@ -1,1 +1,0 @@
-"""Shells: Zenoh, terminal, wire formats."""

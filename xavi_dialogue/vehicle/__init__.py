@@ -1,0 +1,1 @@
+"""The vehicle process: the ride, its reports, and planning again beside the driving."""

@@ -1,0 +1,13 @@
+"""Compile the planner's kernels, so that the first ride starts at once; quick where they are.
+
+python -m xavi_dialogue.vehicle.compile_kernels
+"""
+
+from sim.roads.netfile import read_network
+from sim.setup.scenario import load
+from xavi_dialogue.vehicle.replan_worker import warm_up
+
+SCENARIO = "s1"  # on whose roads a decision is taken
+
+if __name__ == "__main__":
+    warm_up(read_network(load(SCENARIO).network))

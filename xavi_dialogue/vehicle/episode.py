@@ -1,0 +1,137 @@
+"""A ride: the simulated world and the driver, step by step.
+
+The caller takes one moment after the other, and so decides how fast the ride goes and where it
+halts. The record is complete up to the time of the latest moment.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Literal, Protocol, TypeAlias
+
+from planner.driving.driver import Driver, DriveStep
+from planner.record.events import Event
+from planner.record.trace import Action, EgoGoal, PlanTrace, Settings
+from sim.roads.netfile import read_network
+from sim.roads.network import Network
+from sim.scene import Command, Scene
+from sim.setup.scenario import Scenario
+from sim.sumo import Simulation
+from xavi_dialogue.bus.interface import DEFAULT_VEHICLE
+from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.process.garbage import settled
+
+Ending: TypeAlias = Literal["arrived", "collided", "duration"]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """One step of a ride: what is seen, and what was decided and happened."""
+
+    scene: Scene
+    plan: tuple[Action, ...]  # of the latest decision
+    trace: PlanTrace | None = None  # of a decision taken now
+    events: tuple[Event, ...] = ()  # up to the end of the step that begins now
+    ending: Ending | None = None  # the last moment: why the ride is over
+    collisions: tuple[int, ...] = ()  # vehicles that the ego touches now
+
+
+class World(Protocol):
+    """What moves the others, and us as commanded."""
+
+    def scene(self) -> Scene: ...
+
+    def step(self, command: Command | None) -> Scene: ...
+
+    def collisions(self) -> tuple[int, ...]: ...
+
+
+class Drives(Protocol):
+    """A driver; see planner.driving.driver.Driver."""
+
+    @property
+    def finished(self) -> bool: ...
+
+    def step(self, scene: Scene, dt: float) -> DriveStep: ...
+
+
+def moments(world: World, driver: Drives, step: float, duration: float) -> Iterator[Moment]:
+    """Drive until arrival, collision, or the end of the time; the last moment says which.
+
+    Args:
+        world: at its first scene.
+        driver: of the ego.
+        step: [s] of the simulation.
+        duration: [s] after which the ride ends.
+    """
+    scene = world.scene()
+    plan: tuple[Action, ...] = ()
+    while True:
+        driven = driver.step(scene, step)
+        if driven.trace is not None:
+            plan = tuple(planned.action for planned in driven.trace.plan)
+        yield Moment(scene, plan, driven.trace, driven.events)
+        scene = world.step(driven.command)
+        touched = world.collisions()
+        if touched:
+            event = Event("collided", round(scene.time, 3), vehicle=touched[0])
+            yield Moment(scene, plan, None, (event,), "collided", touched)
+            return
+        if driver.finished:
+            yield Moment(scene, plan, ending="arrived")
+            return
+        if scene.time >= duration - EPSILON:
+            event = Event("ended", round(scene.time, 3))
+            yield Moment(scene, plan, None, (event,), "duration")
+            return
+
+
+def clock(moment: Moment) -> float:
+    """The time [s] of a moment, as it is reported and asked about."""
+    return round(moment.scene.time, 6)
+
+
+def halts(until: float | None, time: float, events: Sequence[Event]) -> bool:
+    """Whether a ride that is to go on up to `until` [s] halts now.
+
+    Args:
+        until: [s]; None stands for the end of the first lane change or turn.
+        time: [s] of the latest moment.
+        events: of the ride so far.
+    """
+    if until is None:
+        ends = carried_out(events)
+        return bool(ends) and time >= ends[0].sim_time - EPSILON
+    return time >= until - EPSILON
+
+
+def network_of(scenario: Scenario) -> Network:
+    """The road network of a scenario."""
+    return read_network(scenario.network)
+
+
+def settings_of(scenario: Scenario) -> Settings:
+    """The planner's settings in a scenario."""
+    return Settings(view_radius=scenario.view_radius, reacting=True)
+
+
+@contextmanager
+def start(
+    scenario: Scenario,
+    seed: int,
+    network: Network,
+    *,
+    duration: float | None = None,
+    vehicle: str = DEFAULT_VEHICLE,
+) -> Iterator[Iterator[Moment]]:
+    """Start SUMO and the driver; the ride goes on as its moments are taken.
+
+    Raises:
+        SimulationError: SUMO is not installed or does not start.
+    """
+    goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
+    driver = Driver(network, goal, settings_of(scenario), seed, vehicle)
+    with Simulation(scenario, seed) as world, settled():
+        limit = scenario.duration if duration is None else min(duration, scenario.duration)
+        yield moments(world, driver, scenario.step, limit)

@@ -1,0 +1,148 @@
+"""The car process: the ride at its pace, reported on the bus."""
+
+import queue
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+
+import msgspec
+
+from planner.record import trace as plan_trace
+from planner.record.events import Event
+from planner.record.trace import PlanTrace
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
+from xavi_dialogue.bus.messages import (
+    CarState,
+    EventReport,
+    SceneReport,
+    TraceReport,
+)
+from xavi_dialogue.bus.schema import schema_of
+from xavi_dialogue.process.child_commands import Order, Orders, Pause, Quit, Resume, Speed, Until
+from xavi_dialogue.vehicle.episode import Moment, halts
+from xavi_dialogue.vehicle.outbox import REPORTS, SCENES
+from xavi_dialogue.vehicle.telemetry import Reporter
+
+SHOWN_EVERY = 0.1  # [s] of wall time: the scene, at 10 Hz
+TOLD = {"scene": SceneReport, "trace": TraceReport, "event_report": EventReport}
+COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see Alive
+
+
+@dataclass
+class Pace:
+    """How fast the ride goes, and where it halts."""
+
+    speed: float  # simulated seconds per second; 0 is as fast as possible
+    running: bool
+    until: float | None = None  # [s] where to halt; None with `stops`: see ride.halts
+    stops: bool = False
+    quit: bool = False
+    obeyed: int = 0  # orders
+
+    def obey(self, order: Order) -> None:
+        """Change the pace as ordered."""
+        self.obeyed += 1
+        match order:
+            case Pause():
+                self.running = False
+            case Resume():
+                self.running, self.stops = True, False
+            case Until(moment):
+                self.running, self.stops, self.until = True, True, moment
+            case Speed(factor):
+                self.speed = factor
+            case Quit():
+                self.quit = True
+
+    def arrive(self, at: float, events: list[Event]) -> None:
+        """Halt if this is where to halt."""
+        if self.running and self.stops and halts(self.until, at, events):
+            self.running = False
+
+
+@dataclass
+class Car:
+    """Drives a ride, reports it, and obeys orders about its pace."""
+
+    ride: Iterator[Moment]
+    step: float  # [s]
+    records: tuple[Callable[[Moment], None], ...]  # take down every moment
+    reporter: Reporter | None  # None: nobody is told
+    orders: Orders
+    pace: Pace
+    stays: bool  # after the ride, until told to quit
+    events: list[Event] = field(default_factory=list)
+    due: float = 0.0  # [s] on the monotonic clock: when the next step may be taken
+
+    def run(self) -> None:
+        """Drive to the end, or until told to quit."""
+        for moment in self.ride:
+            self.events.extend(moment.events)
+            for record in self.records:
+                record(moment)
+            if self.reporter is not None:
+                self.reporter.record(moment)
+            self.pace.arrive(moment.scene.time, self.events)
+            self._show(moment, always=not self.pace.running or moment.ending is not None)
+            self._wait(moment)
+            if self.pace.quit:
+                return
+
+    def _wait(self, moment: Moment) -> None:
+        """Let time pass until the next step is due; after the ride, until told to quit."""
+        if self.pace.speed > 0.0:
+            self.due = max(self.due, time.monotonic() - self.step) + self.step / self.pace.speed
+        over = moment.ending is not None
+        while not self.pace.quit and (not over or self.stays):
+            halted = over or not self.pace.running
+            delay = 0.0 if self.pace.speed == 0.0 else self.due - time.monotonic()
+            self._listen(moment, SHOWN_EVERY if halted else min(delay, SHOWN_EVERY))
+            if halted:
+                self._show(moment)
+                self.due = time.monotonic()
+            elif delay <= 0.0:
+                return
+
+    def _listen(self, moment: Moment, patience: float) -> None:
+        """Obey the orders that come within `patience` [s]; one is enough."""
+        try:
+            order = (
+                self.orders.get(timeout=patience) if patience > 0.0 else self.orders.get_nowait()
+            )
+        except queue.Empty:
+            return
+        self.pace.obey(order)
+        self.pace.arrive(moment.scene.time, self.events)
+        self._show(moment, always=True)
+
+    def _show(self, moment: Moment, *, always: bool = False) -> None:
+        reporter, pace = self.reporter, self.pace
+        if reporter is None or not (always or reporter.idle_time() >= 0.9 * SHOWN_EVERY):
+            return
+        state: CarState = "driving" if pace.running else "paused"
+        if moment.ending is not None:
+            state = "ended"
+        reporter.show(moment, state, pace.speed, pace.obeyed)
+
+
+def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: Alive | None = None) -> None:
+    """Answer what is asked of the car, and show that it is there.
+
+    Args:
+        bus: of the car.
+        keys: of the car.
+        planning: takes requests for planning again.
+        alive: tells how the car fares.
+    """
+    bus.serve(keys.of("@rpc/whatif"), planning)
+    for name, kind in {**TOLD, "plan_trace": PlanTrace}.items():
+        schema = schema_of(kind, plan_trace.SCHEMA if kind is PlanTrace else None)
+        document = msgspec.json.encode(schema)
+        bus.serve(keys.of(f"@schema/{name}"), partial(_reply_with, document))
+    (Alive("car", COUNTERS) if alive is None else alive).serve(bus, keys)
+
+
+def _reply_with(document: bytes, call: Call) -> None:
+    call.reply(document)

@@ -1,0 +1,141 @@
+"""Planning again for others while the car drives: which decisions are known, and who does it.
+
+The driving only notes its decisions here. Requests come in on threads of the bus, are checked,
+and go to workers (see pool.py), which answer or are given up at the deadline.
+"""
+
+import contextlib
+import logging
+import os
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Protocol
+
+import msgspec
+
+from planner.counterfactuals.whatif import WhatIfError, replan
+from planner.record import trace as plan_trace
+from planner.record.trace import PlanTrace, WhatIf
+from sim.roads.network import Network
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import BusError, Call
+from xavi_dialogue.bus.messages import (
+    Failure,
+    MessageError,
+    WhatIfRequest,
+    pack,
+    unpack,
+)
+from xavi_dialogue.process.subprocesses import TOP
+from xavi_dialogue.vehicle.episode import Moment
+from xavi_dialogue.vehicle.replan_worker import Order
+from xavi_dialogue.vehicle.worker_pool import WAITING, Job, Pool
+
+_LOG = logging.getLogger(__name__)
+KEPT = 300  # latest decisions that can be planned again: five minutes of driving
+
+
+class Planners(Protocol):
+    """Those who plan again; see Pool."""
+
+    def submit(self, job: Job) -> None: ...
+
+
+def workers(network: Path, count: int = 1, waiting: int = WAITING) -> Pool:
+    """Start workers for a network file; see Pool."""
+    path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
+    # -P keeps the working directory off the path: it may hold packages of our names.
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "xavi_dialogue.vehicle.replan_worker",
+        str(network.resolve()),
+    ]
+    environment = {**os.environ, "PYTHONPATH": path}
+    return Pool(command, environment=environment, count=count, waiting=waiting)
+
+
+class Replanner:
+    """Takes requests for planning again from the latest decisions of this ride."""
+
+    def __init__(self, planners: Planners, kept: int = KEPT, alive: Alive | None = None) -> None:
+        """Know no decision yet.
+
+        Args:
+            planners: get what is to be done.
+            kept: how many decisions are remembered.
+            alive: counts requests, and what came of them.
+        """
+        self._planners, self._kept = planners, kept
+        self._alive = Alive("car") if alive is None else alive
+        self._traces: dict[str, bytes] = {}
+
+    def record(self, moment: Moment) -> None:
+        """Know the decision of a moment; the oldest is forgotten for it."""
+        if moment.trace is None:
+            return
+        self._traces[moment.trace.trace_id] = plan_trace.encode(moment.trace)
+        while len(self._traces) > self._kept:
+            del self._traces[next(iter(self._traces))]
+
+    def __call__(self, call: Call) -> None:
+        """Take up a request; returns at once."""
+        came = time.monotonic()
+        try:
+            wanted = unpack(call.payload, WhatIfRequest)
+        except MessageError as error:
+            self._answer(call, Failure(reason="planner-failed", detail=str(error)))
+            return
+        trace = self._traces.get(wanted.trace_id)
+        if trace is None:
+            detail = f"no decision {wanted.trace_id} among the latest {self._kept}"
+            self._answer(call, Failure(reason="outside-record", detail=detail))
+            return
+        what_if = msgspec.convert(msgspec.to_builtins(wanted), WhatIf)
+        order = msgspec.json.encode(Order(msgspec.Raw(trace), what_if))
+        self._planners.submit(
+            Job(order, came + wanted.deadline_ms / 1000.0, partial(self._answer, call))
+        )
+        known = {"request": wanted.request, "trace_id": wanted.trace_id}
+        _LOG.info("a what-if was taken up", extra=known)
+
+    def _answer(self, call: Call, outcome: bytes | Failure) -> None:
+        reason = outcome.reason if isinstance(outcome, Failure) else "planned"
+        self._alive.count("what_ifs")
+        self._alive.count(f"what_ifs_{reason.replace('-', '_')}")
+        _LOG.info("a what-if was answered", extra={"reason": reason})
+        with contextlib.suppress(BusError):  # who asked is gone
+            if isinstance(outcome, Failure):
+                call.refuse(pack(outcome))
+            else:
+                call.reply(outcome)
+
+
+def durations(traces: Sequence[PlanTrace], network: Network) -> Mapping[str, tuple[float, ...]]:
+    """How long [s] it takes to plan again from decisions, in this process, by what is changed."""
+    taken: dict[str, list[float]] = {}
+    for trace in traces:
+        for name, what_if in _examples(trace):
+            began = time.perf_counter()
+            try:
+                replan(trace, network, what_if)
+            except WhatIfError:
+                continue
+            taken.setdefault(name, []).append(time.perf_counter() - began)
+    return {name: tuple(values) for name, values in taken.items()}
+
+
+def _examples(trace: PlanTrace) -> Iterator[tuple[str, WhatIf]]:
+    """One request of each kind; about the vehicle with the lowest name."""
+    if trace.plan:
+        yield "actions forced", WhatIf((trace.plan[0].action,))
+    for prediction in trace.predictions[:1]:
+        vehicle = prediction.vehicle
+        least = min(prediction.goals, key=lambda goal: goal.probability)
+        yield "vehicle removed", WhatIf(removed=vehicle)
+        yield "goal supposed", WhatIf(vehicle=vehicle, goal=least.edge or least.kind)
+        yield "actions supposed", WhatIf(vehicle=vehicle, vehicle_actions=("stop",))

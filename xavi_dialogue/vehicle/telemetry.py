@@ -1,0 +1,152 @@
+"""Moments of a ride as reports on the bus."""
+
+import secrets
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Protocol
+
+from planner.record.trace import PlanTrace
+from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.interface import Keys, Publisher
+from xavi_dialogue.bus.messages import (
+    CarState,
+    EventReport,
+    SceneReport,
+    TraceReport,
+    pack,
+)
+from xavi_dialogue.vehicle.episode import Moment, clock
+
+KEPT_TRACES = 300  # for late joiners
+KEPT_EVENTS = 1000
+LATELY = 5.0  # [s] over which the speed of the simulation is measured
+
+
+class Sends(Protocol):
+    """Where reports go: a bus, or an outbox before it."""
+
+    def publisher(self, key: str, keep: int = 0) -> Publisher: ...
+
+
+class Speedometer:
+    """Measures how fast the simulation has gone lately."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._marks: deque[tuple[float, float]] = deque()  # [s] of the clock, of the simulation
+
+    def note(self, sim_time: float) -> None:
+        """Know a simulation time [s] that is reached now."""
+        now = self._clock()
+        self._marks.append((now, sim_time))
+        while self._marks[0][0] < now - LATELY:
+            self._marks.popleft()
+
+    def read(self) -> float:
+        """Simulated seconds per second; any thread may ask."""
+        now, marks = self._clock(), tuple(self._marks)
+        recent = [mark for mark in marks if mark[0] >= now - LATELY]
+        if not recent or recent[0][0] == now:
+            return 0.0
+        return round((recent[-1][1] - recent[0][1]) / (now - recent[0][0]), 3)
+
+
+class Reporter:
+    """Publishes what the car sees, decides and does."""
+
+    def __init__(
+        self,
+        bus: Sends,
+        keys: Keys,
+        scenario: str | None = None,
+        seed: int | None = None,
+        alive: Alive | None = None,
+    ) -> None:
+        """Begin to report a ride.
+
+        Args:
+            bus: to report on.
+            keys: of the car.
+            scenario: name or folder, and
+            seed: so that others can have the ride driven again.
+            alive: counts what is reported.
+        """
+        self._scenario, self._seed = scenario, seed
+        self._alive = Alive("car") if alive is None else alive
+        self._speedometer = Speedometer()
+        self._alive.gauge("speed", self._speedometer.read)
+        self._ride = secrets.token_hex(4)
+        self._scene = bus.publisher(keys.of("scene"))
+        self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
+        self._event = bus.publisher(keys.of("event"), keep=KEPT_EVENTS)
+        self._scenes = self._traces = self._events = 0
+        self._first: str | None = None  # id of the ride's first trace
+        self._published = 0.0  # [s] on the monotonic clock
+
+    def record(self, moment: Moment) -> None:
+        """Publish what was decided and what happened."""
+        self._alive.at(clock(moment))
+        self._speedometer.note(moment.scene.time)
+        if moment.trace is not None:
+            self._publish_trace(moment.trace)
+        for event in moment.events:
+            report = EventReport(
+                ride=self._ride,
+                seq=self._events,
+                sim_time=event.sim_time,
+                wall_time=time.time(),
+                event=event,
+            )
+            self._event.put(pack(report))
+            self._events += 1
+            self._alive.count("events")
+
+    def idle_time(self) -> float:
+        """How long ago [s] the scene was published."""
+        return time.monotonic() - self._published
+
+    def show(
+        self,
+        moment: Moment,
+        state: CarState,
+        speed_factor: float,
+        orders: int = 0,
+    ) -> None:
+        """Publish the scene, and how far the record goes."""
+        report = SceneReport(
+            ride=self._ride,
+            seq=self._scenes,
+            sim_time=clock(moment),
+            wall_time=time.time(),
+            vehicles=dict(moment.scene.vehicles),
+            lights=moment.scene.lights,
+            people=dict(moment.scene.people),
+            unseen=moment.scene.unseen,
+            state=state,
+            speed_factor=speed_factor,
+            plan=moment.plan,
+            traces=self._traces,
+            events=self._events,
+            orders=orders,
+            scenario=self._scenario,
+            seed=self._seed,
+        )
+        self._scene.put(pack(report))
+        self._scenes += 1
+        self._alive.count("scenes")
+        self._published = time.monotonic()
+
+    def _publish_trace(self, trace: PlanTrace) -> None:
+        self._first = self._first or trace.trace_id
+        report = TraceReport(
+            ride=self._ride,
+            seq=self._traces,
+            sim_time=trace.sim_time,
+            wall_time=time.time(),
+            trace=trace,
+            first=self._first,
+        )
+        self._trace.put(pack(report))
+        self._traces += 1
+        self._alive.count("decisions")

@@ -1,0 +1,303 @@
+"""A pool of workers, each a process of its own: jobs with deadlines, and a cap on those waiting.
+
+One thread keeps the pool; who submits a job never waits. A job is answered at its deadline at
+the latest, and is not begun when nothing could come of it before that. A worker that is late may
+finish for a short grace, for nobody: it is warm, and its successor will not be at once. Who waits
+meanwhile gets it or the successor, whichever is ready first; the other one is killed. A worker that
+dies is replaced, and its job tried once more. Workers are started as new programs, never forked,
+and end with this process, however it ends (see worker.py).
+
+The cap on those waiting is one for all: who asks for many people shares it out among them.
+"""
+
+import contextlib
+import os
+import queue
+import subprocess
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import TracebackType
+from typing import Self, TypeAlias
+
+import msgspec
+
+from xavi_dialogue.bus.messages import Failure
+from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.vehicle.replan_worker import READY, Result
+
+WAITING = 8  # jobs that may wait for a worker
+LEAST = 0.02  # [s] less than any job takes
+GRACE = 1.0  # [s] after which a worker that is late is killed; a new one takes as long to start
+NICENESS = 10  # by which workers stand back behind the driving
+
+Done: TypeAlias = Callable[[bytes | Failure], None]  # gets the plan trace, or why there is none
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Job:
+    """One thing to be done."""
+
+    order: bytes  # one line; see worker.Order
+    deadline: float  # [s] on the monotonic clock
+    done: Done  # called once, from the pool's thread
+    tried: bool = False  # by a worker that died
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Heard:
+    """What a worker said; None: it is gone."""
+
+    worker: "_Worker"
+    line: bytes | None
+
+
+class _Close:
+    """The pool is no longer needed."""
+
+
+_Event: TypeAlias = Job | _Heard | _Close
+
+
+class _Worker:
+    """One process, and the job that it is at."""
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str] | None,
+        tell: Callable[[_Event], None],
+    ) -> None:
+        self.ready = False
+        self.job: Job | None = None
+        self.ends: float | None = None  # [s] when a worker that is late is killed
+        self._tell = tell
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+            start_new_session=True,  # the terminal's signals are for the car
+        )
+        niceness = min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, 19)
+        with contextlib.suppress(ProcessLookupError):
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, niceness)
+        threading.Thread(target=self._listen, name="whatif-ear", daemon=True).start()
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid
+
+    @property
+    def late(self) -> bool:
+        """Whether it is at a job that was answered without it."""
+        return self.ends is not None
+
+    @property
+    def idle(self) -> bool:
+        return self.ready and self.job is None and not self.late
+
+    def begin(self, job: Job) -> None:
+        """Hand a job over; on a thread of its own, for the worker may not be listening."""
+        self.job = job
+        threading.Thread(target=self._write, args=(job.order,), daemon=True).start()
+
+    def kill(self) -> None:
+        """End the process at once, and leave nothing of it."""
+        self._process.kill()
+        self._process.wait()
+        assert self._process.stdin is not None
+        with contextlib.suppress(BrokenPipeError):
+            self._process.stdin.close()
+
+    def _write(self, order: bytes) -> None:
+        assert self._process.stdin is not None
+        with contextlib.suppress(BrokenPipeError, ValueError):  # it is gone, as will be heard
+            self._process.stdin.write(order + b"\n")
+            self._process.stdin.flush()
+
+    def _listen(self) -> None:
+        assert self._process.stdout is not None
+        with self._process.stdout as stream:
+            for line in stream:
+                self._tell(_Heard(self, line))
+        self._tell(_Heard(self, None))
+
+
+class Pool:
+    """Workers that are started by the same command."""
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        *,
+        environment: Mapping[str, str] | None = None,
+        count: int = 1,
+        waiting: int = WAITING,
+    ) -> None:
+        """Start the workers.
+
+        Args:
+            command: the program of a worker and its arguments.
+            environment: of the workers; None: ours.
+            count: how many there are.
+            waiting: how many jobs may wait for one of them.
+        """
+        self._command, self._environment = command, environment
+        self._count, self._limit = count, waiting
+        self._events: queue.SimpleQueue[_Event] = queue.SimpleQueue()
+        self._workers: list[_Worker] = []
+        self._waiting: deque[Job] = deque()
+        self._unstarted = 0  # workers that did not even start, since the latest job came
+        self._keeper = threading.Thread(target=self._keep, name="whatif", daemon=True)
+        self._keeper.start()
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """The processes that are there now."""
+        return tuple(worker.pid for worker in tuple(self._workers))
+
+    @property
+    def idle(self) -> int:
+        """How many workers are ready for a job."""
+        return sum(worker.idle for worker in tuple(self._workers))
+
+    def submit(self, job: Job) -> None:
+        """Have a job done; returns at once."""
+        self._events.put(job)
+
+    def close(self) -> None:
+        """End the workers; jobs that are open are answered."""
+        self._events.put(_Close())
+        self._keeper.join()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _keep(self) -> None:
+        self._mend()
+        while True:
+            try:
+                event = self._events.get(timeout=self._patience())
+            except queue.Empty:
+                event = None
+            match event:
+                case Job():
+                    self._take(event)
+                case _Heard(worker, line):
+                    self._hear(worker, line)
+                case _Close():
+                    break
+            self._expire()
+            self._assign()
+            self._mend()
+        for worker in self._workers:
+            worker.kill()
+        self._fail(self._open(), "planner-unavailable", "the car stops planning")
+        self._workers.clear()
+
+    def _patience(self) -> float | None:
+        """Time [s] to the next deadline, or end of a grace."""
+        ends = [job.deadline for job in self._open()]
+        ends += [worker.ends for worker in self._workers if worker.ends is not None]
+        return max(min(ends) - time.monotonic(), 0.0) if ends else None
+
+    def _open(self) -> list[Job]:
+        begun = [worker.job for worker in self._workers if worker.job is not None]
+        return begun + list(self._waiting)
+
+    def _take(self, job: Job) -> None:
+        if len(self._waiting) >= self._limit:
+            self._fail([job], "busy", f"{self._limit} requests are waiting already")
+        else:
+            self._waiting.append(job)
+            self._unstarted = 0
+
+    def _mend(self) -> None:
+        """Start the workers that are missing, and successors of the late that are waited for."""
+        late = sum(worker.late for worker in self._workers)
+        there = len(self._workers) - min(late, len(self._waiting))
+        for _ in range(self._count - self._unstarted - there):
+            self._workers.append(_Worker(self._command, self._environment, self._events.put))
+
+    def _hear(self, worker: _Worker, line: bytes | None) -> None:
+        if worker not in self._workers:
+            return  # killed meanwhile
+        if line is None:
+            self._lose(worker)
+        elif not worker.ready:
+            worker.ready = line == READY
+        elif worker.late:
+            worker.ends = None
+        elif worker.job is not None:
+            job, worker.job = worker.job, None
+            job.done(_outcome(line))
+        self._thin_out()
+
+    def _lose(self, worker: _Worker) -> None:
+        """A worker has died; one that did not even start is not replaced before the next job."""
+        self._workers.remove(worker)
+        worker.kill()
+        if worker.job is not None and not worker.job.tried:
+            self._waiting.appendleft(replace(worker.job, tried=True))
+        elif worker.job is not None:
+            self._fail([worker.job], "planner-failed", "the planner's process has died")
+        if not worker.ready:
+            self._unstarted += 1
+            if not self._workers:
+                self._fail(self._waiting, "planner-failed", "the planner's process does not start")
+                self._waiting.clear()
+
+    def _thin_out(self) -> None:
+        """When enough workers are up, kill the others: the late, or their successors."""
+        up = [worker for worker in self._workers if worker.ready and not worker.late]
+        if len(up) >= self._count:
+            for worker in self._workers:
+                if worker not in up:
+                    worker.kill()
+            self._workers = up
+
+    def _expire(self) -> None:
+        """Answer the jobs whose time is up; kill who is late beyond the grace."""
+        now = time.monotonic()
+        late = [job for job in self._open() if job.deadline <= now]
+        late += [job for job in self._waiting if now < job.deadline <= now + LEAST]
+        for worker in tuple(self._workers):
+            if worker.job in late:
+                worker.job, worker.ends = None, now + GRACE
+            elif worker.ends is not None and worker.ends <= now:
+                self._workers.remove(worker)
+                worker.kill()
+                self._unstarted = 0
+        self._waiting = deque(job for job in self._waiting if job not in late)
+        self._fail(late, "timed-out", "not planned within the time given")
+
+    def _assign(self) -> None:
+        for worker in self._workers:
+            if worker.idle and self._waiting:
+                worker.begin(self._waiting.popleft())
+
+    @staticmethod
+    def _fail(jobs: Sequence[Job], reason: Reason, detail: str) -> None:
+        for job in tuple(jobs):
+            job.done(Failure(reason=reason, detail=detail))
+
+
+def _outcome(line: bytes) -> bytes | Failure:
+    """The plan trace in a worker's line, or why there is none."""
+    try:
+        result = msgspec.json.decode(line, type=Result)
+        message = bytes(result.message)
+        return message if result.planned else msgspec.json.decode(message, type=Failure)
+    except msgspec.MsgspecError as error:
+        return Failure(reason="planner-failed", detail=f"no result: {error}")
