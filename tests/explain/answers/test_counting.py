@@ -72,6 +72,11 @@ def test_what_runs_on_is_counted_once() -> None:
     assert found.facts == runs[1:]
 
 
+def test_a_lane_change_back_at_once_is_another_one() -> None:
+    weaving = (did("change-left", 2.0, 4.5), did("change-right", 4.6, 7.0))
+    assert counted(Event("change-lane"), episodes=weaving).count == 2
+
+
 @pytest.mark.parametrize(
     ("gap", "lost"),
     [((1.0, 2.0), False), ((1.0, 3.0), True), ((7.0, 9.0), True), ((7.1, 9.0), False)],

@@ -213,7 +213,7 @@ def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:
 
 def _is_after(asked: Asked, one: Episode, other: Episode) -> bool:
     """Tell whether one has ended before another begins; lane changes may follow at once."""
-    pause = 0.0 if one.action == other.action and one.action in CHANGED else PAUSE
+    pause = 0.0 if {one.action, other.action} <= CHANGED else PAUSE
     return other.begin >= _end(asked, one) + pause
 
 

@@ -79,7 +79,7 @@ _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=Fa
 def recast(spoken: Question, g: Grounder) -> Question:
     """Put the question that is meant in the place of one that its words leave open."""
     meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g)
-    meant = meant or of_trip(spoken) or _of_deed(spoken, g)
+    meant = meant or of_trip(spoken) or _of_deed(spoken, g) or _of_light(spoken)
     if meant is not None:
         return meant
     match spoken:
@@ -100,15 +100,6 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, time=Start())
         case Whether(that=Related(relation=relation, thing=Pronoun(form="it" | "that"), to=Ego())):
             return _by_side(relation, spoken, g)
-        case HowMuch(
-            of=Measured(
-                attribute="duration", thing=Feature(kind="light") as lit, tense="present" | "future"
-            )
-        ):  # "how long is this red light going to last?"
-            return When(Happens(Event("turn-colour", replace(lit, colour=None), tense="future")))
-        case HowMuch(of=Measured(attribute="delay", thing=Feature(kind="light"), to=None) as cost):
-            waited = Event("wait", Ego(), Feature("light"), time=cost.time, tense=cost.tense)
-            return HowLong(waited)  # "how long did that light hold us up?"
         case HowMany(of=Described() as of) if (lights := among(of, g)) is not None:
             g.notes.leaned = True
             return HowMany(lights)
@@ -144,6 +135,16 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case Compare(options=options):
             return replace(spoken, options=tuple(_option(one, g) for one in options))
     return spoken
+
+
+def _of_light(spoken: Question) -> Question | None:
+    """Read how long a light lasts, or held us up, as when it changes, or how long we waited."""
+    match spoken:
+        case HowMuch(of=Measured("duration", Feature("light") as lit, tense="present" | "future")):
+            return When(Happens(Event("turn-colour", replace(lit, colour=None), tense="future")))
+        case HowMuch(of=Measured("delay", Feature("light"), None) as cost):
+            return HowLong(Event("wait", object=Feature("light"), time=cost.time, tense=cost.tense))
+    return None
 
 
 def _of_deed(spoken: Question, g: Grounder) -> Question | None:
