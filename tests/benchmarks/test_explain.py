@@ -18,7 +18,7 @@ from xavi_dialogue.__main__ import app
 from xavi_dialogue.causal.model import CausalModel, plan_of
 from xavi_dialogue.storage import ride_file
 
-FOLDER = Path(__file__).parents[3] / "transcripts" / "rides"
+FOLDER = Path(__file__).parents[2] / "transcripts" / "rides"
 
 
 def by_tables(trace, plan):

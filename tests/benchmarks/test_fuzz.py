@@ -23,9 +23,9 @@ from xavi_dialogue.nlu.grounding.result import Grounding
 from xavi_dialogue.nlu.parse import Parser
 
 RUNS = 600
-COMMAND = ["bench", "fuzz", "--runs", "1", "--ride", str(Path(__file__).parents[3] / RECORDED)]
+COMMAND = ["bench", "fuzz", "--runs", "1", "--ride", str(Path(__file__).parents[2] / RECORDED)]
 COMMAND += ["--questions"]
-RIDE = Path(__file__).parents[3] / RECORDED
+RIDE = Path(__file__).parents[2] / RECORDED
 
 
 @pytest.fixture

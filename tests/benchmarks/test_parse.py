@@ -34,7 +34,7 @@ FOLLOWS = {
     "context": ["Why did you stop?"],
     "query": {"type": "smalltalk"},
 }
-RIDE = Path(__file__).parents[3] / latency.RIDE
+RIDE = Path(__file__).parents[2] / latency.RIDE
 COMMAND = ("bench", "parse", "--ride", str(RIDE), "--questions")
 FEW = {"few": lambda _: [repeated("why"), repeated("stop and")]}
 

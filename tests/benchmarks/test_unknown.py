@@ -26,7 +26,7 @@ from xavi_dialogue.storage.ride_file import RecordedRide
 
 @pytest.fixture(scope="module")
 def ride() -> RecordedRide:
-    return ride_file.load((Path(__file__).parents[3] / RECORDED).read_bytes())
+    return ride_file.load((Path(__file__).parents[2] / RECORDED).read_bytes())
 
 
 def test_made_up_words_are_unknown_and_differ() -> None:

@@ -23,7 +23,7 @@ from xavi_dialogue.dashboard.views.decision import in_short, whole
 from xavi_dialogue.dashboard.views.search_tree import branches
 from xavi_dialogue.dashboard.web.http_documents import Branch, DecisionShown
 
-SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
+SCENARIOS = Path(__file__).parents[2] / "sim" / "scenarios"
 RIDES = ("s1-0", "s2-0", "s3-0", "s4-0", "town-0", "motorway-0", "bend-0")
 NETS = ("s1-0", "s2-0", "s3-0", "s4-0", "town-0", "motorway-0")
 

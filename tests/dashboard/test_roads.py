@@ -13,7 +13,7 @@ from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.dashboard.views import map as roads
 from xavi_dialogue.dashboard.web.http_documents import Roads
 
-SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
+SCENARIOS = Path(__file__).parents[2] / "sim" / "scenarios"
 PLACE = 'type="priority" x="0" y="0" incLanes="" intLanes=""'
 LANE = '<lane id="{0}_0" index="0" speed="10" length="9" shape="{1}"/>'
 

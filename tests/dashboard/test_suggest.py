@@ -20,7 +20,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.service.in_process import Conversation, NoPlan, planner_for
 from xavi_dialogue.storage import ride_file
 
-SCENARIOS = Path(__file__).parents[3] / "sim" / "scenarios"
+SCENARIOS = Path(__file__).parents[2] / "sim" / "scenarios"
 RIDES = ("s1-0", "s2-0", "s3-0", "s4-0", "town-0", "motorway-0", "bend-0")
 STEP = 3.1  # [s]
 

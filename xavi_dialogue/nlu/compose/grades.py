@@ -103,18 +103,8 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             if event is not None:
                 return When(Happens(event))
             return measured("delay", clause, actor)
-        case "faster" if event is None and clause.verb is None and _PACES & set(words):
-            than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
-            return measured("speed", clause, actor, to=than or Pronoun("it"))
-        case "faster" if (
-            clause.verb is not None
-            and clause.verb.key in ("get", "become", "grow")
-            and _PACES & set(words)
-        ):
-            return measured("speed-change", clause, actor)
         case "faster":
-            arrives = event is not None and event.action == "arrive"
-            return measured("delay", clause, actor, event=None if arrives else event)
+            return _faster(clause, event, actor, bool(_PACES & set(words)))
         case "many" if event is not None and event.action in _DONE_TO and event.object is None:
             done = with_fields(event, object=Wanted())
             return HowMany(Described(doing=cast(Event, done), plural=True, definite=False))
@@ -124,6 +114,18 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return _much(clause, value, actor)
         case _:
             return _quality(clause, words, value, actor)
+
+
+def _faster(clause: Clause, event: Event | None, actor: Thing | None, pace: bool) -> Question:
+    """Ask how much faster: of speeds where a pace is named, else of times."""
+    verb = clause.verb
+    if pace and event is None and verb is None:
+        than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
+        return measured("speed", clause, actor, to=than or Pronoun("it"))
+    if pace and verb is not None and verb.key in ("get", "become", "grow"):
+        return measured("speed-change", clause, actor)
+    arrives = event is not None and event.action == "arrive"
+    return measured("delay", clause, actor, event=None if arrives else event)
 
 
 _LENGTHS = frozenset({"far", "big", "close", "much", "long"})
