@@ -13,11 +13,8 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
-from xavi_dialogue.cli.commands import chat as riding
-from xavi_dialogue.cli.commands import dashboard, doctor, keys, sessions
+from xavi_dialogue.cli.commands import chat, dashboard, doctor, keys, record, serve, sessions
 from xavi_dialogue.cli.commands import inspect as looking
-from xavi_dialogue.cli.commands import record as recording
-from xavi_dialogue.cli.commands import serve as processes
 from xavi_dialogue.cli.commands.common import Shell, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
 from xavi_dialogue.process.kernel_cache import find_place
@@ -175,7 +172,7 @@ def _note(text: str) -> None:
 
 
 SHELL = Shell(_errors, _write, _note, _lines)
-for room in (riding, dashboard, processes, recording, looking, sessions, keys, doctor):
+for room in (chat, dashboard, serve, record, looking, sessions, keys, doctor):
     room.add(app, SHELL)
 
 

@@ -11,7 +11,7 @@ from types import ModuleType
 
 import msgspec
 
-from benchmarks.prediction import ride_scenes as rides
+from benchmarks.prediction import ride_scenes
 from benchmarks.prediction.approach import Approach
 from benchmarks.prediction.foretold import EVERY, spread
 from benchmarks.prediction.goal_scores import score
@@ -46,7 +46,7 @@ CONSTANTS: Mapping[str, tuple[ModuleType, ...]] = {
     "SOON": (indication,),
     "BRANCHING": (indication,),
     "WRONG": (indication,),
-    "MEMORY": (rides,),
+    "MEMORY": (ride_scenes,),
 }
 
 

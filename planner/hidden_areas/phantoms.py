@@ -8,7 +8,7 @@ A hidden stretch matters where somebody at its near end could arrive before the 
 it can just still stop, is across. Then the ego comes to the line at READY at most, as with a
 restricted view of a junction (AASHTO 2018, A Policy on Geometric Design of Highways and Streets,
 9.5, case C: approach sight triangles). There it sees more, or else it creeps on until it does
-(see `planner.hidden_areas.caution`); it waits for those alone whom it sees.
+(see `planner.hidden_areas.caution`); it stops only for those that it sees.
 """
 
 import math

@@ -100,7 +100,8 @@ def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) 
     Where the lane merges, or another lane leads to the goal, there must be room to change.
     """
     end = lane_end(roads, lane)
-    changes = end.merges or all(_off(roads, lead.link, goal) for lead in end.leads)
+    off = [_off(roads, lead.link, goal) for lead in end.leads]
+    changes = end.merges or (bool(off) and all(off))
     change = MERGING_TIME * roads.network.lanes[lane].speed_limit if changes else 0.0
     return max(view / 2.0, change)
 

@@ -41,10 +41,10 @@ from xavi_dialogue.chat.controller import LOST, RemoteCabin
 from xavi_dialogue.chat.history import NOTHING, Minutes
 from xavi_dialogue.chat.local_backend import Convoy
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.exit_status import ExitStatus, status_of
 from xavi_dialogue.service.request_handler import FOREIGN
-from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.terminal import slash_commands
 from xavi_dialogue.terminal.slash_commands import CommandError
 from xavi_dialogue.transcripts import transcript
 
@@ -143,9 +143,9 @@ def scene(at: float, state: CarState = "driving", ride: str = "r1") -> SceneRepo
 def test_why_is_asked_of_what_was_said_last_else_of_what_was_done(
     minutes: Minutes, client: Client
 ) -> None:
-    assert minutes.why() == commands.WHY_DONE
+    assert minutes.why() == slash_commands.WHY_DONE
     client.ask("What are you doing?")
-    assert minutes.why() == commands.WHY
+    assert minutes.why() == slash_commands.WHY
 
 
 def test_what_was_said_is_told_with_its_moments(minutes: Minutes, client: Client) -> None:
@@ -393,13 +393,15 @@ class FakeConvoy:
             self.service.appear()
         return self.able
 
-    def order(self, order: control.Order) -> None:
+    def order(self, order: child_commands.Order) -> None:
         raise CommandError("I take no orders.")
 
     def set_off(self) -> None:
         pass
 
-    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+    def drive(
+        self, client: Client, order: child_commands.Order, *, halt: bool = False
+    ) -> SceneReport:
         if self.halts_at is None:
             self.order(order)
             raise AssertionError
@@ -458,7 +460,10 @@ def pipe(client: Client, service: FakeService) -> Pipe:
 def test_commands_work_through_the_pipe(pipe: Pipe, tmp_path: Path) -> None:
     file = tmp_path / "said.txt"
     assert pipe.say("/why", "/more", f"/save {file}", "/vehicles", "/plan", "/history", "/forget")
-    assert pipe.out[:2] == [f"Answer to {commands.WHY_DONE}", f"Answer to {commands.MORE}"]
+    assert pipe.out[:2] == [
+        f"Answer to {slash_commands.WHY_DONE}",
+        f"Answer to {slash_commands.MORE}",
+    ]
     assert pipe.out[2:4] == ["There is no other vehicle in view.", "I plan to go on."]
     assert pipe.out[4].startswith("@ 8.0s\n\n> Why did you do that?\n")
     assert pipe.notes == [
@@ -470,7 +475,7 @@ def test_commands_work_through_the_pipe(pipe: Pipe, tmp_path: Path) -> None:
 def test_help_lists_what_works_through_the_pipe(pipe: Pipe) -> None:
     assert pipe.say("/help")
     [listed] = pipe.out
-    assert all(f"/{form.name}" in listed for form in commands.forms("pipe"))
+    assert all(f"/{form.name}" in listed for form in slash_commands.forms("pipe"))
     assert "/pause" not in listed
 
 

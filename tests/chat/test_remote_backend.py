@@ -10,7 +10,7 @@ from xavi_dialogue.bus.interface import HubUnreachable, Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.memory_bus import MemoryBus, MemoryHub
 from xavi_dialogue.bus.messages import CancelReply, CancelRequest, pack, unpack
-from xavi_dialogue.chat import remote_backend as remote
+from xavi_dialogue.chat import remote_backend
 from xavi_dialogue.chat.controller import RemoteCabin
 from xavi_dialogue.chat.history import Minutes
 from xavi_dialogue.chat.remote_backend import (
@@ -22,7 +22,7 @@ from xavi_dialogue.chat.remote_backend import (
     meet,
     through_pipe,
 )
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.exit_status import ExitStatus, status_of
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -73,10 +73,10 @@ def nothing(payload: bytes) -> bytes:
 @pytest.fixture
 def town(monkeypatch: pytest.MonkeyPatch) -> Town:
     made = Town()
-    monkeypatch.setattr(remote, "join", made.join)
-    monkeypatch.setattr(remote, "PATIENCE", 0.2)
-    monkeypatch.setattr(remote, "BRIEFLY", 0.2)
-    monkeypatch.setattr(remote, "BACK", 0.2)
+    monkeypatch.setattr(remote_backend, "join", made.join)
+    monkeypatch.setattr(remote_backend, "PATIENCE", 0.2)
+    monkeypatch.setattr(remote_backend, "BRIEFLY", 0.2)
+    monkeypatch.setattr(remote_backend, "BACK", 0.2)
     return made
 
 
@@ -179,7 +179,7 @@ def test_who_rides_along_sets_no_pace_and_sees_when_the_car_is_gone(town: Town) 
             with pytest.raises(CommandError, match="I only ride along here"):
                 order()
         with pytest.raises(CommandError):
-            along.drive(client, control.Until(8.0))
+            along.drive(client, child_commands.Until(8.0))
         along.set_off()
         along.check()
         assert GONE not in cabin.status()

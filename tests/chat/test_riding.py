@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from xavi_dialogue.__main__ import app
-from xavi_dialogue.chat import local_backend as convoy
+from xavi_dialogue.chat import local_backend
 from xavi_dialogue.chat import main as chat
 from xavi_dialogue.chat.local_backend import Company
 from xavi_dialogue.chat.main import Ride
@@ -52,9 +52,11 @@ def test_the_recorder_is_told_whether_to_overwrite(
             super().__init__()
             commands.append(arguments)
 
-    monkeypatch.setattr(convoy, "Child", FakeChild)
+    monkeypatch.setattr(local_backend, "Child", FakeChild)
     with ExitStack() as stack:
-        convoy._recorder(stack, Company(tmp_path / "ride.mcap", overwrite), "tcp/127.0.0.1:1")
+        local_backend._recorder(
+            stack, Company(tmp_path / "ride.mcap", overwrite), "tcp/127.0.0.1:1"
+        )
     [command] = commands
     assert command[:2] == ["record", str(tmp_path / "ride.mcap")]
     assert ("--force" in command) == overwrite

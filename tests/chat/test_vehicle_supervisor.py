@@ -11,10 +11,10 @@ from tests.fakes import EGO
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import CarState, SceneReport, pack
-from xavi_dialogue.chat import vehicle_supervisor as steady_car
+from xavi_dialogue.chat import vehicle_supervisor
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.chat.vehicle_supervisor import AGAIN, NO_MORE, STANDING, SteadyCar
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import ChildFailed, Expendable
 from xavi_dialogue.terminal.slash_commands import CommandError
 
@@ -38,11 +38,11 @@ class FakeProcess:
     hub: MemoryHub
     ride: str
     ordered: int = 0
-    orders: list[control.Order] = field(default_factory=list)
+    orders: list[child_commands.Order] = field(default_factory=list)
     failed: bool = False
     stopped: bool = False
 
-    def order(self, order: control.Order) -> int:
+    def order(self, order: child_commands.Order) -> int:
         self.check()
         self.ordered += 1
         self.orders.append(order)
@@ -105,7 +105,7 @@ def client(garage: Garage) -> Client:
 
 @pytest.fixture
 def car(garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch) -> Iterator[SteadyCar]:
-    monkeypatch.setattr(steady_car, "POLL", 0.01)
+    monkeypatch.setattr(vehicle_supervisor, "POLL", 0.01)
     with SteadyCar(garage.start, 1.0, garage.told.append) as car:  # type: ignore[arg-type]
         yield car
     assert garage.started[-1].stopped
@@ -116,8 +116,8 @@ def ride(car: SteadyCar, garage: Garage, client: Client) -> FakeProcess:
     first = garage.started[0]
     first.show(0.0, "paused")
     car.follow(client)
-    car.order(control.Speed(4.0))
-    car.order(control.Resume())
+    car.order(child_commands.Speed(4.0))
+    car.order(child_commands.Resume())
     first.show(8.0, "driving")
     return first
 
@@ -129,7 +129,7 @@ def test_a_car_that_never_was_on_the_road_is_not_started_anew(
     with pytest.raises(ChildFailed, match="signal 9"):
         car.check()
     with pytest.raises(ChildFailed, match="signal 9"):
-        car.order(control.Resume())
+        car.order(child_commands.Resume())
     assert len(garage.started) == 1
 
 
@@ -141,14 +141,14 @@ def test_the_ride_is_driven_to_where_it_was_and_then_on_as_wished(
     second = garage.again(1)
     assert first.stopped
     assert garage.told == [AGAIN]
-    assert second.orders == [control.Speed(0.0), control.Until(8.0)]
+    assert second.orders == [child_commands.Speed(0.0), child_commands.Until(8.0)]
     second.show(2.0, "driving", obeyed=2)
     assert not car.obeyed(client.scene)  # type: ignore[arg-type]
     assert car.catching_up
     assert car.now(client.now()) == 8.0  # the passenger thinks of what was told
     second.show(8.0, "paused", obeyed=2)
     assert until(lambda: not car.catching_up)
-    assert second.orders[2:] == [control.Speed(4.0), control.Resume()]
+    assert second.orders[2:] == [child_commands.Speed(4.0), child_commands.Resume()]
     assert not car.obeyed(client.scene)  # type: ignore[arg-type]
     second.show(8.1, "driving")
     assert car.obeyed(client.scene)  # type: ignore[arg-type]
@@ -160,13 +160,13 @@ def test_what_is_ordered_meanwhile_is_done_afterwards(
 ) -> None:
     first = ride(car, garage, client)
     first.kill()
-    car.order(control.Pause())  # in vain, and remembered
+    car.order(child_commands.Pause())  # in vain, and remembered
     second = garage.again(1)
-    car.order(control.Speed(2.0))
-    car.order(control.Until(9.0))
+    car.order(child_commands.Speed(2.0))
+    car.order(child_commands.Until(9.0))
     second.show(8.0, "paused", obeyed=2)
     assert until(lambda: not car.catching_up)
-    assert second.orders[2:] == [control.Speed(2.0), control.Until(9.0)]
+    assert second.orders[2:] == [child_commands.Speed(2.0), child_commands.Until(9.0)]
 
 
 def test_a_scene_of_the_ride_that_broke_off_obeys_nothing(
@@ -188,7 +188,7 @@ def test_one_that_ends_again_on_its_way_goes_for_where_the_first_was(
     second = garage.again(1)
     second.show(3.0, "driving", obeyed=2)
     second.kill()
-    assert garage.again(2).orders[1] == control.Until(8.0)
+    assert garage.again(2).orders[1] == child_commands.Until(8.0)
 
 
 def test_after_the_third_time_the_ride_is_over_and_that_is_told_once(
@@ -201,7 +201,7 @@ def test_after_the_third_time_the_ride_is_over_and_that_is_told_once(
     assert until(lambda: car.trouble() == STANDING)
     assert garage.told == [AGAIN] * 3 + [f"The car has ended (signal 9). {NO_MORE}"]
     car.check()  # the conversation goes on
-    for order in (control.Resume(), control.Until(9.0)):
+    for order in (child_commands.Resume(), child_commands.Until(9.0)):
         with pytest.raises(CommandError, match="cannot go on"):
             car.order(order)
     with pytest.raises(CommandError, match="cannot go on"):
@@ -212,7 +212,7 @@ def test_after_the_third_time_the_ride_is_over_and_that_is_told_once(
 def test_one_that_says_nothing_is_ended_and_started_anew(
     car: SteadyCar, garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(steady_car, "PATIENCE", 0.2)
+    monkeypatch.setattr(vehicle_supervisor, "PATIENCE", 0.2)
     ride(car, garage, client).kill()
     second = garage.again(1)
     garage.again(2)

@@ -24,11 +24,10 @@ from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, pack
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, host
-from xavi_dialogue.cli import bus_checks as doctor
-from xavi_dialogue.cli import host_checks as checks
+from xavi_dialogue.cli import bus_checks, host_checks
 from xavi_dialogue.cli.bus_checks import examine, keys, on_the_bus, port, roster, told
 from xavi_dialogue.cli.host_checks import Finding, Patient
-from xavi_dialogue.process import kernel_cache as kernels
+from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import Store
 
 NOW = datetime(2026, 6, 1, tzinfo=UTC)
@@ -70,7 +69,7 @@ def test_a_machine_that_is_well(tmp_path: Path) -> None:
 
 def test_people_read_it_in_80_columns(patient: Patient) -> None:
     long = Finding("car-with-a-very-long-name/service", "fault", "word " * 40, "then " * 40)
-    lines = list(told([*checks.on_this_machine(patient), long]))
+    lines = list(told([*host_checks.on_this_machine(patient), long]))
     assert max(len(line) for text in lines for line in text.splitlines()) <= 80
     assert all(line.isascii() for line in lines)
     assert lines[-1].endswith("1 at fault")
@@ -89,7 +88,7 @@ def test_a_store_that_cannot_be_written(patient: Patient) -> None:
     holder = sqlite3.connect(patient.store, isolation_level=None)
     holder.execute("PRAGMA journal_mode = DELETE")
     holder.execute("BEGIN EXCLUSIVE")
-    found = checks.store(patient)
+    found = host_checks.store(patient)
     holder.close()
     assert found.verdict == "fault"
     assert "locked" in found.found
@@ -98,7 +97,7 @@ def test_a_store_that_cannot_be_written(patient: Patient) -> None:
 @pytest.mark.parametrize("content", [b"no database at all", b"SQLite format 3\0" + bytes(4096)])
 def test_a_damaged_store_is_told_and_left_as_it_is(patient: Patient, content: bytes) -> None:
     patient.store.write_bytes(content)
-    found = checks.store(patient)
+    found = host_checks.store(patient)
     assert found.verdict == "fault"
     assert "move the file away" in found.advice
     assert patient.store.read_bytes() == content
@@ -109,12 +108,15 @@ def test_a_store_of_a_later_version(patient: Patient) -> None:
     with sqlite3.connect(patient.store) as later:
         later.execute("PRAGMA user_version = 99")
     later.close()
-    assert (checks.store(patient).verdict, "99" in str(checks.store(patient))) == ("fault", True)
+    assert (host_checks.store(patient).verdict, "99" in str(host_checks.store(patient))) == (
+        "fault",
+        True,
+    )
 
 
 def test_a_store_with_conversations(patient: Patient) -> None:
     Store(patient.store).close()
-    found = checks.store(patient)
+    found = host_checks.store(patient)
     assert (found.verdict, "conversations: 0" in found.found) == ("ok", True)
 
 
@@ -142,7 +144,7 @@ def test_packages_that_are_missing_or_old(
     lines += [f"Requires-Dist: {one}" for one in required]
     (info / "METADATA").write_text("\n".join(lines) + "\n")
     monkeypatch.syspath_prepend(tmp_path)
-    found = checks.packages(patient)
+    found = host_checks.packages(patient)
     assert found.verdict == "fault"
     missing, old = found.found.split("; ")
     assert missing == "nowhere-to-be-found is not installed"
@@ -153,8 +155,8 @@ def test_packages_that_are_missing_or_old(
     ("older", "newer"), [("1.9", "1.10"), ("2.4.9", "3"), ("0.66.0", "0.68"), ("1.28rc1", "2")]
 )
 def test_versions_are_compared_by_their_numbers(older: str, newer: str) -> None:
-    assert checks._numbers(older) < checks._numbers(newer)
-    assert checks._numbers("2.0.0") == checks._numbers("2")
+    assert host_checks._numbers(older) < host_checks._numbers(newer)
+    assert host_checks._numbers("2.0.0") == host_checks._numbers("2")
 
 
 def test_a_machine_that_is_ill(tmp_path: Path) -> None:
@@ -175,7 +177,7 @@ def test_a_machine_that_is_ill(tmp_path: Path) -> None:
             "PYTHONIOENCODING": "ascii",
             "XDG_DATA_HOME": str(file / "dätä"),
             "XDG_CACHE_HOME": str(file),
-            kernels.PLACE: str(tmp_path / "xavi-kernels-lent"),
+            kernel_cache.PLACE: str(tmp_path / "xavi-kernels-lent"),
         },
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (100, 100)),
     )
@@ -200,8 +202,8 @@ def test_a_check_that_breaks_off_does_not_keep_the_others_from_being_done(
     def broken(_: Patient) -> Finding:
         raise ZeroDivisionError("by zero")
 
-    monkeypatch.setattr(checks, "CHECKS", (broken, checks.python))
-    first, second = checks.on_this_machine(patient)
+    monkeypatch.setattr(host_checks, "CHECKS", (broken, host_checks.python))
+    first, second = host_checks.on_this_machine(patient)
     assert (first.verdict, "by zero" in first.found) == ("fault", True)
     assert second.check == "python"
 
@@ -251,7 +253,7 @@ def test_a_bus_that_is_well(hub: ZenohBus, patient: Patient) -> None:
 
 
 def test_a_bus_on_which_something_is_amiss(hub: ZenohBus, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doctor, "PATIENCE", 0.5)
+    monkeypatch.setattr(bus_checks, "PATIENCE", 0.5)
     late = AliveReport(
         component="car",
         version="0.0.1",
@@ -281,7 +283,7 @@ def test_nobody_is_on_the_bus() -> None:
 
 
 def test_without_a_hub_that_is_the_last_finding(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doctor, "HUB_PATIENCE", 0.1)
+    monkeypatch.setattr(bus_checks, "HUB_PATIENCE", 0.1)
     endpoint = free()
     done, found = examined("doctor", "--connect", endpoint)
     assert done.exit_code == 1

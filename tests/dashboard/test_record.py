@@ -15,7 +15,7 @@ from tests.traces import s1_ride
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
-from xavi_dialogue.dashboard import scene_history as past_module
+from xavi_dialogue.dashboard import scene_history
 from xavi_dialogue.dashboard.ride_state import Record
 from xavi_dialogue.dashboard.scene_history import Moments
 from xavi_dialogue.dashboard.trace_cache import Shelf
@@ -154,13 +154,13 @@ def test_moments_that_come_too_often_or_late_are_left_out() -> None:
 
 
 def test_of_very_many_moments_the_latest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(past_module, "MAX_MOMENTS", 100)
+    monkeypatch.setattr(scene_history, "MAX_MOMENTS", 100)
     moments, ego = Moments(), s1_ride().traces[0].scene[0]
     for k in range(1000):
         moments.see(Scene(0.2 * k, {0: ego}))
     assert 80 <= len(moments.times) <= 100
     assert moments.times[-1] == 0.2 * 999
-    monkeypatch.setattr(past_module, "MAX_BYTES", 2000)
+    monkeypatch.setattr(scene_history, "MAX_BYTES", 2000)
     moments.see(Scene(1000.0, {0: ego}))
     for k in range(100):
         moments.see(Scene(1001.0 + k, {0: ego}))

@@ -4,7 +4,7 @@ import pytest
 
 from planner.record.events import Event
 from planner.record.trace import ACTIONS, GoalPrediction, HoldUp
-from xavi_dialogue.dashboard.views import labels as words
+from xavi_dialogue.dashboard.views import labels
 from xavi_dialogue.domain.answers import Cause, Mechanism
 
 KINDS = ("action-started", "action-committed", "action-ended", "gave-way", "arrived", "collided")
@@ -17,25 +17,27 @@ def cause(how: HoldUp | str | None, **others: bool | None) -> Cause:
 
 
 def test_a_plan_is_told_as_the_car_tells_it() -> None:
-    assert words.plan_words(("change-left", "exit-left", "continue")) == (
+    assert labels.plan_words(("change-left", "exit-left", "continue")) == (
         "move to the left lane, then turn left"
     )
-    assert words.plan_words(("continue", "exit-straight")) == "go straight on"
-    assert words.plan_words(()) == "stop"
+    assert labels.plan_words(("continue", "exit-straight")) == "go straight on"
+    assert labels.plan_words(()) == "stop"
 
 
 def test_who_does_not_change_lanes_stays_in_the_lane() -> None:
-    assert words.deed("continue", in_lane=words.has_lane_change(("change-left",))) == (
+    assert labels.deed("continue", in_lane=labels.has_lane_change(("change-left",))) == (
         "stay in my lane"
     )
-    assert words.deed("continue", in_lane=words.has_lane_change(("exit-left",))) == "go straight on"
+    assert (
+        labels.deed("continue", in_lane=labels.has_lane_change(("exit-left",))) == "go straight on"
+    )
 
 
 def test_others_do_things_in_the_third_person() -> None:
-    assert words.does(("change-right", "exit-right", "continue")) == (
+    assert labels.does(("change-right", "exit-right", "continue")) == (
         "changes to the right lane and turns right"
     )
-    assert words.does(("continue",)) == "goes straight on"
+    assert labels.does(("continue",)) == "goes straight on"
 
 
 @pytest.mark.parametrize(
@@ -53,39 +55,39 @@ def test_others_do_things_in_the_third_person() -> None:
 def test_a_goal_that_its_action_does_not_tell_is_told_by_its_place(
     kind: str, place: str, said: str
 ) -> None:
-    assert words.goal_words(GoalPrediction(kind, place, None, 0.5, 1.0, 0.5, ())) == said  # type: ignore[arg-type]
+    assert labels.goal_words(GoalPrediction(kind, place, None, 0.5, 1.0, 0.5, ())) == said  # type: ignore[arg-type]
 
 
 def test_a_cause_says_what_was_expected_and_how_it_was_in_the_way() -> None:
     leader = cause("leader", changes=True, necessary=True)
-    assert words.cause_words(leader) == "will probably slow from 43 to 11 km/h and turn right"
-    assert words.way_words(leader) == "slowing ahead of me, from 43 to 11 km/h"
-    assert words.checked_words(leader) == "Without vehicle 1, I would have decided otherwise."
+    assert labels.cause_words(leader) == "will probably slow from 43 to 11 km/h and turn right"
+    assert labels.way_words(leader) == "slowing ahead of me, from 43 to 11 km/h"
+    assert labels.checked_words(leader) == "Without vehicle 1, I would have decided otherwise."
 
 
 def test_a_cause_that_was_not_tried_or_made_no_difference() -> None:
-    assert words.checked_words(cause("leader")) is None
-    assert words.way_words(cause(None)) is None
-    doubted = words.checked_words(cause("leader", changes=False, necessary=False))
+    assert labels.checked_words(cause("leader")) is None
+    assert labels.way_words(cause(None)) is None
+    doubted = labels.checked_words(cause("leader", changes=False, necessary=False))
     assert doubted is not None
     assert doubted.startswith("Without vehicle 1, I would have done the same")
-    motion = words.checked_words(cause("leader", necessary=False))
+    motion = labels.checked_words(cause("leader", necessary=False))
     assert motion is not None
     assert "no difference" in motion
 
 
 @pytest.mark.parametrize("how", ["leader", "right-of-way", "cut-in", "blocked", "collision"])
 def test_every_way_to_be_in_the_way_has_words(how: HoldUp) -> None:
-    assert words.way_words(cause(how))
-    assert words.hold_up_words(how)
-    assert words.cause_words(cause(how)).startswith("will probably ")
+    assert labels.way_words(cause(how))
+    assert labels.hold_up_words(how)
+    assert labels.cause_words(cause(how)).startswith("will probably ")
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("action", ACTIONS)
 def test_every_event_is_a_sentence(kind: str, action: str) -> None:
     for vehicle in (None, 2):
-        said = words.event_words(Event(kind, 75.0, action, 3, vehicle))  # type: ignore[arg-type]
+        said = labels.event_words(Event(kind, 75.0, action, 3, vehicle))  # type: ignore[arg-type]
         assert said[0].isupper()
         assert said.endswith(".")
         assert "None" not in said
@@ -94,11 +96,11 @@ def test_every_event_is_a_sentence(kind: str, action: str) -> None:
 
 def test_events_are_told_as_the_car_tells_them() -> None:
     said = [
-        words.event_words(Event("action-started", 1.0, "exit-right", 3)),
-        words.event_words(Event("action-committed", 75.0, "change-left", 3)),
-        words.event_words(Event("gave-way", 5.0, "exit-right", 3, 2)),
-        words.event_words(Event("collided", 5.0)),
-        words.event_words(Event("ended", 5.0)),
+        labels.event_words(Event("action-started", 1.0, "exit-right", 3)),
+        labels.event_words(Event("action-committed", 75.0, "change-left", 3)),
+        labels.event_words(Event("gave-way", 5.0, "exit-right", 3, 2)),
+        labels.event_words(Event("collided", 5.0)),
+        labels.event_words(Event("ended", 5.0)),
     ]
     assert said == [
         "I mean to turn right.",
@@ -111,4 +113,4 @@ def test_events_are_told_as_the_car_tells_them() -> None:
 
 def test_the_end_of_what_may_have_been_given_up_is_not_told_as_done() -> None:
     ended = Event("action-ended", 6.0, "exit-right", 3)
-    assert words.event_words(ended) == "Turning right is over."
+    assert labels.event_words(ended) == "Turning right is over."

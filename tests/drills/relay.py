@@ -19,7 +19,7 @@ from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Outcome, Pres
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import WhatIfRequest, unpack
 from xavi_dialogue.bus.zenoh_bus import join
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 
 LATEST = 0.6  # [s] that a message is held back at most
@@ -112,8 +112,8 @@ class Relay:
 
 def main() -> None:
     here, there, faults = sys.argv[1:]
-    orders: control.Orders = queue.SimpleQueue()
-    control.quit_on_signals(orders)
+    orders: child_commands.Orders = queue.SimpleQueue()
+    child_commands.quit_on_signals(orders)
     with join(Link.to_hub(here)) as car, join(Link.to_hub(there)) as service:
         relay = Relay(car, service, msgspec.json.decode(faults, type=Faults))
         relay.open()

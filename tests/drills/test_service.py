@@ -96,7 +96,7 @@ def test_a_chat_that_is_killed_while_it_waits_leaves_nobody_behind(crew: Crew) -
     chat = crew.xavi("chat", "--scenario", "s1")
     chat.order("@ 8.0s", "Hello!")
     chat.hear(1)
-    assert until(lambda: bool(crew.pids("app.worker")))
+    assert until(lambda: bool(crew.pids("vehicle.replan_worker")))
     chat.order("What if you had stopped?", "Why?", "@ 60s", "Why?")
     threading.Event().wait(0.2)
     chat.kill()

@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 
 from xavi_dialogue.cli.errors import failure
-from xavi_dialogue.inspection import trace_files as files
+from xavi_dialogue.inspection import trace_files
 from xavi_dialogue.inspection.trace_files import TraceFileError, content, read
 
 
 def test_a_file_is_read_up_to_the_limit_only(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(files, "MAX_RIDE_BYTES", 100)
+    monkeypatch.setattr(trace_files, "MAX_RIDE_BYTES", 100)
     path = tmp_path / "large"
     path.write_bytes(b"x" * 100)
     assert content(str(path)) == b"x" * 100

@@ -109,28 +109,28 @@ def test_a_halt_in_the_past_is_now() -> None:
 
 
 def test_listening_ends_with_the_stream(monkeypatch: pytest.MonkeyPatch) -> None:
-    from xavi_dialogue.process import child_commands as control
+    from xavi_dialogue.process import child_commands
 
-    monkeypatch.setattr(control, "PATIENCE", 3600.0)  # the thread would end this process
+    monkeypatch.setattr(child_commands, "PATIENCE", 3600.0)  # the thread would end this process
     orders: Orders = queue.SimpleQueue()
-    control.listen(io.StringIO("pause\nnonsense\nspeed 3\n"), orders)
+    child_commands.listen(io.StringIO("pause\nnonsense\nspeed 3\n"), orders)
     assert [orders.get(timeout=2.0) for _ in range(3)] == [Pause(), Speed(3.0), Quit()]
 
 
 def test_lines_that_are_no_orders_are_told_to_who_wants_to_know(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from xavi_dialogue.process import child_commands as control
+    from xavi_dialogue.process import child_commands
 
-    monkeypatch.setattr(control, "PATIENCE", 3600.0)  # the thread would end this process
+    monkeypatch.setattr(child_commands, "PATIENCE", 3600.0)  # the thread would end this process
     orders, refused = queue.SimpleQueue[Order](), list[str]()
     lines = io.StringIO(f"bogus\nspeed -3\n\n{'x' * 1000}\n\x1b[2J\npause\n")
-    control.listen(lines, orders, refused.append)
+    child_commands.listen(lines, orders, refused.append)
     assert [orders.get(timeout=2.0) for _ in range(2)] == [Pause(), Quit()]
     such = "is no order, such as pause, resume or speed 2.0"
     assert refused == [
         f"'bogus' {such}",
         "'-3' is no number from 0 on",
-        f"'{'x' * control.SHOWN}' {such}",
+        f"'{'x' * child_commands.SHOWN}' {such}",
         f"'\\x1b[2J' {such}",
     ]

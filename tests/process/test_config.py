@@ -8,7 +8,7 @@ from typer.testing import CliRunner, Result
 
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.bus.link import Link
-from xavi_dialogue.process import config as settings
+from xavi_dialogue.process import config
 from xavi_dialogue.service import main as hub
 
 OPTIONS = {"serve": {"listen": "listen", "keep-days": "keep_days"}, "chat": {"speed": "speed"}}
@@ -19,7 +19,7 @@ def served(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Link]:
     """The links of services that would have been started; no settings but those of the test."""
     links: list[Link] = []
     monkeypatch.setattr(hub, "serve", lambda link, *_, **__: links.append(link))
-    monkeypatch.setattr(settings, "default_path", lambda: tmp_path / "config.toml")
+    monkeypatch.setattr(config, "default_path", lambda: tmp_path / "config.toml")
     for name in ("XAVI_LISTEN", "XAVI_CONFIG", "XAVI_ZENOH", "XAVI_CONNECT"):
         monkeypatch.delenv(name, raising=False)
     return links
@@ -115,4 +115,4 @@ def test_what_stands_at_the_top_is_for_all_who_have_it(
 ) -> None:
     file = tmp_path / "config.toml"
     file.write_text(text)
-    assert settings.read(file, OPTIONS) == found
+    assert config.read(file, OPTIONS) == found

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from xavi_dialogue.process import kernel_cache as kernels
+from xavi_dialogue.process import kernel_cache
 
 
 @pytest.fixture
@@ -17,28 +17,28 @@ def nowhere(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     file.touch()
     lent = tmp_path / "lent"
     lent.mkdir()
-    monkeypatch.setattr(kernels, "BESIDE", file / "__pycache__")
+    monkeypatch.setattr(kernel_cache, "BESIDE", file / "__pycache__")
     monkeypatch.setattr("tempfile.tempdir", str(lent))
     monkeypatch.setenv("XDG_CACHE_HOME", str(file))
-    monkeypatch.setenv(kernels.PLACE, "")
-    monkeypatch.delenv(kernels.PLACE)
+    monkeypatch.setenv(kernel_cache.PLACE, "")
+    monkeypatch.delenv(kernel_cache.PLACE)
     return lent
 
 
 def test_where_nothing_can_be_written_a_place_is_lent(nowhere: Path) -> None:
-    kernels.find_place()
+    kernel_cache.find_place()
     [place] = nowhere.iterdir()
-    assert os.environ[kernels.PLACE] == str(place)
-    kernels.find_place()
+    assert os.environ[kernel_cache.PLACE] == str(place)
+    kernel_cache.find_place()
     assert list(nowhere.iterdir()) == [place]
 
 
 def test_a_place_beside_the_source_is_enough(
     nowhere: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(kernels, "BESIDE", tmp_path / "planner" / "__pycache__")
-    kernels.find_place()
-    assert kernels.PLACE not in os.environ
+    monkeypatch.setattr(kernel_cache, "BESIDE", tmp_path / "planner" / "__pycache__")
+    kernel_cache.find_place()
+    assert kernel_cache.PLACE not in os.environ
     assert list(nowhere.iterdir()) == []
 
 
@@ -46,21 +46,21 @@ def test_a_place_in_the_users_cache_is_enough(
     nowhere: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    kernels.find_place()
-    assert kernels.PLACE not in os.environ
+    kernel_cache.find_place()
+    assert kernel_cache.PLACE not in os.environ
 
 
 def test_without_any_place_what_needs_none_goes_on(
     nowhere: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("tempfile.tempdir", str(nowhere / "gone"))
-    kernels.find_place()
-    assert kernels.PLACE not in os.environ
+    kernel_cache.find_place()
+    assert kernel_cache.PLACE not in os.environ
 
 
 @pytest.mark.slow
 def test_warming_compiles_all_that_a_ride_needs(root: Path, tmp_path: Path) -> None:
-    environment = {**os.environ, kernels.PLACE: str(tmp_path)}
+    environment = {**os.environ, kernel_cache.PLACE: str(tmp_path)}
 
     def compiled(*arguments: str) -> set[str]:
         command = [sys.executable, "-m", *arguments]

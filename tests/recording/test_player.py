@@ -30,7 +30,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.dialogue.reply import Reply, encode
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.recording import player
 from xavi_dialogue.recording.player import Player, load
 from xavi_dialogue.recording.recorder import Recorder
@@ -39,7 +39,7 @@ from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.mcap_file import McapWriter, read
 from xavi_dialogue.storage.recording_format import NotARecording, Tape, tape_of
-from xavi_dialogue.vehicle import replan_worker as worker
+from xavi_dialogue.vehicle import replan_worker
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.node import Pace
@@ -83,12 +83,12 @@ def tape(tmp_path: Path) -> Tape:
     return recorded(tmp_path / "ride.mcap", s1_moments())
 
 
-def played(tape: Tape, *orders: control.Order, running: bool = False) -> tuple[Ears, Player]:
+def played(tape: Tape, *orders: child_commands.Order, running: bool = False) -> tuple[Ears, Player]:
     """What is heard of a player that gets these orders, one after the other."""
     hub = MemoryHub()
     ears = Ears(hub.connect())
-    told: control.Orders = queue.SimpleQueue()
-    for order in (*orders, control.Quit()):
+    told: child_commands.Orders = queue.SimpleQueue()
+    for order in (*orders, child_commands.Quit()):
         told.put(order)
     one = Player(tape, hub.connect(), KEYS, Pace(0.0, running=running))
     one.play(told, stays=True)
@@ -126,10 +126,10 @@ def test_every_play_is_a_ride_of_its_own(tape: Tape) -> None:
 
 
 def test_it_halts_where_a_car_would(tape: Tape) -> None:
-    ears, _ = played(tape, control.Until(3.2))
+    ears, _ = played(tape, child_commands.Until(3.2))
     scene = ears.scenes[-1]
     assert scene.state == "driving"  # it had just been told
-    told: control.Orders = queue.SimpleQueue()
+    told: child_commands.Orders = queue.SimpleQueue()
     hub = MemoryHub()
     ears = Ears(hub.connect())
     one = Player(tape, hub.connect(), KEYS, Pace(0.0, running=True, until=3.2, stops=True))
@@ -139,13 +139,13 @@ def test_it_halts_where_a_car_would(tape: Tape) -> None:
     assert max(report.sim_time for report in ears.traces) <= 3.5
 
 
-def _quit_when_halted(one: Player, orders: control.Orders) -> None:
+def _quit_when_halted(one: Player, orders: child_commands.Orders) -> None:
     if not one.pace.running:
-        orders.put(control.Quit())
+        orders.put(child_commands.Quit())
 
 
 def test_it_goes_to_any_moment_also_back(tape: Tape) -> None:
-    ears, _ = played(tape, *(control.Seek(t) for t in (4.0, 1.0, 6.0, 2.2)))
+    ears, _ = played(tape, *(child_commands.Seek(t) for t in (4.0, 1.0, 6.0, 2.2)))
     sought = ears.scenes[1:5]
     assert [scene.sim_time for scene in sought] == [4.0, 1.0, 6.0, 2.5]
     assert [scene.orders for scene in sought] == [1, 2, 3, 4]
@@ -159,7 +159,9 @@ def test_it_goes_to_any_moment_also_back(tape: Tape) -> None:
 
 
 def test_beyond_the_end_is_the_end(tape: Tape) -> None:
-    ears, one = played(tape, control.Seek(1000.0), control.Resume(), control.Seek(0.0))
+    ears, one = played(
+        tape, child_commands.Seek(1000.0), child_commands.Resume(), child_commands.Seek(0.0)
+    )
     assert [scene.state for scene in ears.scenes[1:4]] == ["ended", "ended", "driving"]
     assert one.pace.obeyed == 4
 
@@ -192,7 +194,9 @@ class Inline:
         self.network = network
 
     def submit(self, job: Job) -> None:
-        result = worker.obey(msgspec.json.decode(job.order, type=worker.Order), self.network)
+        result = replan_worker.obey(
+            msgspec.json.decode(job.order, type=replan_worker.Order), self.network
+        )
         message = bytes(result.message)
         job.done(message if result.planned else msgspec.json.decode(message, type=Failure))
 
@@ -362,9 +366,11 @@ def test_sumo_is_not_needed(tmp_path: Path, root: Path) -> None:
 
 
 def test_orders_to_seek_are_written_and_read() -> None:
-    assert control.read(control.write(control.Seek(2.5))) == control.Seek(2.5)
-    with pytest.raises(control.OrderError):
-        control.read("seek -1")
+    assert child_commands.read(
+        child_commands.write(child_commands.Seek(2.5))
+    ) == child_commands.Seek(2.5)
+    with pytest.raises(child_commands.OrderError):
+        child_commands.read("seek -1")
 
 
 def test_a_passenger_who_is_taken_back_asks_about_that_moment(tape: Tape) -> None:
@@ -380,10 +386,15 @@ def test_a_passenger_who_is_taken_back_asks_about_that_moment(tape: Tape) -> Non
 def test_where_a_recording_ends_is_told_to_who_wants_to_go_beyond(tmp_path: Path) -> None:
     tape = recorded(tmp_path / "ride.mcap", iter(list(s1_moments())[:5]))
     hub, notes = MemoryHub(), list[str]()
-    told: control.Orders = queue.SimpleQueue()
-    for order in (control.Seek(1.0), control.Seek(15.0), control.Until(2.0), control.Until(9.0)):
+    told: child_commands.Orders = queue.SimpleQueue()
+    for order in (
+        child_commands.Seek(1.0),
+        child_commands.Seek(15.0),
+        child_commands.Until(2.0),
+        child_commands.Until(9.0),
+    ):
         told.put(order)
-    told.put(control.Quit())
+    told.put(child_commands.Quit())
     pace = Pace(0.0, running=False)
     Player(tape, hub.connect(), KEYS, pace, note=notes.append).play(told, stays=True)
     assert tape.times[-1] == 2.0

@@ -25,7 +25,7 @@ from xavi_dialogue.bus.messages import (
     unpack,
 )
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.recording import recorder as recording_app
+from xavi_dialogue.recording import recorder
 from xavi_dialogue.recording.recorder import Numbers, Recorder
 from xavi_dialogue.storage.mcap_file import McapWriter, read
 from xavi_dialogue.storage.recording_format import OVERHEAD, Attached, Entry, tape_of
@@ -136,7 +136,7 @@ def test_numbers_are_remembered_in_little_room(monkeypatch: pytest.MonkeyPatch) 
         *(True, True, False, True, False, False, True)
     ]
     assert (numbers.below, numbers.apart) == (2, {3, 5})
-    monkeypatch.setattr(recording_app, "MAX_APART", 3)
+    monkeypatch.setattr(recorder, "MAX_APART", 3)
     assert [numbers.new(n) for n in (9, 11, 4, 2)] == [True, True, True, False]
     assert (numbers.below, numbers.apart) == (6, {9, 11})
 
@@ -244,13 +244,13 @@ def test_nonsense_is_left_out_and_counted(studio: Studio) -> None:
     [written] = studio.entries()
     assert (written.payload, written.published) == (pack(scene), 0)
     alive = unpack(call(bus, Keys().of("alive/recorder"), b"", 1.0), AliveReport)
-    counters = {name: alive.counters[name] for name in recording_app.COUNTERS}
+    counters = {name: alive.counters[name] for name in recorder.COUNTERS}
     assert counters == {"messages": 1, "bytes": len(pack(scene)), "dropped": 0, "rejected": 4}
 
 
 def test_a_flood_is_not_held_in_memory(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     studio.recorder.open()
-    monkeypatch.setattr(recording_app, "MAX_WAITING", 3 * (len(turn(0)) + OVERHEAD))
+    monkeypatch.setattr(recorder, "MAX_WAITING", 3 * (len(turn(0)) + OVERHEAD))
     publisher = studio.hub.connect().publisher(Keys().of("dialogue/ada/turn"))
     for seq in range(5):
         publisher.put(turn(seq))
@@ -263,7 +263,7 @@ def test_a_flood_is_not_held_in_memory(studio: Studio, monkeypatch: pytest.Monke
 def test_a_flood_keeps_nobody_from_stopping(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recording_app, "AT_ONCE", 10)
+    monkeypatch.setattr(recorder, "AT_ONCE", 10)
     studio.recorder.open()
     publisher = studio.hub.connect().publisher(Keys().of("dialogue/ada/turn"))
     add, numbers = studio.file.add, iter(range(1, 1000))
@@ -286,7 +286,7 @@ def test_a_flood_keeps_nobody_from_stopping(
 def test_messages_without_content_wait_in_no_greater_number(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(recording_app, "MAX_WAITING", 3 * OVERHEAD)
+    monkeypatch.setattr(recorder, "MAX_WAITING", 3 * OVERHEAD)
     studio.recorder.open()
     publisher = studio.hub.connect().publisher(Keys().of("scene"))
     for _ in range(5):

@@ -23,7 +23,7 @@ from xavi_dialogue.process.child_commands import Signals
 from xavi_dialogue.recording.recorder import Recorder
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.mcap_file import McapWriter
-from xavi_dialogue.vehicle import bus_session as company_module
+from xavi_dialogue.vehicle import bus_session
 from xavi_dialogue.vehicle.bus_session import Staff, company
 from xavi_dialogue.vehicle.telemetry import Reporter
 
@@ -93,7 +93,7 @@ def test_a_car_does_what_it_may_and_takes_no_orders(
         seen.append(Watched(join(link, patience)))
         return seen[-1]
 
-    monkeypatch.setattr(company_module, "join", watched)
+    monkeypatch.setattr(bus_session, "join", watched)
     with world_of(tmp_path / "keys") as world:
         link = Link.to_hub(config=world.folder / "car.json5")
         with company(link, CAR, load("s1").network, Staff(), Signals()) as others:

@@ -13,9 +13,9 @@ from xavi_dialogue.bus.certificates import Authority, Identity, utc_now
 from xavi_dialogue.bus.interface import BadLink, HubUnreachable
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import join
-from xavi_dialogue.chat import remote_backend as remote
+from xavi_dialogue.chat import remote_backend
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.process import log_setup as logs
+from xavi_dialogue.process import log_setup
 from xavi_dialogue.recording import player, recorder
 from xavi_dialogue.security.preflight import WrongKey, check, holder, may, own_name
 from xavi_dialogue.security.provisioning import keep, material, wanted
@@ -51,8 +51,8 @@ def begun(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
     monkeypatch.setattr(hub, "serve", lambda *_, **__: found.append("serve"))
     monkeypatch.setattr(recorder, "record", lambda *_: found.append("record"))
     monkeypatch.setattr(player, "replay", lambda show, _: found.append(show.vehicle))
-    monkeypatch.setattr(remote, "ask_there", asked)
-    monkeypatch.setattr(remote, "through_pipe", lambda *_, **__: found.append("chat"))
+    monkeypatch.setattr(remote_backend, "ask_there", asked)
+    monkeypatch.setattr(remote_backend, "through_pipe", lambda *_, **__: found.append("chat"))
     for kind in ("DATA", "STATE", "CONFIG"):
         monkeypatch.setenv(f"XDG_{kind}_HOME", str(tmp_path / kind))
     return found
@@ -168,7 +168,7 @@ def test_the_log_names_the_car_as_its_key_does(
     keys: Path, begun: list[object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     vehicles: list[str | None] = []
-    monkeypatch.setattr(logs, "begin", lambda _, telling: vehicles.append(telling.vehicle))
+    monkeypatch.setattr(log_setup, "begin", lambda _, telling: vehicles.append(telling.vehicle))
     assert xavi("drive", key=keys / "car.shuttle-3.json5").exit_code == 0
     assert vehicles == begun == ["shuttle-3"]
 

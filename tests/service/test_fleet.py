@@ -50,9 +50,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.explain.history.record import Record
-from xavi_dialogue.service import request_handler as reception
-from xavi_dialogue.service import server as service
-from xavi_dialogue.service import vehicle_session as desks
+from xavi_dialogue.service import request_handler, server, vehicle_session
 from xavi_dialogue.service.fair_queue import FairQueue
 from xavi_dialogue.service.reorder_buffer import PATIENCE, InOrder, Ledger
 from xavi_dialogue.storage.conversations import Store
@@ -182,7 +180,7 @@ def test_a_service_shows_itself_at_every_car(bench: Bench) -> None:
 
 
 def test_no_more_cars_than_there_is_room_for(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reception, "MAX_CARS", 2)
+    monkeypatch.setattr(request_handler, "MAX_CARS", 2)
     drive(bench, "one", 1.0).close()  # it is gone, and makes room
     drive(bench, "two", 1.0)
     drive(bench, "three", 1.0)
@@ -206,18 +204,18 @@ def test_who_asks_most_waits_longest(bench: Bench) -> None:
 
 def test_beyond_a_few_open_questions_a_session_is_told_to_wait(bench: Bench) -> None:
     held, answer = plans(bench, drive(bench, "car", 3.0))
-    first = [ask(bench, "lack") for _ in range(reception.MAX_OPEN)]
+    first = [ask(bench, "lack") for _ in range(request_handler.MAX_OPEN)]
     bench.service.work()
     beyond, other = ask(bench, "answer"), ask(bench, "answer", session="bob")
     bench.service.work()
     assert refused(beyond).reason == "busy"
     assert replied(other).kind == "answer"
-    assert [len(came) for came in first] == [0] * reception.MAX_OPEN
+    assert [len(came) for came in first] == [0] * request_handler.MAX_OPEN
     answer()
     assert held == []
-    assert [replied(came).kind for came in first] == ["answer"] * reception.MAX_OPEN
+    assert [replied(came).kind for came in first] == ["answer"] * request_handler.MAX_OPEN
     told = bench.service.alive.report().counters
-    assert (told["busy"], told["questions"]) == (1.0, 1.0 + reception.MAX_OPEN)
+    assert (told["busy"], told["questions"]) == (1.0, 1.0 + request_handler.MAX_OPEN)
 
 
 def test_questions_of_a_session_are_answered_in_their_order(bench: Bench) -> None:
@@ -372,7 +370,7 @@ def test_others_read_a_turn_only_where_the_passenger_allows(bench: Bench) -> Non
 def test_who_was_silent_for_longest_is_forgotten_first(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(desks, "MAX_SESSIONS", 2)
+    monkeypatch.setattr(vehicle_session, "MAX_SESSIONS", 2)
     _, answer = plans(bench, drive(bench, "car", 3.0))
     waits = ask(bench, "lack", session="waits")
     for name in ("a", "b", "c", "d"):
@@ -689,7 +687,7 @@ def test_a_fault_of_ours_costs_one_request_and_no_more(
 def test_what_comes_in_faster_than_it_is_read_is_bounded(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(service, "MAX_BYTES", 1000)
+    monkeypatch.setattr(server, "MAX_BYTES", 1000)
     publisher = bench.car.publisher(Keys().of("trace"))
     for _ in range(50):
         publisher.put(b"x" * 100)
@@ -713,7 +711,7 @@ def test_what_waits_for_an_earlier_one_is_bounded() -> None:
 def test_questions_about_what_is_to_come_are_bounded_and_hold_up_nobody(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(reception, "MAX_EARLY", 3)
+    monkeypatch.setattr(request_handler, "MAX_EARLY", 3)
     drive(bench, "car", 3.0)
     early = [ask(bench, "answer", session=f"s{k}", at=1e6) for k in range(5)]
     now = ask(bench, "answer", session="now")

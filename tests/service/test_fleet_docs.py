@@ -11,11 +11,11 @@ from typer.testing import CliRunner
 
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.bus.health import MEMORY
-from xavi_dialogue.dashboard import controller as board
+from xavi_dialogue.dashboard import controller
 from xavi_dialogue.process.log_setup import Lines, Telling
 from xavi_dialogue.recording import recorder
-from xavi_dialogue.service import server as service
-from xavi_dialogue.vehicle import node as car
+from xavi_dialogue.service import server
+from xavi_dialogue.vehicle import node
 
 
 @pytest.fixture(scope="module")
@@ -67,4 +67,10 @@ def test_every_counter_is_in_the_table(page: str) -> None:
     owner = "(?:service|car|recorder|dashboard|each)"
     for row in re.findall(rf"^\| (`.*?`) \| {owner}", page, re.MULTILINE):
         told |= set(re.findall(r"`(\w+)`", row))
-    assert told >= {*service.COUNTERS, *car.COUNTERS, *recorder.COUNTERS, *board.COUNTERS, MEMORY}
+    assert told >= {
+        *server.COUNTERS,
+        *node.COUNTERS,
+        *recorder.COUNTERS,
+        *controller.COUNTERS,
+        MEMORY,
+    }

@@ -30,8 +30,7 @@ from xavi_dialogue.bus.messages import (
     schema_name,
 )
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.storage import mcap_file
-from xavi_dialogue.storage import recording_format as recording
+from xavi_dialogue.storage import mcap_file, recording_format
 from xavi_dialogue.storage.mcap_file import McapWriter, read
 from xavi_dialogue.storage.recording_format import (
     RECORDED,
@@ -445,7 +444,7 @@ def test_a_scene_without_the_car_is_refused() -> None:
 def test_a_recording_too_large_to_be_held_is_refused_before_it_is(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(recording, "MAX_TAPE", 20_000)
+    monkeypatch.setattr(recording_format, "MAX_TAPE", 20_000)
     given = 0
 
     def endless() -> Iterator[Piece]:

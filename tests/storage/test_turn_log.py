@@ -15,7 +15,7 @@ from xavi_dialogue.__main__ import app
 from xavi_dialogue.cli.commands.sessions import typed_file
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.turn import Turn
-from xavi_dialogue.storage import resume as going_on
+from xavi_dialogue.storage import resume
 from xavi_dialogue.storage.conversations import DAY, NewEvent, NewTurn, RideName, Store
 from xavi_dialogue.storage.input_history import TypedLines
 from xavi_dialogue.storage.turn_log import Keeping
@@ -202,7 +202,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, arguments: list[str]) 
 
 def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
     keeping, s1 = Keeping(path, 30), load("s1")
-    going = going_on.find(keeping, "ada")
+    going = resume.find(keeping, "ada")
     assert (going.place(None), going.place("s2")) == ("s1", "s2")
     assert (going.seed(None, s1), going.seed(7, s1)) == (4, 7)
     assert going.seed(None, load("s2")) == load("s2").seed
@@ -213,19 +213,19 @@ def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
 
 
 def test_a_conversation_that_nobody_knows_begins(path: Path) -> None:
-    going = going_on.find(Keeping(path, 30), "eve")
+    going = resume.find(Keeping(path, 30), "eve")
     assert (going.place(None), going.before) == ("s1", None)
     assert going.seed(None, load("s1")) == load("s1").seed
-    fresh = going_on.fresh(datetime(2026, 11, 21, 16, 42, 10, tzinfo=UTC), "3f9c")
+    fresh = resume.fresh(datetime(2026, 11, 21, 16, 42, 10, tzinfo=UTC), "3f9c")
     assert fresh.session == "20261121-164210-3f9c"
     assert "--session 20261121-164210-3f9c" in fresh.note(None, Keeping(path, 30))
     assert "nothing" in fresh.note(None, None)
 
 
 def test_a_scenario_is_found_again_by_name_or_folder(root: Path, tmp_path: Path) -> None:
-    assert going_on.place_of(load("s1")) == "s1"
-    assert going_on.place_of(load(root / "sim" / "scenarios" / "s1")) == "s1"
+    assert resume.place_of(load("s1")) == "s1"
+    assert resume.place_of(load(root / "sim" / "scenarios" / "s1")) == "s1"
     for source in (root / "sim" / "scenarios" / "s1").iterdir():
         if source.is_file():
             (tmp_path / source.name).write_bytes(source.read_bytes())
-    assert going_on.place_of(load(tmp_path)) == str(tmp_path)  # though it says that it is s1
+    assert resume.place_of(load(tmp_path)) == str(tmp_path)  # though it says that it is s1

@@ -4,14 +4,14 @@ import re
 
 import pytest
 
-from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.terminal import slash_commands
 from xavi_dialogue.terminal.slash_commands import Command, CommandError, forms
 
 
 def test_a_command_is_read_with_what_it_takes() -> None:
-    assert commands.read("/why", "pipe") == Command("why")
-    assert commands.read(" /SAVE  a file.txt ", "pipe") == Command("save", "a file.txt")
-    assert commands.read("/save", "terminal") == Command("save")
+    assert slash_commands.read("/why", "pipe") == Command("why")
+    assert slash_commands.read(" /SAVE  a file.txt ", "pipe") == Command("save", "a file.txt")
+    assert slash_commands.read("/save", "terminal") == Command("save")
 
 
 @pytest.mark.parametrize(
@@ -26,39 +26,39 @@ def test_a_command_is_read_with_what_it_takes() -> None:
 )
 def test_errors_name_what_would_be_right(line: str, problem: str) -> None:
     with pytest.raises(CommandError, match=re.escape(problem)):
-        commands.read(line, "terminal")
+        slash_commands.read(line, "terminal")
 
 
 def test_what_needs_a_terminal_is_refused_without_one() -> None:
     with pytest.raises(CommandError, match="/pause needs a terminal"):
-        commands.read("/pause", "pipe")
+        slash_commands.read("/pause", "pipe")
     with pytest.raises(CommandError, match="nearest is /plan;"):
-        commands.read("/paus", "pipe")
+        slash_commands.read("/paus", "pipe")
 
 
 @pytest.mark.parametrize("argument", ["fast", "nan", "-1", "1001", ""])
 def test_a_speed_is_a_number_in_range(argument: str) -> None:
     with pytest.raises(CommandError, match="from 0 to 1000"):
-        commands.factor(argument)
+        slash_commands.factor(argument)
 
 
 @pytest.mark.parametrize("argument", ["back", "nan", "-1", "inf", ""])
 def test_a_moment_is_a_number_of_seconds(argument: str) -> None:
     with pytest.raises(CommandError, match="a moment in seconds"):
-        commands.moment(argument)
+        slash_commands.moment(argument)
 
 
 def test_moments() -> None:
-    assert (commands.moment("0"), commands.moment("2.5s")) == (0.0, 2.5)
+    assert (slash_commands.moment("0"), slash_commands.moment("2.5s")) == (0.0, 2.5)
 
 
 def test_speeds() -> None:
-    assert (commands.factor("0"), commands.factor("2.5")) == (0.0, 2.5)
+    assert (slash_commands.factor("0"), slash_commands.factor("2.5")) == (0.0, 2.5)
 
 
 @pytest.mark.parametrize("width", [40, 50, 59, 60, 120])
 def test_every_command_is_listed_within_the_width(width: int) -> None:
-    lines = commands.listed("terminal", width).splitlines()
+    lines = slash_commands.listed("terminal", width).splitlines()
     assert max(map(len, lines)) <= width
     starts = [line.split()[0] for line in lines if line.startswith("/")]
     assert starts == [f"/{form.name}" for form in forms("terminal")]
@@ -72,6 +72,6 @@ def test_lines_break_at_spaces_alone() -> None:
         "this conversation is 20261121-164210-3f9c: --session 20261121-164210-3f9c goes on with it"
     )
     for width in range(10, 100):
-        lines = commands.wrapper(width).wrap(note)
+        lines = slash_commands.wrapper(width).wrap(note)
         assert [word for line in lines for word in line.split()] == note.split()
         assert max(map(len, lines)) <= max(width, len("20261121-164210-3f9c:"))

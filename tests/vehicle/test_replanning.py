@@ -33,7 +33,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.chat.local_backend import convoy, first_scene
 from xavi_dialogue.process.child_commands import Orders, Until
-from xavi_dialogue.vehicle import replan_worker as worker
+from xavi_dialogue.vehicle import replan_worker
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.node import COUNTERS, Car, Pace
 from xavi_dialogue.vehicle.replan_worker import Order, Result, obey
@@ -231,9 +231,9 @@ def test_warming_up_takes_a_decision_among_others(monkeypatch: pytest.MonkeyPatc
             decided.append(done.trace)
             return done
 
-    monkeypatch.setattr(worker, "Driver", Watched)
+    monkeypatch.setattr(replan_worker, "Driver", Watched)
     for name in ("s1", "s2"):
-        worker.warm_up(roads(name).network)
+        replan_worker.warm_up(roads(name).network)
     assert len(decided) == 2
     for taken in decided:
         assert taken.plan
@@ -282,7 +282,7 @@ def test_a_worker_ends_with_its_input_in_the_middle_of_planning(trace: PlanTrace
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     assert process.stdin is not None
     assert process.stdout is not None
-    assert process.stdout.readline() == worker.READY
+    assert process.stdout.readline() == replan_worker.READY
     process.stdin.write(text(order(trace, ENDLESS)).encode() + b"\n")
     process.stdin.close()
     assert process.stdout.read() == b""

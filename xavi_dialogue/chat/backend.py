@@ -5,7 +5,7 @@ from typing import Protocol
 
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 
 
 class Behind(Protocol):
@@ -29,7 +29,7 @@ class Behind(Protocol):
             ChildFailed: see `check`.
         """
 
-    def order(self, order: control.Order) -> None:
+    def order(self, order: child_commands.Order) -> None:
         """Give the car an order.
 
         Raises:
@@ -39,7 +39,9 @@ class Behind(Protocol):
     def set_off(self) -> None:
         """Let the ride begin, or go on, now that there is somebody to be told of it."""
 
-    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+    def drive(
+        self, client: Client, order: child_commands.Order, *, halt: bool = False
+    ) -> SceneReport:
         """Give the car an order, and wait until it has obeyed it.
 
         Args:

@@ -12,8 +12,8 @@ from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.chat.controller import plan_told, vehicles_in_words
 from xavi_dialogue.chat.history import Minutes
 from xavi_dialogue.dialogue.reply import Reply, encode
-from xavi_dialogue.process import child_commands as control
-from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.process import child_commands
+from xavi_dialogue.terminal import slash_commands
 from xavi_dialogue.terminal.slash_commands import Command, CommandError
 from xavi_dialogue.transcripts.transcript import moment
 
@@ -69,7 +69,7 @@ class Piped:
         if moved is not None:
             self._move(moved)
         elif line.startswith("/"):
-            return self._obey(commands.read(line, "pipe"))
+            return self._obey(slash_commands.read(line, "pipe"))
         elif line.startswith("@"):
             self.note(f"a moment is written @ 8.0s, not {line[:SHOWN]!r}")
         elif line:
@@ -78,10 +78,10 @@ class Piped:
 
     def _move(self, at: float) -> None:
         if self.seeks:
-            self.scene = self.behind.drive(self.client, control.Seek(at), halt=True)
+            self.scene = self.behind.drive(self.client, child_commands.Seek(at), halt=True)
             at = reached(self.scene, at)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
-            self.scene = self.behind.drive(self.client, control.Until(at), halt=True)
+            self.scene = self.behind.drive(self.client, child_commands.Until(at), halt=True)
         self.at = at  # not where the ride cannot go there: nothing could be said about it
 
     def _ask(self, text: str) -> None:
@@ -104,11 +104,11 @@ class Piped:
             case "quit":
                 return False
             case "help":
-                self._tell(f"{HELP}\n{commands.listed('pipe', WIDTH)}")
+                self._tell(f"{HELP}\n{slash_commands.listed('pipe', WIDTH)}")
             case "why":
                 self._ask(self.minutes.why())
             case "more":
-                self._ask(commands.MORE)
+                self._ask(slash_commands.MORE)
             case "vehicles":
                 self._tell_now(vehicles_in_words)
             case "plan":

@@ -71,7 +71,7 @@ class Client:
             keys: of the car.
             session: that is talked in.
             on_event: gets what happens, on a thread of the bus.
-            token: of the session, see app.identity; None: it is open to all.
+            token: of the session, see security.client_token; None: it is open to all.
             share: others may read what is said.
         """
         self._token, self._share = token, share

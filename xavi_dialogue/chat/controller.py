@@ -13,7 +13,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.facts.looks import look_in
 from xavi_dialogue.nlg.narration import clock, plan_in_words
 from xavi_dialogue.nlg.surface.referring import described
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import ChildFailed
 from xavi_dialogue.terminal.slash_commands import forms
 
@@ -29,7 +29,7 @@ ALONE = "There is no other vehicle in view."
 
 
 class RemoteCabin:
-    """See transports.cabin.Cabin."""
+    """See terminal.chat_interface.Cabin."""
 
     def __init__(self, behind: Behind, client: Client, minutes: Minutes) -> None:
         self._behind, self._client, self._minutes = behind, client, minutes
@@ -111,19 +111,19 @@ class RemoteCabin:
 
     def pause(self) -> None:
         """Halt the ride."""
-        self._behind.order(control.Pause())
+        self._behind.order(child_commands.Pause())
 
     def resume(self) -> None:
         """Go on."""
-        self._behind.order(control.Resume())
+        self._behind.order(child_commands.Resume())
 
     def speed(self, factor: float) -> None:
         """Change how fast the ride goes."""
-        self._behind.order(control.Speed(factor))
+        self._behind.order(child_commands.Speed(factor))
 
     def seek(self, time: float) -> None:
         """Go to a moment [s] of a recorded ride."""
-        self._behind.order(control.Seek(time))
+        self._behind.order(child_commands.Seek(time))
 
     def check(self) -> None:
         """Raise where the ride cannot be talked about any more."""

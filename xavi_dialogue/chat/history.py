@@ -12,7 +12,7 @@ import msgspec
 from xavi_dialogue.bus.messages import PastTurn
 from xavi_dialogue.bus.sanitize import clean, one_line
 from xavi_dialogue.chat.client import Client, ServiceLost
-from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.terminal import slash_commands
 from xavi_dialogue.terminal.slash_commands import CommandError
 from xavi_dialogue.transcripts import transcript
 from xavi_dialogue.transcripts.transcript import At, Exchange, Transcript
@@ -37,7 +37,7 @@ class Minutes:
 
     def why(self) -> str:
         """The question why: of what was said last, else of what was done last."""
-        return commands.WHY if self._turns() else commands.WHY_DONE
+        return slash_commands.WHY if self._turns() else slash_commands.WHY_DONE
 
     def told(self) -> str:
         """What was said, as a passenger reads it."""

@@ -16,7 +16,7 @@ from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, join
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.chat.vehicle_supervisor import SteadyCar
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import Child, ChildFailed, Expendable, Steady
 from xavi_dialogue.storage.turn_log import Keeping
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -66,18 +66,20 @@ class Convoy:
                 return True
         return False
 
-    def order(self, order: control.Order) -> None:
+    def order(self, order: child_commands.Order) -> None:
         """See Behind."""
-        if isinstance(order, control.Seek) and not self.seeks:
+        if isinstance(order, child_commands.Seek) and not self.seeks:
             raise CommandError(LIVE)
         self.car.order(order)
 
     def set_off(self) -> None:
         """See Behind."""
         with suppress(CommandError):  # there is no car any more, which has been told
-            self.car.order(control.Resume())
+            self.car.order(child_commands.Resume())
 
-    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+    def drive(
+        self, client: Client, order: child_commands.Order, *, halt: bool = False
+    ) -> SceneReport:
         """See Behind."""
         self.car.order(order)
 

@@ -11,7 +11,7 @@ from xavi_dialogue.chat.client import Client, OnEvent
 from xavi_dialogue.chat.history import Minutes
 from xavi_dialogue.chat.interactive import Typed, Unasked, talk, warner
 from xavi_dialogue.chat.local_backend import Company, Convoy, convoy, convoy_of, first_scene
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.storage.turn_log import Keeping
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -62,7 +62,7 @@ def through_pipe(
         client = client_of(ride.passenger, behind.bus, Keys())
         scene = first_scene(behind, client)
         with suppress(CommandError):  # there is no car any more, which has been told
-            scene = behind.drive(client, control.Until(ride.resume), halt=True)
+            scene = behind.drive(client, child_commands.Until(ride.resume), halt=True)
         at = scene.sim_time if ride.resume is None else ride.resume
         at = reached(scene, at) if behind.seeks else at
         note(f"asking at {at:.1f} s")
@@ -126,5 +126,5 @@ def _begin(ride: Ride, behind: Convoy, client: Client, speed: float) -> None:
     first_scene(behind, client)
     if ride.resume is not None:
         with suppress(CommandError):  # there is no car any more, which has been told
-            behind.drive(client, control.Until(ride.resume), halt=True)
-            behind.order(control.Speed(speed))
+            behind.drive(client, child_commands.Until(ride.resume), halt=True)
+            behind.order(child_commands.Speed(speed))

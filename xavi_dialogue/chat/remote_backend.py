@@ -17,7 +17,7 @@ from xavi_dialogue.chat.history import Minutes
 from xavi_dialogue.chat.interactive import Typed, Unasked, talk
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.nlg.context import Style
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
 
@@ -81,14 +81,16 @@ class Along:
                 return True
         return False
 
-    def order(self, order: control.Order) -> None:
+    def order(self, order: child_commands.Order) -> None:
         """See Behind."""
         raise CommandError(DECLINED)
 
     def set_off(self) -> None:
         """The ride is under way, or not, whoever is told of it."""
 
-    def drive(self, client: Client, order: control.Order, *, halt: bool = False) -> SceneReport:
+    def drive(
+        self, client: Client, order: child_commands.Order, *, halt: bool = False
+    ) -> SceneReport:
         """See Behind."""
         raise CommandError(DECLINED)
 

@@ -13,7 +13,7 @@ from typing import Self
 
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import Child, ChildFailed
 from xavi_dialogue.terminal.slash_commands import CommandError
 
@@ -31,11 +31,11 @@ class _Wish:
     """How the passenger wants the ride to go on."""
 
     speed: float  # simulated seconds per second; 0 is as fast as possible
-    motion: control.Order
+    motion: child_commands.Order
 
-    def after(self, order: control.Order) -> "_Wish":
+    def after(self, order: child_commands.Order) -> "_Wish":
         match order:
-            case control.Speed(factor):
+            case child_commands.Speed(factor):
                 return replace(self, speed=factor)
             case _:
                 return replace(self, motion=order)
@@ -59,7 +59,7 @@ class SteadyCar:
             tell: gets what the passenger should know, on a thread.
         """
         self._start, self._child, self._tell = start, start(), tell
-        self._wish = _Wish(speed, control.Pause())
+        self._wish = _Wish(speed, child_commands.Pause())
         self._lock = threading.Lock()  # of all that follows
         self._ready = True  # orders go to the program; else they are remembered
         self._reached: float | None = None  # [s] where the ride has to get to again
@@ -98,7 +98,7 @@ class SteadyCar:
         if self._lost is not None:
             raise CommandError(self._lost)
 
-    def order(self, order: control.Order) -> None:
+    def order(self, order: child_commands.Order) -> None:
         """Give an order: now, or as soon as the car is where it was.
 
         Raises:
@@ -182,8 +182,8 @@ class SteadyCar:
             ChildFailed: the car has ended again, or says nothing.
         """
         child = self._child
-        child.order(control.Speed(0.0))
-        number = child.order(control.Until(self._reached or 0.0))
+        child.order(child_commands.Speed(0.0))
+        number = child.order(child_commands.Until(self._reached or 0.0))
 
         def there(scene: SceneReport) -> bool:
             begun = scene.ride != self._before and scene.orders >= number
@@ -193,7 +193,7 @@ class SteadyCar:
             child.kill()
             raise ChildFailed("the car is not heard of any more")
         with self._lock:
-            child.order(control.Speed(self._wish.speed))
+            child.order(child_commands.Speed(self._wish.speed))
             child.order(self._wish.motion)
             self._ready = True
 

@@ -59,7 +59,7 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
 
 @dataclass(frozen=True)
 class Known:
-    """An error that is told in one line."""
+    """An error that is reported in one line."""
 
     message: str
     status: ExitStatus

@@ -18,7 +18,7 @@ from platformdirs import user_cache_path, user_config_path, user_data_path, user
 from sim import engine
 from sim.roads import netconvert
 from xavi_dialogue.bus.interface import DEFAULT_ENDPOINT
-from xavi_dialogue.process import kernel_cache as kernels
+from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import VERSION, Store
 from xavi_dialogue.storage.database import StoreError
 
@@ -121,12 +121,12 @@ def maps(_: Patient) -> Finding:
 
 def compiled(_: Patient) -> Finding:
     """The planner's compiled kernels."""
-    place = kernels.place()
-    if place is None or place.name.startswith(kernels.LENT):
+    place = kernel_cache.place()
+    if place is None or place.name.startswith(kernel_cache.LENT):
         found = "nowhere to keep them: every command compiles them anew"
-        advice = f"name a folder that can be written with {kernels.PLACE}"
+        advice = f"name a folder that can be written with {kernel_cache.PLACE}"
         return Finding("kernels", "warning", found, advice)
-    missing = kernels.missing(place)
+    missing = kernel_cache.missing(place)
     if missing:
         found = f"not compiled yet: {', '.join(missing)}"
         return Finding("kernels", "warning", found, "run make chat, or wait at the first ride")
@@ -136,7 +136,7 @@ def compiled(_: Patient) -> Finding:
 def folders(_: Patient) -> Finding:
     """The user's folders: those that there are can be written, the others be made."""
     every = [find(OURS) for find in (user_data_path, user_state_path, user_cache_path)]
-    shut = [str(folder) for folder in every if not kernels.writable(folder)]
+    shut = [str(folder) for folder in every if not kernel_cache.writable(folder)]
     if shut:
         advice = "see to their permissions, or set XDG_DATA_HOME, XDG_STATE_HOME, XDG_CACHE_HOME"
         return Finding("folders", "fault", f"cannot be written: {', '.join(shut)}", advice)
@@ -147,7 +147,7 @@ def store(patient: Patient) -> Finding:
     """The file of what is kept."""
     path = patient.store
     if not path.exists():
-        if kernels.writable(path.parent):
+        if kernel_cache.writable(path.parent):
             return Finding("store", "ok", f"{path} will be made when something is said")
         advice = "see to its permissions, or name another file with --store"
         return Finding("store", "fault", f"{path} cannot be made", advice)

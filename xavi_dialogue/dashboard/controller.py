@@ -50,7 +50,7 @@ ALONE = "There is no dialogue service to ask yet."
 
 @dataclass
 class Board:
-    """Shows one car, and one conversation about it; see transports.web.server.Board."""
+    """Shows one car, and one conversation about it; see dashboard.web.interfaces."""
 
     keys: Keys
     passenger: Passenger

@@ -26,7 +26,7 @@ from xavi_dialogue.chat.main import Ride, behind_of
 from xavi_dialogue.dashboard.controller import Board
 from xavi_dialogue.dashboard.web.address import Listen
 from xavi_dialogue.dashboard.web.server import Server
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import ChildFailed
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -126,8 +126,8 @@ class Background:
             first_scene(behind, client)
             if ride.resume is not None:
                 with suppress(CommandError):  # there is no car any more, which has been told
-                    behind.drive(client, control.Until(ride.resume), halt=True)
-                    behind.order(control.Speed(self._task.speed))
+                    behind.drive(client, child_commands.Until(ride.resume), halt=True)
+                    behind.order(child_commands.Speed(self._task.speed))
             self._behind = behind
             self._set_off(behind)
             while not self.over.wait(GLANCE):

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.log_setup import is_log
 
 TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or installed
@@ -67,7 +67,7 @@ class Child:
         """The process's number."""
         return self._process.pid
 
-    def order(self, order: control.Order) -> int:
+    def order(self, order: child_commands.Order) -> int:
         """Give an order.
 
         Returns:
@@ -78,7 +78,7 @@ class Child:
         """
         assert self._process.stdin is not None
         try:
-            self._process.stdin.write(control.write(order) + "\n")
+            self._process.stdin.write(child_commands.write(order) + "\n")
             self._process.stdin.flush()
         except (BrokenPipeError, ValueError):
             self.check()

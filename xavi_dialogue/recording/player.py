@@ -32,7 +32,7 @@ from xavi_dialogue.bus.messages import (
     pack,
 )
 from xavi_dialogue.nlg.narration import clock
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.mcap_file import read
 from xavi_dialogue.storage.recording_format import RecordingError, Tape, tape_of, unpacked
 from xavi_dialogue.vehicle.bus_session import (
@@ -84,7 +84,7 @@ class Player:
         """Whether no scene follows."""
         return self.index == len(self.tape.scenes) - 1
 
-    def play(self, orders: control.Orders, *, stays: bool) -> None:
+    def play(self, orders: child_commands.Orders, *, stays: bool) -> None:
         """Play to the end, or until told to quit.
 
         Args:
@@ -127,7 +127,7 @@ class Player:
         self.pace.arrive(scene.sim_time, self.events)
         self._show(always=not self.pace.running or self.at_end)
 
-    def _listen(self, orders: control.Orders, patience: float) -> None:
+    def _listen(self, orders: child_commands.Orders, patience: float) -> None:
         try:
             order = orders.get(timeout=patience) if patience > 0.0 else orders.get_nowait()
         except queue.Empty:
@@ -135,10 +135,10 @@ class Player:
         self.pace.obey(order)
         index = self.index
         match order:
-            case control.Seek(time):
+            case child_commands.Seek(time):
                 self.tell_end(time)
                 index = self.tape.index_at(time)
-            case control.Until(float(time)):
+            case child_commands.Until(float(time)):
                 self.tell_end(time)
         self.go_to(index)
 
@@ -251,8 +251,8 @@ def replay(show: Show, note: Note) -> None:
         NameTaken: there is a car of this name on the bus.
         RecordingError: the file cannot be played.
     """
-    orders: control.Orders = queue.SimpleQueue()
-    signals = control.Signals()
+    orders: child_commands.Orders = queue.SimpleQueue()
+    signals = child_commands.Signals()
     signals.listen(orders)
     tape = load(show.path, show.car, note)
     keys = Keys(show.vehicle or tape.vehicle)
@@ -260,7 +260,7 @@ def replay(show: Show, note: Note) -> None:
     alive = Alive("car", COUNTERS)
     with suppress(Dismissed), joined(show.link, signals, patience) as bus:
         claim(bus, keys, signals)
-        control.listen(sys.stdin, orders, None if show.controlled else note)
+        child_commands.listen(sys.stdin, orders, None if show.controlled else note)
         with planning_for(tape, bus, keys, alive, note) as (planning, record):
             serve(bus, keys, planning, alive)
             if not show.controlled:

@@ -26,7 +26,7 @@ from xavi_dialogue.bus.messages import (
     TurnReport,
     unpack,
 )
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.mcap_file import McapWriter
 from xavi_dialogue.storage.recording_format import (
     MAX_PACKED,
@@ -227,11 +227,11 @@ def record(task: Task, note: Note) -> None:
         HubUnreachable: there is no hub at the endpoint.
         RecordingError: the file cannot be written, or is there already.
     """
-    orders: control.Orders = queue.SimpleQueue()
-    signals = control.Signals()
+    orders: child_commands.Orders = queue.SimpleQueue()
+    signals = child_commands.Signals()
     signals.listen(orders)
     if task.controlled:
-        control.listen(sys.stdin, orders)
+        child_commands.listen(sys.stdin, orders)
     keys = EVERY_CAR if task.vehicle == EVERY else Keys(task.vehicle)
     try:
         patience = CHILD_PATIENCE if task.controlled else HUB_PATIENCE
@@ -246,7 +246,7 @@ def record(task: Task, note: Note) -> None:
         recorder.open()
         if not task.controlled:
             note(f"recording into {task.path}; Ctrl-C ends it")
-        while orders.empty() or not isinstance(orders.get(), control.Quit):
+        while orders.empty() or not isinstance(orders.get(), child_commands.Quit):
             recorder.work(LOOK)
         recorder.finish()
     note(f"{file.messages} messages are in {task.path}")

@@ -13,7 +13,7 @@ from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.state import Dialogue
 from xavi_dialogue.nlg.surface.realiser import grammar
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.service.in_process import make_mind
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.turn_log import Memory
@@ -32,10 +32,10 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
         EndpointTaken: an endpoint is in use.
         BadLink: the link's configuration cannot be used.
     """
-    orders: control.Orders = queue.SimpleQueue()
-    control.quit_on_signals(orders)
+    orders: child_commands.Orders = queue.SimpleQueue()
+    child_commands.quit_on_signals(orders)
     if controlled:
-        control.listen(sys.stdin, orders)
+        child_commands.listen(sys.stdin, orders)
     mind = make_mind()
     _warm(mind)
     with host(link) as bus:
@@ -46,11 +46,11 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
     memory.close()
 
 
-def _told_to_quit(orders: control.Orders) -> bool:
+def _told_to_quit(orders: child_commands.Orders) -> bool:
     """Whether it was; and then it remains so."""
     while not orders.empty():
-        if isinstance(orders.get(), control.Quit):
-            orders.put(control.Quit())
+        if isinstance(orders.get(), child_commands.Quit):
+            orders.put(child_commands.Quit())
             return True
     return False
 

@@ -18,7 +18,7 @@ from prompt_toolkit.patch_stdout import patch_stdout
 
 from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import one_line
-from xavi_dialogue.terminal import slash_commands as commands
+from xavi_dialogue.terminal import slash_commands
 from xavi_dialogue.terminal.chat_interface import Cabin
 from xavi_dialogue.terminal.completion import Words
 from xavi_dialogue.terminal.screen import Screen, cut, has_colours
@@ -137,7 +137,7 @@ class TerminalChat:
                 return
         try:
             if text.startswith("/"):
-                self._command(commands.read(text, "terminal"))
+                self._command(slash_commands.read(text, "terminal"))
             elif text:
                 self._ask(text)
         except CommandError as error:
@@ -148,14 +148,14 @@ class TerminalChat:
             self._screen.dim(f"(Only the first {MAX_TEXT} characters are asked.)")
         self._jobs.put_nowait(lambda request: self._cabin.ask(text[:MAX_TEXT], request))
 
-    def _command(self, command: commands.Command) -> None:
+    def _command(self, command: slash_commands.Command) -> None:
         cabin, screen, put = self._cabin, self._screen, self._jobs.put_nowait
         match command.name:
             case "quit":
                 self._over = True
             case "help":
                 screen.tell(HELP)
-                screen.lay_out(commands.listed("terminal", screen.width))
+                screen.lay_out(slash_commands.listed("terminal", screen.width))
                 screen.tell(KEYS)
             case "vehicles":
                 screen.tell(cabin.vehicles())
@@ -166,13 +166,13 @@ class TerminalChat:
             case "resume":
                 cabin.resume()
             case "speed":
-                cabin.speed(commands.factor(command.argument))
+                cabin.speed(slash_commands.factor(command.argument))
             case "seek":
-                cabin.seek(commands.moment(command.argument))
+                cabin.seek(slash_commands.moment(command.argument))
             case "why":
                 put(self._why)
             case "more":
-                put(lambda request: cabin.ask(commands.MORE, request))
+                put(lambda request: cabin.ask(slash_commands.MORE, request))
             case "history":
                 put(lambda _: cabin.history())
             case "save":

@@ -18,7 +18,7 @@ from sim.setup.scenario import Scenario
 from sim.sumo import EgoGone, SumoFailed
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, Keys
 from xavi_dialogue.bus.link import Link
-from xavi_dialogue.process import child_commands as control
+from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.resume import place_of
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, save
 from xavi_dialogue.vehicle.bus_session import (
@@ -109,7 +109,7 @@ class Manner:
 
 
 def drive(
-    scenario: Scenario, seed: int, manner: Manner, signals: control.Signals | None = None
+    scenario: Scenario, seed: int, manner: Manner, signals: child_commands.Signals | None = None
 ) -> Summary:
     """Drive a scenario to its end, or until told to quit.
 
@@ -130,11 +130,11 @@ def drive(
     if manner.save is not None and not manner.save.parent.is_dir():
         raise RideFileError(f"cannot write {manner.save}: there is no such folder")
     began = time.monotonic()
-    orders: control.Orders = queue.SimpleQueue()
-    signals = control.Signals() if signals is None else signals
+    orders: child_commands.Orders = queue.SimpleQueue()
+    signals = child_commands.Signals() if signals is None else signals
     signals.listen(orders, FORCED)
     if manner.controlled:
-        control.listen(sys.stdin, orders)
+        child_commands.listen(sys.stdin, orders)
     tally = Tally(Summary(scenario.name, seed))
     log = Log(RecordedRide(scenario.name, seed, 0.0))
     records = (tally.record, *((log.record,) if manner.save else ()))
@@ -151,7 +151,7 @@ def drive(
 class _Told:
     """Who tells the car, and who is told."""
 
-    orders: control.Orders
+    orders: child_commands.Orders
     records: tuple[Record, ...]
     others: Company | None
 
@@ -172,7 +172,7 @@ def _drive(scenario: Scenario, seed: int, manner: Manner, told: _Told) -> None:
 
 
 def _in_company(
-    scenario: Scenario, manner: Manner, signals: control.Signals
+    scenario: Scenario, manner: Manner, signals: child_commands.Signals
 ) -> AbstractContextManager[Company | None]:
     """Who is told of the ride and may ask about it: nobody without a hub."""
     if manner.link is None:

@@ -5,7 +5,7 @@ the latest, and is not begun when nothing could come of it before that. A worker
 finish for a short grace, for nobody: it is warm, and its successor will not be at once. Who waits
 meanwhile gets it or the successor, whichever is ready first; the other one is killed. A worker that
 dies is replaced, and its job tried once more. Workers are started as new programs, never forked,
-and end with this process, however it ends (see worker.py).
+and end with this process, however it ends (see replan_worker.py).
 
 The cap on those waiting is one for all: who asks for many people shares it out among them.
 """

@@ -5,7 +5,7 @@ from importlib.resources import files
 
 import pytest
 
-from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web import responses
 
 
 @pytest.mark.parametrize(
@@ -18,7 +18,7 @@ from xavi_dialogue.dashboard.web import responses as bodies
     ],
 )
 def test_the_pages_files_are_there(path: str, kind: str) -> None:
-    found = bodies.asset(path)
+    found = responses.asset(path)
     assert found is not None
     assert found.type == kind
     data = (files("xavi_dialogue") / "dashboard/web/static" / path).read_bytes()
@@ -39,7 +39,7 @@ def test_the_pages_files_are_there(path: str, kind: str) -> None:
     ids=lambda path: repr(path[:30]),
 )
 def test_nothing_else_is(path: str) -> None:
-    assert bodies.asset(path) is None
+    assert responses.asset(path) is None
 
 
 def test_only_files_of_these_kinds_are_beside_the_page() -> None:
@@ -51,18 +51,18 @@ def test_only_files_of_these_kinds_are_beside_the_page() -> None:
                 left.append(one)
             else:
                 found.add(one.name.rpartition(".")[2])
-    assert found <= set(bodies.TYPES)
+    assert found <= set(responses.TYPES)
 
 
 def test_what_is_large_is_packed_and_what_changes_is_told_apart() -> None:
-    small, large = bodies.body(b"a", bodies.JSON), bodies.body(b"a" * 5000, bodies.JSON)
+    small, large = responses.body(b"a", responses.JSON), responses.body(b"a" * 5000, responses.JSON)
     assert small.packed is None
     assert large.packed is not None
     assert len(large.packed) < 100
     assert small.etag != large.etag
-    assert bodies.body(b"a", bodies.JSON) == small
+    assert responses.body(b"a", responses.JSON) == small
 
 
 def test_words_are_escaped() -> None:
-    assert b"<script>" not in bodies.no_token_page("<script>alert(1)</script>")
-    assert bodies.said('"</script>\n') == b'{"error":"\\"</script>\\n"}'
+    assert b"<script>" not in responses.no_token_page("<script>alert(1)</script>")
+    assert responses.said('"</script>\n') == b'{"error":"\\"</script>\\n"}'

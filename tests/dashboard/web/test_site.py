@@ -7,7 +7,7 @@ import pytest
 
 from tests.dashboard.web.boards import Known
 from tests.dashboard.web.browsing import TestClient, WebSocketDenialResponse, WebSocketTestSession
-from xavi_dialogue.dashboard.web import routes as site
+from xavi_dialogue.dashboard.web import routes
 from xavi_dialogue.dashboard.web.auth import NO_TOKEN, SECURITY, Guard, Listen
 from xavi_dialogue.dashboard.web.middleware import FAULT, FETCHES, TRIES, VISITS
 from xavi_dialogue.dashboard.web.routes import MAX_BROWSERS, Site
@@ -164,10 +164,10 @@ def test_a_fault_of_ours_is_logged_and_not_shown(
 def test_evidence_that_does_not_come_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     class Slow(Known):
         async def evidence(self, number: int) -> bytes | None:
-            await site.asyncio.Event().wait()
+            await routes.asyncio.Event().wait()
             return None
 
-    monkeypatch.setattr(site, "EVIDENCE_WAIT", 0.01)
+    monkeypatch.setattr(routes, "EVIDENCE_WAIT", 0.01)
     found = client(Slow()).get("/api/turns/3/evidence")
     assert (found.status_code, list(found.json())) == (504, ["error"])
 
@@ -248,7 +248,7 @@ def test_there_are_not_too_many_browsers() -> None:
         with browser.websocket_connect(WS, headers=ORIGIN) as socket:
             code, words = closed(socket)
         assert code == 1013
-        assert words == site.FULL
+        assert words == routes.FULL
         sockets.pop().__exit__(None, None, None)
         with talking(browser):
             pass

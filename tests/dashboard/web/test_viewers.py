@@ -7,7 +7,7 @@ import msgspec
 import pytest
 
 from tests.dashboard.web.boards import STATUS, WELCOME, scene
-from xavi_dialogue.dashboard.web import client_session as viewers
+from xavi_dialogue.dashboard.web import client_session
 from xavi_dialogue.dashboard.web.client_session import MAX_IN_FLIGHT, MAX_WAITING, Viewer, pack
 from xavi_dialogue.dashboard.web.websocket_messages import (
     MAX_INCOMING,
@@ -229,7 +229,7 @@ NO_MESSAGES = [
 def test_what_cannot_be_read_is_said_so(text: str) -> None:
     one = viewer()
     assert one.hear(text, 0.0) is None
-    assert [(m["type"], m["text"]) for m in taken(one)] == [("trouble", viewers.NOT_READ)]
+    assert [(m["type"], m["text"]) for m in taken(one)] == [("trouble", client_session.NOT_READ)]
     assert one.leave is None
 
 
@@ -245,7 +245,7 @@ def test_questions_are_taken_up_twice_a_second() -> None:
     heard = [one.hear(ask(number), 0.0) for number in range(8)]
     assert [h is not None for h in heard] == [True] * 5 + [False] * 3
     assert [(m["request"], m["text"]) for m in taken(one)] == [
-        (f"r{number}", viewers.TOO_FAST) for number in (5, 6, 7)
+        (f"r{number}", client_session.TOO_FAST) for number in (5, 6, 7)
     ]
     assert one.hear(ask(), 0.5) is not None
     assert one.hear(ask(), 0.5) is None

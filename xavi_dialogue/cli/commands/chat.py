@@ -120,11 +120,11 @@ def _drive(
 ) -> None:
     """Talk in a car of one's own."""
     from xavi_dialogue.chat.main import Ride, at_terminal, through_pipe
-    from xavi_dialogue.storage import resume as going_on
+    from xavi_dialogue.storage import resume
 
-    going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+    going = resume.fresh(datetime.now().astimezone(), token_hex(2))
     if session is not None:
-        going = going_on.find(keeping, session)
+        going = resume.find(keeping, session)
     loaded = shell.load(going.place(scenario))
     seed = going.seed(seed, loaded)
     at = going.moment(loaded, seed)
@@ -151,20 +151,22 @@ def _ride_along(
     share: bool,
 ) -> None:
     """Talk in a car that others drive."""
-    from xavi_dialogue.chat import remote_backend as remote
+    from xavi_dialogue.chat import remote_backend
     from xavi_dialogue.chat.interactive import Typed
-    from xavi_dialogue.storage import resume as going_on
+    from xavi_dialogue.storage import resume
 
     if session is None:
-        session = going_on.fresh(datetime.now().astimezone(), token_hex(2)).session
+        session = resume.fresh(datetime.now().astimezone(), token_hex(2)).session
         shell.note(f"this conversation is {session}: --session {session} goes on with it")
     passenger = passenger_of(session, share)
     if _terminal(as_json):
         typed = Typed(typed_file(), None if keeping is None else keeping.days)
-        remote.at_terminal(there, passenger, typed, shell.note)
+        remote_backend.at_terminal(there, passenger, typed, shell.note)
     else:
         lines = shell.lines()
-        remote.through_pipe(there, passenger, lines, shell.write, shell.note, as_json=as_json)
+        remote_backend.through_pipe(
+            there, passenger, lines, shell.write, shell.note, as_json=as_json
+        )
 
 
 def _ask(shell: Shell) -> Callable[..., None]:
@@ -198,10 +200,10 @@ def _ask(shell: Shell) -> Callable[..., None]:
 
         def under_way(there: "There") -> "Reply":
             from xavi_dialogue.chat.remote_backend import ask_there
-            from xavi_dialogue.storage import resume as going_on
+            from xavi_dialogue.storage import resume
 
             alone(scenario=place(scenario, ego, ego_from, ego_to, begin), seed=seed)
-            fresh = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            fresh = resume.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or fresh.session, share)
             return ask_there(there, passenger, text, at, style)
 

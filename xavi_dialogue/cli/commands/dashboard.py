@@ -99,12 +99,12 @@ def _dashboard(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.dashboard.main import Task, run
         from xavi_dialogue.dashboard.web.address import Listen
         from xavi_dialogue.security.preflight import check
-        from xavi_dialogue.storage import resume as going_on
+        from xavi_dialogue.storage import resume
 
         with shell.errors():
             scenario = place(scenario, ego, ego_from, ego_to, begin)
             where = Listen.read(listen, token=token, names=tuple(host_name or ()))
-            going = going_on.fresh(datetime.now().astimezone(), token_hex(2))
+            going = resume.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or going.session, share=False)
             if connect is not None or zenoh is not None:
                 alone(scenario=scenario, seed=seed, speed=speed, replay=replay)

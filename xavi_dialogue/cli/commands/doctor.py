@@ -33,14 +33,14 @@ def _doctor(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.bus.link import Link
         from xavi_dialogue.cli.bus_checks import examine, told
         from xavi_dialogue.cli.host_checks import Patient
-        from xavi_dialogue.process import config as settings
+        from xavi_dialogue.process import config
 
         with shell.errors():
             mistake = context.obj  # what is wrong with the settings, see __main__
             given = (context.parent or context).params.get("config")
             patient = Patient(
                 store=store_file(store),
-                settings=given or settings.default_path(),
+                settings=given or config.default_path(),
                 mistake=None if mistake is None else str(mistake),
             )
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None

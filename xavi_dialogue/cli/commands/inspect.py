@@ -151,11 +151,11 @@ def _trace_show(shell: Shell) -> Callable[..., None]:
     ) -> None:
         """Show the search tree of a decision; of a ride, first the list of its decisions."""
         from xavi_dialogue.inspection import decision_text as text
-        from xavi_dialogue.inspection import trace_files as files
+        from xavi_dialogue.inspection import trace_files
 
         with shell.errors():
-            held = files.read(files.content(file))
-            trace = files.choose(held, decision, at)
+            held = trace_files.read(trace_files.content(file))
+            trace = trace_files.choose(held, decision, at)
             extent = text.Extent(depth, everything)
             shown = text.listing(held.traces) if trace is None else text.show(trace, extent)
         shell.write(shown)

@@ -49,18 +49,20 @@ def _sessions(shell: Shell) -> Command:
 
         import msgspec
 
-        from xavi_dialogue.cli import session_admin as kept
+        from xavi_dialogue.cli import session_admin
 
         with shell.errors():
             if export:
-                for line in kept.export(store_file(store), session):
+                for line in session_admin.export(store_file(store), session):
                     shell.write(line)
                 return
-            found = kept.kept(store_file(store), session)
+            found = session_admin.kept(store_file(store), session)
             if as_json:
                 shell.write(msgspec.json.encode(found).decode())
             else:
-                shell.write(kept.table(found, lambda at: datetime.fromtimestamp(at).astimezone()))
+                shell.write(
+                    session_admin.table(found, lambda at: datetime.fromtimestamp(at).astimezone())
+                )
 
     return sessions
 
@@ -78,12 +80,14 @@ def _forget(shell: Shell) -> Command:
         """Erase conversations from the disk."""
         import time
 
-        from xavi_dialogue.cli import session_admin as kept
+        from xavi_dialogue.cli import session_admin
 
         with shell.errors():
-            wanted = kept.Wanted(session, everything, older_than)
+            wanted = session_admin.Wanted(session, everything, older_than)
             agreed = _agreed if not yes else lambda _: True
-            shell.write(kept.forget(store_file(store), wanted, time.time(), agreed, _Typed()))
+            shell.write(
+                session_admin.forget(store_file(store), wanted, time.time(), agreed, _Typed())
+            )
 
     return forget
 
@@ -102,9 +106,9 @@ class _Typed:
         """See Typed."""
         if not typed_file().exists():
             return frozenset()
-        from xavi_dialogue.storage import input_history as typed
+        from xavi_dialogue.storage import input_history
 
-        return typed.sessions(typed_file())
+        return input_history.sessions(typed_file())
 
     def erase(self, session: str | None, before: float | None) -> None:
         """See Typed."""
@@ -112,10 +116,10 @@ class _Typed:
             return
         from datetime import datetime
 
-        from xavi_dialogue.storage import input_history as typed
+        from xavi_dialogue.storage import input_history
 
         moment = None if before is None else datetime.fromtimestamp(max(before, 0.0))
-        typed.erase(typed_file(), session, moment)
+        input_history.erase(typed_file(), session, moment)
 
 
 def _agreed(question: str) -> bool:

@@ -4,7 +4,7 @@ from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.dashboard.views.labels import deed, has_lane_change, hold_up_words, refusals
 from xavi_dialogue.dashboard.views.trajectories import chance
 from xavi_dialogue.dashboard.web.http_documents import Branch
-from xavi_dialogue.inspection import search_tree as tree
+from xavi_dialogue.inspection import search_tree
 
 DIGITS = 3  # of values and times
 
@@ -12,8 +12,8 @@ DIGITS = 3  # of values and times
 def branches(trace: PlanTrace) -> tuple[Branch, ...]:
     """The branches of the root, the chosen one first; none where the rollouts are no search."""
     try:
-        root = tree.grow(trace)
-    except tree.TreeError:
+        root = search_tree.grow(trace)
+    except search_tree.TreeError:
         return ()
     return _beneath(root, arrives=trace.waypoint is None)
 
@@ -23,12 +23,12 @@ def rounded(value: float | None) -> float | None:
     return None if value is None else round(value, DIGITS)
 
 
-def _beneath(branch: tree.Branch, *, arrives: bool) -> tuple[Branch, ...]:
+def _beneath(branch: search_tree.Branch, *, arrives: bool) -> tuple[Branch, ...]:
     in_lane = has_lane_change(child.actions[-1] for child in branch.children)
     return tuple(_branch(child, in_lane, arrives) for child in branch.children)
 
 
-def _branch(branch: tree.Branch, in_lane: bool, arrives: bool) -> Branch:
+def _branch(branch: search_tree.Branch, in_lane: bool, arrives: bool) -> Branch:
     """One branch; `arrives`: rollouts aim for the goal, and not for a place on the way there."""
     action, total = branch.actions[-1], branch.visits + branch.forced
     value = next((v for v in (branch.alike, branch.value, branch.mean) if v is not None), None)
@@ -49,6 +49,6 @@ def _branch(branch: tree.Branch, in_lane: bool, arrives: bool) -> Branch:
     )
 
 
-def _refused(branch: tree.Branch) -> tuple[tuple[Action, str], ...]:
+def _refused(branch: search_tree.Branch) -> tuple[tuple[Action, str], ...]:
     refused = ((action, reason) for reason, actions in branch.refused for action in actions)
     return refusals(refused, (child.actions[-1] for child in branch.children))

@@ -5,7 +5,7 @@ import time
 from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any, TypeAlias
 
-from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web import responses
 from xavi_dialogue.dashboard.web.auth import METHODS, Asked, Enter, Guard, Refused, secured
 from xavi_dialogue.dashboard.web.client_session import NO_TOKEN, TOO_OFTEN
 from xavi_dialogue.dashboard.web.rate_limit import Buckets, Rate
@@ -98,8 +98,8 @@ async def _refuse(asked: Asked, refused: Refused, receive: Receive, out: Send) -
         code = codes[refused.status]
         await out({"type": "websocket.close", "code": code, "reason": refused.words[:120]})
     elif refused.status == 401 and asked.path == "/":
-        page = bodies.no_token_page(refused.words)
-        await _answer(out, 401, page, [(b"content-type", bodies.HTML.encode())])
+        page = responses.no_token_page(refused.words)
+        await _answer(out, 401, page, [(b"content-type", responses.HTML.encode())])
     else:
         await _say(out, refused.status, refused.words, websocket=asked.kind == "websocket")
 
@@ -109,17 +109,17 @@ async def _enter(entered: Enter, out: Send) -> None:
     if entered.onward == "redirect":
         await _answer(out, 303, b"", [*headers, (b"location", b"/")])
     else:
-        kind = (b"content-type", bodies.HTML.encode())
-        await _answer(out, 200, bodies.onward_page(), [*headers, kind])
+        kind = (b"content-type", responses.HTML.encode())
+        await _answer(out, 200, responses.onward_page(), [*headers, kind])
 
 
 async def _say(out: Send, status: int, words: str, *, websocket: bool = False) -> None:
-    headers = [(b"content-type", bodies.JSON.encode())]
+    headers = [(b"content-type", responses.JSON.encode())]
     if status == 405:
         headers.append((b"allow", ", ".join(METHODS).encode()))
     if status == 429:
         headers.append((b"retry-after", b"1"))
-    await _answer(out, status, bodies.said(words), headers, "websocket." if websocket else "")
+    await _answer(out, status, responses.said(words), headers, "websocket." if websocket else "")
 
 
 async def _answer(

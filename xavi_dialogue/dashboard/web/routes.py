@@ -20,7 +20,7 @@ except ImportError as error:
 
     raise ImportError(MISSING) from error
 
-from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web import responses
 from xavi_dialogue.dashboard.web.auth import Guard
 from xavi_dialogue.dashboard.web.client_session import (
     AGAIN_LATER,
@@ -238,12 +238,12 @@ async def _dismiss(socket: WebSocket, viewer: Viewer) -> None:
 
 
 async def _page(request: Request) -> Response:
-    return _response(request, await asyncio.to_thread(bodies.asset, "index.html"), UNKNOWN)
+    return _response(request, await asyncio.to_thread(responses.asset, "index.html"), UNKNOWN)
 
 
 async def _static(request: Request) -> Response:
     path = request.path_params["path"]
-    return _response(request, await asyncio.to_thread(bodies.asset, path), UNKNOWN)
+    return _response(request, await asyncio.to_thread(responses.asset, path), UNKNOWN)
 
 
 async def _health(_: Request) -> Response:
@@ -262,8 +262,8 @@ async def _json(request: Request, data: bytes | None, words: str) -> Response:
     if data is None:
         raise HTTPException(404, words)
     if len(data) < ASIDE:
-        return _response(request, bodies.body(data, JSON), words)
-    return _response(request, await asyncio.to_thread(bodies.body, data, JSON), words)
+        return _response(request, responses.body(data, JSON), words)
+    return _response(request, await asyncio.to_thread(responses.body, data, JSON), words)
 
 
 def _response(request: Request, body: Body | None, words: str) -> Response:
@@ -284,8 +284,8 @@ def _response(request: Request, body: Body | None, words: str) -> Response:
 async def _in_words(_: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     words = UNKNOWN if error.detail == "Not Found" else error.detail
-    return Response(bodies.said(words), error.status_code, media_type=JSON)
+    return Response(responses.said(words), error.status_code, media_type=JSON)
 
 
 async def _fault(_: Request, __: Exception) -> Response:
-    return Response(bodies.said(FAULT), 500, media_type=JSON)
+    return Response(responses.said(FAULT), 500, media_type=JSON)

@@ -27,7 +27,7 @@ except ImportError as error:
 
     raise ImportError(MISSING) from error
 
-from xavi_dialogue.dashboard.web import responses as bodies
+from xavi_dialogue.dashboard.web import responses
 from xavi_dialogue.dashboard.web.auth import CACHE, SECURITY, Guard, Listen, ListenError
 from xavi_dialogue.dashboard.web.interfaces import Board
 from xavi_dialogue.dashboard.web.rate_limit import Bucket, Rate
@@ -235,8 +235,8 @@ class _Http(H11Protocol):
             self._cut = self.loop.call_later(LAST, self.transport.abort)
 
     def _send_off(self, status: int, words: str) -> None:
-        data = bodies.said(words)
-        headers = {"content-type": bodies.JSON, CACHE[0]: CACHE[1], "connection": "close"}
+        data = responses.said(words)
+        headers = {"content-type": responses.JSON, CACHE[0]: CACHE[1], "connection": "close"}
         headers |= {"content-length": str(len(data))} | SECURITY
         lines = [f"HTTP/1.1 {status} {STATUS[status]}", *(f"{k}: {v}" for k, v in headers.items())]
         self.transport.write("\r\n".join([*lines, "", ""]).encode() + data)

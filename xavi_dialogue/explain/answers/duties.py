@@ -149,7 +149,7 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
     vehicle = number(event.object)
     light = None if asked.past is not None and asked.past.said else held(asked)
     if light is not None:
-        return Finding(None, answer=light)  # whoever goes meanwhile, it is that which holds us
+        return Finding(None, answer=light)  # the light holds us, though others go
     about = window(asked, event.time, "past")
     about = about if vehicle is not None else where_rule_holds(asked, None, about)
     found = priority_at(asked, vehicle, about)
@@ -224,7 +224,7 @@ def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bo
     if about.end >= asked.now - 0.1 and on_ring(asked.world.road(asked.now)):
         return owed(priority_at(asked, None, Window(asked.now, asked.now)), ours_yield=ours)
     those = tuple(v for v in among if rules[v] == wanted)
-    if not ours:  # of people who go first, it is told that they do
+    if not ours:  # say so where people on foot go first
         those = those or tuple(v for v in among if rules[v] == "give-way")
     if not those:
         return owed(priority_at(asked, None, about), ours_yield=ours)

@@ -101,7 +101,7 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
             continue
         time = event.sim_time
         if held_then(states.ride, time):
-            continue  # whoever goes meanwhile, it is the light that holds us
+            continue  # the light holds us, though others go
         slowing = [e for e in slowed if e.begin <= time and _end(states, e) >= time - 1.0]
         still = [e for e in stood if e.begin <= time + YIELDING and _end(states, e) >= time]
         still = [e for e in still if not any(time < s.begin < e.begin for s in slowed)]

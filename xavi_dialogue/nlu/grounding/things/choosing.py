@@ -22,7 +22,7 @@ def several(
     best = matches[0].total
     kept = [m for m in matches if m.total <= best + 2.0 * TIE]
     if wanted.definite and len(kept) < (wanted.number or 1):
-        kept = list(matches)  # "have those two crossed?" is of both, whoever of them has
+        kept = list(matches)  # "have those two crossed?" asks about both
     exact = [m for m in kept if not m.misses.get("kind")]
     kept = exact if len(exact) >= (wanted.number or 1) else kept
     order = sorted(kept, key=lambda m: (m.look.distance, m.vehicle))
