@@ -126,7 +126,7 @@ def test_the_planner_is_compiled_once(checkout: Checkout) -> None:
     checkout.setup()
     assert "-m xavi_dialogue.vehicle.compile_kernels" in checkout.log
     checkout.setup("develop")
-    assert "warm" not in checkout.log
+    assert "compile_kernels" not in checkout.log
     with (checkout.folder / "planner" / "kernels" / "driving.py").open("a") as changed:
         changed.write("# changed\n")
     assert checkout.setup().returncode == 0
@@ -134,9 +134,9 @@ def test_the_planner_is_compiled_once(checkout: Checkout) -> None:
 
 
 def test_a_planner_that_does_not_compile_is_tried_again(checkout: Checkout) -> None:
-    checkout.breaks("warm")
+    checkout.breaks("compile_kernels")
     assert checkout.setup().returncode == 1
-    checkout.mends("warm")
+    checkout.mends("compile_kernels")
     assert checkout.setup().returncode == 0
     assert checkout.log == "-m xavi_dialogue.vehicle.compile_kernels\n"
 

@@ -15,7 +15,8 @@ from planner.roads.routes import approach
 from planner.roads.trajectory import Roads
 
 SOON = 4.0  # [s] at the limit to the turn, from which nearly everybody indicates
-SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and earlier
+EARLY = 5.0  # [s] ... before which fewer do
+SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and early
 BRANCHING = 0.4  # ... a road that branches off, which some take without indicating
 WRONG = 0.02  # share of those who indicate the other side
 MEANT = {False: 0.03, True: 0.2}  # ... and to a side to which they do not turn: with a lane there
@@ -37,30 +38,37 @@ def indicated(
         return [1.0] * len(goals)
     shown = next(iter(observed.indicating), None)
     lane = roads.network.lanes[here.location.lane]
-    soon = approach(roads, here.location, view).distance <= SOON * lane.speed_limit
+    ahead = approach(roads, here.location, view).distance / lane.speed_limit
+    soon = min(max((EARLY - ahead) / (EARLY - SOON), 0.0), 1.0)
     beside = shown is not None and _lane_beside(roads, here, shown)
     return [_share(_side(goal), shown, soon=soon, beside=beside) for goal in goals]
 
 
 def _share(
-    side: tuple[Side, bool] | None, shown: Side | None, *, soon: bool, beside: bool
+    side: tuple[Side, bool] | None, shown: Side | None, *, soon: float, beside: bool
 ) -> float:
     """Return the share of those with such a goal who show this.
 
     Args:
         side: to which the goal turns, and whether it only branches off there; None: neither.
         shown: the side indicated.
-        soon: whether the turn is near.
+        soon: how near the turn is, from 0 (early) to 1 (soon); the shares change evenly between,
+            so that a metre more or less does not change what is believed.
         beside: whether there is a lane on the side indicated.
     """
     if side is None:
         return 1.0 - 2.0 * MEANT[False] if shown is None else MEANT[beside]
-    usual = BRANCHING if side[1] else SHOWN[0 if soon else 1]
+    usual = BRANCHING if side[1] else _between(SHOWN[1], SHOWN[0], soon)
     if shown is None:
         return 1.0 - usual - WRONG
     if shown == side[0]:
         return usual
-    return WRONG if soon or not beside else MEANT[True]
+    return _between(MEANT[True], WRONG, soon) if beside else WRONG
+
+
+def _between(early: float, late: float, soon: float) -> float:
+    """Return the share of those who show something when a turn is so near."""
+    return early + soon * (late - early)
 
 
 def _side(goal: Goal) -> tuple[Side, bool] | None:

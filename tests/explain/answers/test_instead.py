@@ -137,7 +137,7 @@ def test_of_several_as_near_the_last_is_nearest() -> None:
         ((did("stop", 2.0, 3.0), they(1, "stop", 2.5), did("stop", 2.8, 4.0)), [2.0, 2.5]),
         ((did("change-left", 2.0, 5.0), did("change-left", 5.0, 7.0)), [2.0, 5.0]),
         ((did("change-left", 2.0, 5.0), did("change-left", 4.9, 7.0)), [2.0]),
-        ((did("change-left", 2.0, 5.0), did("change-right", 5.0, 7.0)), [2.0]),
+        ((did("change-left", 2.0, 5.0), did("change-right", 5.0, 7.0)), [2.0, 5.0]),
         ((did("stop", 2.0, 5.0), did("stop", 5.0, 7.0)), [2.0]),
         (
             (did("wait", 2.0, 5.0, object=Vehicle(1)), did("wait", 3.0, 4.0, object=Vehicle(2))),
